@@ -1,0 +1,51 @@
+# Warnings, standard and install rules in one place.
+include(GNUInstallDirs)
+
+function(pointplane_target_defaults target)
+  target_compile_features(${target} PUBLIC cxx_std_17)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion)
+endfunction()
+
+# pointplane_add_library(NAME SOURCES a.cpp ... [LINK lib ...] [LINK_PRIVATE lib ...])
+# Target pointplane_NAME, alias pointplane::NAME, headers in include/.
+function(pointplane_add_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK;LINK_PRIVATE" ${ARGN})
+  set(target pointplane_${name})
+  add_library(${target} STATIC ${ARG_SOURCES})
+  add_library(pointplane::${name} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
+  target_include_directories(${target} PUBLIC
+    $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_link_libraries(${target} PUBLIC ${ARG_LINK} PRIVATE ${ARG_LINK_PRIVATE})
+  pointplane_target_defaults(${target})
+  install(TARGETS ${target} EXPORT pointplaneTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+endfunction()
+
+# pointplane_add_app(NAME SOURCES a.cpp ... LINK lib ...): executable pointplane-NAME.
+function(pointplane_add_app name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  set(target pointplane-${name})
+  add_executable(${target} ${ARG_SOURCES})
+  target_link_libraries(${target} PRIVATE ${ARG_LINK})
+  target_include_directories(${target} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+  target_compile_definitions(${target} PRIVATE POINTPLANE_VERSION="${PROJECT_VERSION}")
+  set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
+  pointplane_target_defaults(${target})
+  install(TARGETS ${target} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endfunction()
+
+# pointplane_add_test(LIB Concept [LINK lib ...]): tests/LIB/Concept_unittest.cpp as a gtest binary;
+# each TEST is one ctest entry named LIB/Suite.name.
+function(pointplane_add_test lib concept)
+  cmake_parse_arguments(ARG "" "" "LINK;LABELS" ${ARGN})
+  set(target test_${lib}_${concept})
+  add_executable(${target} ${CMAKE_CURRENT_SOURCE_DIR}/${concept}_unittest.cpp)
+  target_link_libraries(${target} PRIVATE ${ARG_LINK} GTest::gtest GTest::gmock GTest::gtest_main)
+  target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/tests/support)
+  pointplane_target_defaults(${target})
+  set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+  gtest_discover_tests(${target} TEST_PREFIX "${lib}/" DISCOVERY_TIMEOUT 60
+                       PROPERTIES TIMEOUT 300 LABELS "${lib};${ARG_LABELS}")
+endfunction()

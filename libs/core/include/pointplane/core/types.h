@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace pointplane
+{
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+using Matrix36d = Eigen::Matrix<double, 3, 6>;
+using Matrix34d = Eigen::Matrix<double, 3, 4>;
+using Matrix43d = Eigen::Matrix<double, 4, 3>;
+}  // namespace pointplane

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/se3.h>
+
+
+#include <cmath>
+
+namespace pointplane
+{
+namespace
+{
+constexpr double kSmallAngle = 1e-5;
+
+/** Left Jacobian V of SO(3): translation of exp(xi) is V(omega) rho. */
+Eigen::Matrix3d so3LeftJacobian(const Eigen::Vector3d& omega)
+{
+    const double angle = omega.norm();
+    const Eigen::Matrix3d W = hat(omega);
+    if (angle < kSmallAngle)
+    {
+        return Eigen::Matrix3d::Identity() + 0.5 * W + W * W / 6.0;
+    }
+    const double a2 = angle * angle;
+    return Eigen::Matrix3d::Identity() + (1 - std::cos(angle)) / a2 * W +
+           (angle - std::sin(angle)) / (a2 * angle) * W * W;
+}
+}  // namespace
+
+Eigen::Matrix3d hat(const Eigen::Vector3d& a)
+{
+    Eigen::Matrix3d out;
+    out << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
+    return out;
+}
+
+Eigen::Matrix3d so3Exp(const Eigen::Vector3d& omega)
+{
+    const double angle = omega.norm();
+    if (angle < kSmallAngle)
+    {
+        const Eigen::Matrix3d W = hat(omega);
+        return Eigen::Matrix3d::Identity() + W + 0.5 * W * W;
+    }
+    return Eigen::AngleAxisd(angle, omega / angle).toRotationMatrix();
+}
+
+Eigen::Vector3d so3Log(const Eigen::Matrix3d& R)
+{
+    Eigen::Quaterniond q(R);
+    if (q.w() < 0)
+    {
+        q.coeffs() = -q.coeffs();
+    }
+    const double sinHalf = q.vec().norm();
+    if (sinHalf < kSmallAngle)
+    {
+        return 2.0 / q.w() * q.vec();
+    }
+    return 2.0 * std::atan2(sinHalf, q.w()) / sinHalf * q.vec();
+}
+
+Eigen::Isometry3d se3Exp(const Vector6d& xi)
+{
+    Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+    T.linear() = so3Exp(xi.tail<3>());
+    T.translation() = so3LeftJacobian(xi.tail<3>()) * xi.head<3>();
+    return T;
+}
+
+Vector6d se3Log(const Eigen::Isometry3d& T)
+{
+    Vector6d xi;
+    xi.tail<3>() = so3Log(T.linear());
+    xi.head<3>() = so3LeftJacobian(xi.tail<3>()).partialPivLu().solve(T.translation());
+    return xi;
+}
+
+Matrix6d adjoint(const Eigen::Isometry3d& T)
+{
+    Matrix6d Ad = Matrix6d::Zero();
+    Ad.topLeftCorner<3, 3>() = T.linear();
+    Ad.bottomRightCorner<3, 3>() = T.linear();
+    Ad.topRightCorner<3, 3>() = hat(T.translation()) * T.linear();
+    return Ad;
+}
+
+Eigen::Isometry3d orthonormalised(const Eigen::Isometry3d& T)
+{
+    Eigen::Isometry3d out = T;
+    out.linear() = Eigen::Quaterniond(T.linear()).normalized().toRotationMatrix();
+    return out;
+}
+}  // namespace pointplane

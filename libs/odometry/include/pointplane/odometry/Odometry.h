@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pointplane/odometry/OdometryParams.h>
+#include <pointplane/odometry/OdometryResult.h>
+#include <pointplane/sensor/RgbdFrame.h>
+
+#include <memory>
+
+namespace pointplane
+{
+/** RGB-D odometry from noisy points and planes [P17]. Feed frames in order of time; every frame
+ * yields a result. Same frames and parameters give the same bits, whatever the thread count.
+ *
+ * A frame that cannot be used (no depth, unusable intrinsics, stamp not after the previous one) is
+ * Lost, not an exception; the next good one recovers. */
+class Odometry
+{
+   public:
+    /** \throws std::invalid_argument naming the key when a parameter is out of range */
+    explicit Odometry(const OdometryParams& params = {});
+    ~Odometry();
+    Odometry(Odometry&&) noexcept;
+    Odometry& operator=(Odometry&&) noexcept;
+
+    /** \param frame images are not modified or kept */
+    [[nodiscard]] OdometryResult process(const RgbdFrame& frame);
+
+    /** Points and planes of the latest frame. */
+    [[nodiscard]] const FrameFeatures& features() const;
+
+    [[nodiscard]] const OdometryParams& params() const;
+
+    /** Forgets everything but the parameters. */
+    void reset();
+
+   private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+}  // namespace pointplane

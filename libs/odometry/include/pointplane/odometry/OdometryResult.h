@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pointplane/core/PoseGaussian.h>
+#include <pointplane/planes/PlaneFeature.h>
+#include <pointplane/points/PointFeature.h>
+
+#include <string>
+#include <vector>
+
+namespace pointplane
+{
+enum class TrackingStatus
+{
+    First,      //!< start of a trajectory: increment is identity with a negligible covariance
+    Tracked,    //!< measured; directions left open carry the motion model's uncertainty
+    Predicted,  //!< not measurable from this frame: motion model only
+    Lost        //!< the frame could not be used at all: motion model only
+};
+
+/** "first", "tracked", "predicted" or "lost". */
+[[nodiscard]] const char* toString(TrackingStatus status);
+
+/** What happened inside one frame. */
+struct FrameDiagnostics
+{
+    int numPoints{0};         //!< key points with depth
+    int numPlanes{0};         //!< planes extracted
+    int numPointPairs{0};     //!< matched to a reference
+    int numPlanePairs{0};     //!< matched to a reference
+    int numPointInliers{0};   //!< pairs with a Tukey weight above 1/2
+    int numReferences{0};     //!< frames that this one was aligned with
+    int iterations{0};        //!< of the pose solver
+    int observableDirections{0};  //!< of 6, measured better than the motion model predicts
+    double pointChi2PerDof{0};    //!< reduced chi-square of point residuals
+    double planeChi2PerDof{0};    //!< reduced chi-square of plane residuals
+    double maxSigmaTranslation{0};  //!< largest standard deviation of the increment [m]
+    double maxSigmaRotation{0};     //!< [rad]
+    double msPoints{0}, msPlanes{0}, msMatching{0}, msPose{0}, msTotal{0};  //!< wall time [ms]
+};
+
+/** One per frame, always. */
+struct OdometryResult
+{
+    TrackingStatus status{TrackingStatus::Lost};
+    std::string reason;      //!< why not tracked, or empty; one clause without full stop
+    double stamp{0};         //!< of the frame [s]
+    PoseGaussian increment;  //!< T_prev_cur, camera optical frames; strictly positive definite
+    PoseGaussian pose;       //!< T_first_cur, accumulated
+    FrameDiagnostics diagnostics;
+};
+
+/** What was extracted from the latest frame, for pictures and reports. */
+struct FrameFeatures
+{
+    std::vector<PointFeature> points;
+    PlaneSet planes;
+};
+}  // namespace pointplane

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pointplane/core/types.h>
+
+#include <Eigen/Core>
+
+#include <array>
+#include <string>
+
+namespace pointplane
+{
+/** Pinhole camera with the five-parameter Brown distortion of OpenCV and MRPT.
+ *
+ * Pixel (0, 0) is the centre of the top-left pixel. Optical axes: x right, y down, z forward. A
+ * negative fy is legal (image y axis up, as in ICL-NUIM). The colour and the registered depth image
+ * share this camera; as in the Kinect's own registration, depth pixels line up with the raw
+ * (distorted) colour pixels. */
+struct PinholeCamera
+{
+    int width{640}, height{480};                       //!< [px]
+    double fx{525}, fy{525}, cx{319.5}, cy{239.5};     //!< [px]
+    std::array<double, 5> distortion{{0, 0, 0, 0, 0}}; //!< k1 k2 p1 p2 k3
+
+    /** Empty when usable, otherwise what is wrong (NaN, zero focal length, empty image...). */
+    [[nodiscard]] std::string problem() const;
+
+    [[nodiscard]] bool isDistorted() const;
+
+    /** Undistorted normalised coordinates (x, y) of the ray (x, y, 1) through a raw pixel. */
+    [[nodiscard]] Eigen::Vector2d normalised(const Eigen::Vector2d& uv_px) const;
+
+    /** Raw (distorted) pixel of a point in front of the camera [m]. */
+    [[nodiscard]] Eigen::Vector2d project(const Eigen::Vector3d& p_cam) const;
+
+    /** The same camera after the image has been resized by `factor` (pixel centres kept right). */
+    [[nodiscard]] PinholeCamera scaled(double factor) const;
+};
+}  // namespace pointplane

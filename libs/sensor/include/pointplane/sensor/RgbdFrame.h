@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pointplane/sensor/PinholeCamera.h>
+
+#include <opencv2/core/mat.hpp>
+
+#include <limits>
+
+namespace pointplane
+{
+/** How the shutters of the two cameras sample time; NaN = not known. Row v of a picture is exposed
+ * at  stamp + delay + (v / height - 1/2) * readout,  with delay = 0 for colour. */
+struct ShutterModel
+{
+    static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+    double readoutColour{kUnknown};  //!< first to last row of the colour image [s]; 0 = global
+    double readoutDepth{kUnknown};   //!< first to last row of the depth image [s]
+    double depthDelay{kUnknown};     //!< middle of the depth exposure minus middle of colour's [s]
+};
+
+/** One registered RGB-D image. The pose of a frame is the camera's at `stamp`, the middle of the
+ * colour exposure. */
+struct RgbdFrame
+{
+    double stamp{0};       //!< [s] UTC
+    cv::Mat gray;          //!< CV_8UC1, height x width; empty when there is no intensity image
+    cv::Mat depth;         //!< CV_32FC1, same size, [m] along the optical axis, NaN = no reading
+    PinholeCamera camera;  //!< of both images
+    ShutterModel shutter;  //!< as far as the source knows it
+};
+}  // namespace pointplane
