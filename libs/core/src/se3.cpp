@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/core/se3.h>
 
-
 #include <cmath>
 
 namespace pointplane

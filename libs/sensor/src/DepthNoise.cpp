@@ -24,8 +24,8 @@ PointGaussian backProject(
     const double a = z / camera.fx * noise.sigmaPixelPx;
     const double b = z / camera.fy * noise.sigmaPixelPx;
     PointGaussian out;
-    out.mean = z * ray;                                                        // [P17 Eq. 1]
-    out.cov = sigmaZ * sigmaZ * ray * ray.transpose();                         // [P17 Eq. 2]
+    out.mean = z * ray;                                 // [P17 Eq. 1]
+    out.cov = sigmaZ * sigmaZ * ray * ray.transpose();  // [P17 Eq. 2]
     out.cov(0, 0) += a * a;
     out.cov(1, 1) += b * b;
     return out;

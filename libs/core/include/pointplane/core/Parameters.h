@@ -9,5 +9,6 @@
  *
  * `visit` is the only list of a group's keys: reading, writing and documenting an ini file all go
  * through it (mrpt_io/params_ini.h). Member types: bool, int, double, std::string. The ini key is
- * the member's name, the section the group's. Units are SI or in the key's name (`...Px`, `...Deg`).
+ * the member's name, the section the group's. Units are SI or in the key's name (`...Px`,
+ * `...Deg`).
  */

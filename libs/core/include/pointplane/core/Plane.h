@@ -29,8 +29,8 @@ struct Plane
 /** Plane with uncertainty in its minimal form. */
 struct PlaneGaussian
 {
-    Eigen::Vector3d theta_m{0, 0, -1};                //!< n / d [1/m]
-    Eigen::Matrix3d cov_m{Eigen::Matrix3d::Zero()};   //!< covariance of theta_m [1/m^2]
+    Eigen::Vector3d theta_m{0, 0, -1};               //!< n / d [1/m]
+    Eigen::Matrix3d cov_m{Eigen::Matrix3d::Zero()};  //!< covariance of theta_m [1/m^2]
 };
 
 /** 4x4 covariance of the Hessian form (rank 3) [P17, after Eq. 6]. */

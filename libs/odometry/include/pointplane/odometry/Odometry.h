@@ -16,7 +16,7 @@ namespace pointplane
  * Lost, not an exception; the next good one recovers. */
 class Odometry
 {
-   public:
+ public:
     /** \throws std::invalid_argument naming the key when a parameter is out of range */
     explicit Odometry(const OdometryParams& params = {});
     ~Odometry();
@@ -34,7 +34,7 @@ class Odometry
     /** Forgets everything but the parameters. */
     void reset();
 
-   private:
+ private:
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };

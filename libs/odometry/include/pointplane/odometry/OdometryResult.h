@@ -24,16 +24,16 @@ enum class TrackingStatus
 /** What happened inside one frame. */
 struct FrameDiagnostics
 {
-    int numPoints{0};         //!< key points with depth
-    int numPlanes{0};         //!< planes extracted
-    int numPointPairs{0};     //!< matched to a reference
-    int numPlanePairs{0};     //!< matched to a reference
-    int numPointInliers{0};   //!< pairs with a Tukey weight above 1/2
-    int numReferences{0};     //!< frames that this one was aligned with
-    int iterations{0};        //!< of the pose solver
-    int observableDirections{0};  //!< of 6, measured better than the motion model predicts
-    double pointChi2PerDof{0};    //!< reduced chi-square of point residuals
-    double planeChi2PerDof{0};    //!< reduced chi-square of plane residuals
+    int numPoints{0};               //!< key points with depth
+    int numPlanes{0};               //!< planes extracted
+    int numPointPairs{0};           //!< matched to a reference
+    int numPlanePairs{0};           //!< matched to a reference
+    int numPointInliers{0};         //!< pairs with a Tukey weight above 1/2
+    int numReferences{0};           //!< frames that this one was aligned with
+    int iterations{0};              //!< of the pose solver
+    int observableDirections{0};    //!< of 6, measured better than the motion model predicts
+    double pointChi2PerDof{0};      //!< reduced chi-square of point residuals
+    double planeChi2PerDof{0};      //!< reduced chi-square of plane residuals
     double maxSigmaTranslation{0};  //!< largest standard deviation of the increment [m]
     double maxSigmaRotation{0};     //!< [rad]
     double msPoints{0}, msPlanes{0}, msMatching{0}, msPose{0}, msTotal{0};  //!< wall time [ms]

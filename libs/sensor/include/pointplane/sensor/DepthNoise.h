@@ -21,15 +21,17 @@ struct DepthNoise
     template <class V>
     void visit(V&& v)
     {
-        v("sigmaInverseDepth", sigmaInverseDepth, "1/m",
+        v("sigmaInverseDepth",
+          sigmaInverseDepth,
+          "1/m",
           "noise of the inverse depth; Khoshelham's sigma_Z = this * Z^2");
         v("sigmaPixelPx", sigmaPixelPx, "px", "noise of a key point's position");
     }
     void check() const;
 };
 
-/** Point at depth z behind a raw pixel, P = z (x, y, 1) [P17 Eq. 1], with its first-order covariance
- * J diag(sigma_p^2, sigma_p^2, sigma_Z^2) J^T [P17 Eq. 2]. Frame: camera, optical axes.
+/** Point at depth z behind a raw pixel, P = z (x, y, 1) [P17 Eq. 1], with its first-order
+ * covariance J diag(sigma_p^2, sigma_p^2, sigma_Z^2) J^T [P17 Eq. 2]. Frame: camera, optical axes.
  * \param uv_px raw pixel \param z [m], > 0 */
 [[nodiscard]] PointGaussian backProject(
     const PinholeCamera& camera, const DepthNoise& noise, const Eigen::Vector2d& uv_px, double z);

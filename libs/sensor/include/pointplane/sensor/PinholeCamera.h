@@ -18,9 +18,9 @@ namespace pointplane
  * (distorted) colour pixels. */
 struct PinholeCamera
 {
-    int width{640}, height{480};                       //!< [px]
-    double fx{525}, fy{525}, cx{319.5}, cy{239.5};     //!< [px]
-    std::array<double, 5> distortion{{0, 0, 0, 0, 0}}; //!< k1 k2 p1 p2 k3
+    int width{640}, height{480};                        //!< [px]
+    double fx{525}, fy{525}, cx{319.5}, cy{239.5};      //!< [px]
+    std::array<double, 5> distortion{{0, 0, 0, 0, 0}};  //!< k1 k2 p1 p2 k3
 
     /** Empty when usable, otherwise what is wrong (NaN, zero focal length, empty image...). */
     [[nodiscard]] std::string problem() const;

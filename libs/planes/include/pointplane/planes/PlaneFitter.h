@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pointplane/core/Plane.h>
+#include <pointplane/planes/PlaneMoments.h>
+#include <pointplane/sensor/DepthNoise.h>
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace pointplane
+{
+/** Plane with constant noise in inverse depth: Sigma_m = sigma^2 (sum r r^T)^-1, where sigma is the
+ * sensor's or, when larger, the residuals'. Pixels count as independent. */
+[[nodiscard]] std::optional<PlaneGaussian> fitInverseDepth(
+    const PlaneMoments& moments, const DepthNoise& noise);
+
+/** Plane of minimal sum w_i (theta_m . P_i + 1)^2 / 2, w_i = sigma_Z^-2, by theta_m = A^-1 b with
+ * Sigma_m = A^-1 [P17 Eq. 3, 4, 5].
+ * \param points on the plane, camera frame [m] \return nothing when they do not span a plane */
+[[nodiscard]] std::optional<PlaneGaussian> fitWeightedLeastSquares(
+    const std::vector<Eigen::Vector3d>& points, const DepthNoise& noise);
+
+/** The points within `maxSigmas` of the best plane through three of them, over a fixed number of
+ * draws from a seeded generator; all points when fewer than 3 or when every draw is degenerate. */
+[[nodiscard]] std::vector<Eigen::Vector3d> ransacInliers(
+    const std::vector<Eigen::Vector3d>& points,
+    const DepthNoise& noise,
+    double maxSigmas,
+    int draws,
+    std::uint32_t seed);
+}  // namespace pointplane

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pointplane/core/types.h>
+
+#include <optional>
+
+namespace pointplane
+{
+/** Additive sums over pixels from which a plane is fitted in inverse depth.
+ *
+ * On a plane theta_m . P + 1 = 0; divided by Z, with the ray r = (x, y, 1) and q = 1/Z, the
+ * residual theta_m . r + q is linear in theta_m and its noise is that of the inverse depth, which
+ * for a structured-light camera is the same at every depth. Least squares over any union of pixel
+ * sets is therefore exact from the sum of their moments. */
+struct PlaneMoments
+{
+    double n{0}, x{0}, y{0}, xx{0}, xy{0}, yy{0}, q{0}, xq{0}, yq{0}, qq{0};
+
+    /** Adds one pixel. \param ray_x, ray_y normalised coordinates \param inverseDepth [1/m] */
+    void add(double ray_x, double ray_y, double inverseDepth, double weight = 1);
+
+    PlaneMoments& operator+=(const PlaneMoments& other);
+    friend PlaneMoments operator+(PlaneMoments a, const PlaneMoments& b) { return a += b; }
+
+    /** sum r r^T, the Gauss-Newton Hessian of theta_m up to 1 / sigma^2. */
+    [[nodiscard]] Eigen::Matrix3d rayMatrix() const;
+
+    /** Sum of squared residuals of a plane over these pixels [1/m^2]. */
+    [[nodiscard]] double sumSquaredResiduals(const Eigen::Vector3d& theta_m) const;
+};
+
+/** Least-squares plane of a pixel set. */
+struct MomentsFit
+{
+    Eigen::Vector3d theta_m{0, 0, -1};  //!< n / d [1/m]
+    double sse{0};            //!< sum of squared inverse-depth residuals [1/m^2]
+};
+
+/** \return nothing when the pixels do not span a plane (fewer than 3, or collinear). */
+[[nodiscard]] std::optional<MomentsFit> fitPlane(const PlaneMoments& moments);
+}  // namespace pointplane

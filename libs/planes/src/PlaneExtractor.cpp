@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/check.h>
+#include <pointplane/planes/PlaneClustering.h>
+#include <pointplane/planes/PlaneExtractor.h>
+#include <pointplane/planes/PlaneFitter.h>
+
+#include <Eigen/LU>
+#include <opencv2/core.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pointplane
+{
+namespace
+{
+constexpr size_t kMaxPlanes = 255;  // labels are bytes
+
+/** The pixels of a cluster's cells as 3-D points. */
+std::vector<Eigen::Vector3d> clusterPoints(
+    const CellCluster& cluster,
+    const CellGrid& grid,
+    const cv::Mat& depth,
+    const PinholeCamera& camera)
+{
+    std::vector<Eigen::Vector3d> points;
+    points.reserve(static_cast<size_t>(cluster.moments.n));
+    for (const int cell : cluster.cells)
+    {
+        const int u0 = cell % grid.cols * grid.cellSizePx, v0 = cell / grid.cols * grid.cellSizePx;
+        for (int v = v0; v < v0 + grid.cellSizePx; ++v)
+        {
+            const float* row = depth.ptr<float>(v);
+            for (int u = u0; u < u0 + grid.cellSizePx; ++u)
+            {
+                const double z = static_cast<double>(row[u]);
+                if (z > 0.05 && z < 100)
+                {
+                    points.emplace_back(
+                        z * (u - camera.cx) / camera.fx, z * (v - camera.cy) / camera.fy, z);
+                }
+            }
+        }
+    }
+    return points;
+}
+
+Eigen::Matrix3d rowLever(const CellCluster& cluster, const CellGrid& grid, int height)
+{
+    Eigen::Matrix3d weighted = Eigen::Matrix3d::Zero();
+    for (const int cell : cluster.cells)
+    {
+        const double centre = (cell / grid.cols + 0.5) * grid.cellSizePx;
+        weighted += (centre / height - 0.5) * grid.moments[static_cast<size_t>(cell)].rayMatrix();
+    }
+    return cluster.moments.rayMatrix().inverse() * weighted;
+}
+
+/** Paints whole cells with their cluster's label, then, pixel by pixel, the cells at the clusters'
+ * borders, which straddle two surfaces: each pixel goes to the nearest adjacent plane it fits. */
+class LabelPainter
+{
+ public:
+    LabelPainter(const CellGrid& grid, const cv::Mat& depth, const PinholeCamera& camera)
+        : grid_(grid),
+          depth_(depth),
+          camera_(camera),
+          labels_(depth.size(), CV_8UC1, cv::Scalar(0)),
+          labelOfCell_(grid.moments.size(), 0)
+    {
+    }
+
+    cv::Mat paint(const std::vector<CellCluster>& clusters, const PlanarityTest& test)
+    {
+        for (size_t i = 0; i < clusters.size(); ++i)
+        {
+            for (const int cell : clusters[i].cells)
+            {
+                labelOfCell_[static_cast<size_t>(cell)] = static_cast<uchar>(i + 1);
+                labels_(rect(cell)).setTo(static_cast<double>(i + 1));
+            }
+        }
+        for (int cell = 0; cell < static_cast<int>(labelOfCell_.size()); ++cell)
+        {
+            if (labelOfCell_[static_cast<size_t>(cell)] == 0)
+            {
+                paintBorderCell(cell, clusters, test);
+            }
+        }
+        return labels_;
+    }
+
+ private:
+    [[nodiscard]] cv::Rect rect(int cell) const
+    {
+        const int s = grid_.cellSizePx;
+        return {cell % grid_.cols * s, cell / grid_.cols * s, s, s};
+    }
+
+    /** Labels of the up to eight cells around, sorted, without repetition. */
+    [[nodiscard]] std::vector<uchar> adjacentLabels(int cell) const
+    {
+        std::vector<uchar> out;
+        const int col = cell % grid_.cols, row = cell / grid_.cols;
+        for (int r = std::max(0, row - 1); r <= std::min(grid_.rows - 1, row + 1); ++r)
+        {
+            for (int c = std::max(0, col - 1); c <= std::min(grid_.cols - 1, col + 1); ++c)
+            {
+                const uchar label = labelOfCell_[static_cast<size_t>(r * grid_.cols + c)];
+                if (label != 0 && std::find(out.begin(), out.end(), label) == out.end())
+                {
+                    out.push_back(label);
+                }
+            }
+        }
+        std::sort(out.begin(), out.end());
+        return out;
+    }
+
+    void paintBorderCell(
+        int cell, const std::vector<CellCluster>& clusters, const PlanarityTest& test)
+    {
+        const std::vector<uchar> candidates = adjacentLabels(cell);
+        const cv::Rect area = rect(cell);
+        for (const uchar label : candidates)
+        {
+            const Eigen::Vector3d& theta = clusters[static_cast<size_t>(label - 1)].fit.theta_m;
+            const double limit = test.cellSigmas * std::sqrt(test.toleranceSquared(theta));
+            for (int v = area.y; v < area.y + area.height; ++v)
+            {
+                const float* z = depth_.ptr<float>(v);
+                uchar* out = labels_.ptr<uchar>(v);
+                const double base = theta.y() * (v - camera_.cy) / camera_.fy + theta.z();
+                for (int u = area.x; u < area.x + area.width; ++u)
+                {
+                    const double error = base + theta.x() * (u - camera_.cx) / camera_.fx +
+                                         1 / static_cast<double>(z[u]);
+                    if (out[u] == 0 && std::abs(error) <= limit)
+                    {
+                        out[u] = label;
+                    }
+                }
+            }
+        }
+    }
+
+    const CellGrid& grid_;
+    const cv::Mat& depth_;
+    const PinholeCamera& camera_;
+    cv::Mat labels_;
+    std::vector<uchar> labelOfCell_;
+};
+}  // namespace
+
+void PlaneExtractor::TParams::check() const
+{
+    POINTPLANE_CHECK(
+        cellSizePx >= 4 && cellSizePx <= 64, "cellSizePx = " << cellSizePx << " is not in 4..64");
+    POINTPLANE_CHECK(
+        minValidFraction > 0 && minValidFraction <= 1,
+        "minValidFraction = " << minValidFraction << " is not in (0, 1]");
+    POINTPLANE_CHECK(
+        minPlaneFraction > 0 && minPlaneFraction <= 1,
+        "minPlaneFraction = " << minPlaneFraction << " is not in (0, 1]");
+    POINTPLANE_CHECK(cellSigmas > 0, "cellSigmas = " << cellSigmas << " is not positive");
+    POINTPLANE_CHECK(mergeSigmas > 0, "mergeSigmas = " << mergeSigmas << " is not positive");
+    POINTPLANE_CHECK(stepSigmas > 0, "stepSigmas = " << stepSigmas << " is not positive");
+    POINTPLANE_CHECK(slopePx >= 0, "slopePx = " << slopePx << " is negative");
+    POINTPLANE_CHECK(
+        correlatedPixels >= 1, "correlatedPixels = " << correlatedPixels << " is below 1");
+    POINTPLANE_CHECK(
+        fitWeights == "inverseDepth" || fitWeights == "sigmaZ",
+        "fitWeights = " << fitWeights << " is neither inverseDepth nor sigmaZ");
+}
+
+PlaneExtractor::PlaneExtractor(const TParams& params, const DepthNoise& noise)
+    : params_(params), noise_(noise)
+{
+    params_.check();
+}
+
+PlaneSet PlaneExtractor::extract(const cv::Mat& depth, const PinholeCamera& camera)
+{
+    PlanarityTest test;
+    test.sigmaInverseDepth = noise_.sigmaInverseDepth;
+    test.slopePx = params_.slopePx;
+    test.focalLengthPx = std::abs(camera.fx);
+    test.cellSigmas = params_.cellSigmas;
+    test.mergeSigmas = params_.mergeSigmas;
+    test.stepSigmas = params_.stepSigmas;
+
+    grid_.compute(depth, camera, params_.cellSizePx);
+    std::vector<CellCluster> clusters = clusterCells(
+        grid_,
+        test,
+        params_.minValidFraction,
+        params_.minPlaneFraction * static_cast<double>(depth.total()));
+    if (params_.mergeCoplanarPlanes)
+    {
+        mergeCoplanar(clusters, test);
+    }
+    clusters.resize(std::min(clusters.size(), kMaxPlanes));
+
+    PlaneSet out;
+    std::vector<CellCluster> kept;
+    for (CellCluster& cluster : clusters)
+    {
+        std::optional<PlaneGaussian> plane;
+        if (params_.ransac || params_.fitWeights == "sigmaZ")
+        {
+            std::vector<Eigen::Vector3d> points = clusterPoints(cluster, grid_, depth, camera);
+            if (params_.ransac)
+            {
+                points = ransacInliers(points, noise_, 3, 50, 1);
+            }
+            plane = fitWeightedLeastSquares(points, noise_);
+            cluster.moments.n = static_cast<double>(points.size());
+        }
+        else
+        {
+            plane = fitInverseDepth(cluster.moments, noise_);
+        }
+        if (plane && plane->theta_m.norm() > 1e-3 && plane->cov_m.allFinite())
+        {
+            plane->cov_m *= params_.correlatedPixels;
+            out.planes.push_back(
+                {*plane,
+                 static_cast<int>(cluster.moments.n),
+                 rowLever(cluster, grid_, depth.rows)});
+            kept.push_back(std::move(cluster));
+        }
+    }
+    out.labels = LabelPainter(grid_, depth, camera).paint(kept, test);
+    return out;
+}
+}  // namespace pointplane
