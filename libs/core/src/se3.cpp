@@ -8,17 +8,18 @@ namespace pointplane
 namespace
 {
 constexpr double kSmallAngle = 1e-5;
+constexpr double kSeriesAngle = 1e-2;  // below it the closed forms of V lose digits
 
 /** Left Jacobian V of SO(3): translation of exp(xi) is V(omega) rho. */
 Eigen::Matrix3d so3LeftJacobian(const Eigen::Vector3d& omega)
 {
-    const double angle = omega.norm();
+    const double angle = omega.norm(), a2 = angle * angle;
     const Eigen::Matrix3d W = hat(omega);
-    if (angle < kSmallAngle)
+    if (angle < kSeriesAngle)
     {
-        return Eigen::Matrix3d::Identity() + 0.5 * W + W * W / 6.0;
+        return Eigen::Matrix3d::Identity() + (0.5 - a2 / 24 + a2 * a2 / 720) * W +
+               (1.0 / 6 - a2 / 120 + a2 * a2 / 5040) * W * W;
     }
-    const double a2 = angle * angle;
     return Eigen::Matrix3d::Identity() + (1 - std::cos(angle)) / a2 * W +
            (angle - std::sin(angle)) / (a2 * angle) * W * W;
 }

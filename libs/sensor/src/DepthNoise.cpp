@@ -17,17 +17,15 @@ void DepthNoise::check() const
 PointGaussian backProject(
     const PinholeCamera& camera, const DepthNoise& noise, const Eigen::Vector2d& uv_px, double z)
 {
-    const Eigen::Vector2d xy = camera.normalised(uv_px);
+    Eigen::Matrix2d xyOverPixel;
+    const Eigen::Vector2d xy = camera.normalised(uv_px, &xyOverPixel);
     const Eigen::Vector3d ray(xy.x(), xy.y(), 1);
     const double sigmaZ = noise.sigmaZ(z);
-    // Columns of J: dP/du, dP/dv, dP/dZ. The distortion's own derivative is within 5 % of 1/f.
-    const double a = z / camera.fx * noise.sigmaPixelPx;
-    const double b = z / camera.fy * noise.sigmaPixelPx;
+    const Eigen::Matrix2d lateral = z * noise.sigmaPixelPx * xyOverPixel;
     PointGaussian out;
     out.mean = z * ray;                                 // [P17 Eq. 1]
     out.cov = sigmaZ * sigmaZ * ray * ray.transpose();  // [P17 Eq. 2]
-    out.cov(0, 0) += a * a;
-    out.cov(1, 1) += b * b;
+    out.cov.topLeftCorner<2, 2>() += lateral * lateral.transpose();
     return out;
 }
 }  // namespace pointplane

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/sensor/PinholeCamera.h>
 
+#include <Eigen/LU>
+
 #include <cmath>
 #include <sstream>
 
@@ -16,6 +18,19 @@ Eigen::Vector2d distorted(const std::array<double, 5>& k, const Eigen::Vector2d&
     return {
         x * radial + 2 * k[2] * x * y + k[3] * (r2 + 2 * x * x),
         y * radial + k[2] * (r2 + 2 * y * y) + 2 * k[3] * x * y};
+}
+
+/** 2x2 Jacobian of distorted() with respect to p. */
+Eigen::Matrix2d distortionJacobian(const std::array<double, 5>& k, const Eigen::Vector2d& p)
+{
+    const double x = p.x(), y = p.y(), r2 = x * x + y * y;
+    const double radial = 1 + r2 * (k[0] + r2 * (k[1] + r2 * k[4]));
+    const double slope = k[0] + r2 * (2 * k[1] + r2 * 3 * k[4]);  // of radial over r2
+    const double mixed = 2 * (x * y * slope + k[2] * x + k[3] * y);
+    Eigen::Matrix2d J;
+    J << radial + 2 * x * x * slope + 2 * k[2] * y + 6 * k[3] * x, mixed, mixed,
+        radial + 2 * y * y * slope + 6 * k[2] * y + 2 * k[3] * x;
+    return J;
 }
 }  // namespace
 
@@ -55,25 +70,50 @@ bool PinholeCamera::isDistorted() const
     return false;
 }
 
-Eigen::Vector2d PinholeCamera::normalised(const Eigen::Vector2d& uv_px) const
+Eigen::Vector2d PinholeCamera::normalised(const Eigen::Vector2d& uv_px, Eigen::Matrix2d* J) const
 {
     const Eigen::Vector2d raw((uv_px.x() - cx) / fx, (uv_px.y() - cy) / fy);
-    if (!isDistorted())
-    {
-        return raw;
-    }
-    // Fixed-point inversion; Kinect-like distortion converges to 1e-9 within 20 rounds.
     Eigen::Vector2d p = raw;
-    for (int i = 0; i < 20; ++i)
+    Eigen::Matrix2d distortedOverIdeal = Eigen::Matrix2d::Identity();
+    if (isDistorted())
     {
-        const Eigen::Vector2d error = raw - distorted(distortion, p);
-        p += error;
-        if (error.squaredNorm() < 1e-20)
+        // Newton from the raw position; two or three steps within a Kinect's image. The polynomial
+        // may fold over outside of the calibrated area: there, stop before the Jacobian does.
+        for (int i = 0; i < 10; ++i)
         {
-            break;
+            distortedOverIdeal = distortionJacobian(distortion, p);
+            const Eigen::Vector2d error = distorted(distortion, p) - raw;
+            if (error.squaredNorm() < 1e-24 || distortedOverIdeal.determinant() < 0.05)
+            {
+                break;
+            }
+            p -= distortedOverIdeal.inverse() * error;
         }
     }
+    if (J != nullptr)
+    {
+        *J = distortedOverIdeal.inverse() * Eigen::Vector2d(1 / fx, 1 / fy).asDiagonal();
+    }
     return p;
+}
+
+Eigen::Vector2d PinholeCamera::depthPixel(const Eigen::Vector2d& uv_px) const
+{
+    if (!depthAtUndistortedPixel || !isDistorted())
+    {
+        return uv_px;
+    }
+    const Eigen::Vector2d xy = normalised(uv_px);
+    return {fx * xy.x() + cx, fy * xy.y() + cy};
+}
+
+Eigen::Vector2d PinholeCamera::normalisedOfDepth(const Eigen::Vector2d& depthUv_px) const
+{
+    if (!depthAtUndistortedPixel && isDistorted())
+    {
+        return normalised(depthUv_px);
+    }
+    return {(depthUv_px.x() - cx) / fx, (depthUv_px.y() - cy) / fy};
 }
 
 Eigen::Vector2d PinholeCamera::project(const Eigen::Vector3d& p_cam) const

@@ -14,21 +14,34 @@ namespace pointplane
  *
  * Pixel (0, 0) is the centre of the top-left pixel. Optical axes: x right, y down, z forward. A
  * negative fy is legal (image y axis up, as in ICL-NUIM). The colour and the registered depth image
- * share this camera; as in the Kinect's own registration, depth pixels line up with the raw
- * (distorted) colour pixels. */
+ * share fx, fy, cx, cy; only the colour image is distorted unless depthAtUndistortedPixel is off.
+ */
 struct PinholeCamera
 {
     int width{640}, height{480};                        //!< [px]
     double fx{525}, fy{525}, cx{319.5}, cy{239.5};      //!< [px]
     std::array<double, 5> distortion{{0, 0, 0, 0, 0}};  //!< k1 k2 p1 p2 k3
 
+    /** Where registered depth lies. A Kinect's registration knows the ideal pinhole only, so its
+     * depth belongs to undistorted pixels (true; measured on TUM fr1). False: depth was rendered
+     * into the raw, distorted colour image. No effect without distortion. */
+    bool depthAtUndistortedPixel{true};
+
     /** Empty when usable, otherwise what is wrong (NaN, zero focal length, empty image...). */
     [[nodiscard]] std::string problem() const;
 
     [[nodiscard]] bool isDistorted() const;
 
-    /** Undistorted normalised coordinates (x, y) of the ray (x, y, 1) through a raw pixel. */
-    [[nodiscard]] Eigen::Vector2d normalised(const Eigen::Vector2d& uv_px) const;
+    /** Undistorted normalised coordinates (x, y) of the ray (x, y, 1) through a raw pixel.
+     * \param J if given: 2x2 Jacobian of (x, y) with respect to the raw pixel [1/px] */
+    [[nodiscard]] Eigen::Vector2d normalised(
+        const Eigen::Vector2d& uv_px, Eigen::Matrix2d* J = nullptr) const;
+
+    /** Pixel of the depth image that sees the same ray as a raw colour pixel. */
+    [[nodiscard]] Eigen::Vector2d depthPixel(const Eigen::Vector2d& uv_px) const;
+
+    /** Normalised coordinates (x, y) of the ray through a pixel of the depth image. */
+    [[nodiscard]] Eigen::Vector2d normalisedOfDepth(const Eigen::Vector2d& depthUv_px) const;
 
     /** Raw (distorted) pixel of a point in front of the camera [m]. */
     [[nodiscard]] Eigen::Vector2d project(const Eigen::Vector3d& p_cam) const;
