@@ -16,7 +16,7 @@ struct PlanarityTest
     double focalLengthPx{525};
     double cellSigmas{2.5};  //!< rms residual of one cell, in tolerances
     double mergeSigmas{2};   //!< rms residual of merged cells, in tolerances
-    double stepSigmas{1};    //!< rms offset of the smaller part from the joint plane, in tolerances
+    double stepSigmas{2};    //!< rms offset of the smaller part from the joint plane, in tolerances
 
     [[nodiscard]] double toleranceSquared(const Eigen::Vector3d& theta_m) const;
     [[nodiscard]] bool isPlanarCell(const PlaneMoments& cell) const;

@@ -22,7 +22,7 @@ class PlaneExtractor
         double minPlaneFraction{0.01};
         double cellSigmas{2.5};
         double mergeSigmas{2.0};
-        double stepSigmas{1.0};
+        double stepSigmas{2.0};
         double slopePx{1.0};
         bool mergeCoplanarPlanes{true};
         bool ransac{false};

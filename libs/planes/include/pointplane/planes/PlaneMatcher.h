@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pointplane/core/Parameters.h>
+#include <pointplane/planes/PlaneFeature.h>
+#include <pointplane/sensor/PinholeCamera.h>
+
+#include <vector>
+
+namespace pointplane
+{
+/** Indices of a plane in the reference frame and the same plane in the current one. */
+struct PlaneMatch
+{
+    int ref{0};
+    int cur{0};
+};
+
+/** Which plane is which [P17, section Matching]: planes whose image segments overlap by at least half
+ * of the smaller one, with normals and distances alike; of several, the one at the smallest
+ * plane-to-plane distance |d'N' - dN| [P17 Eq. 7]. The reference is first moved by the predicted
+ * motion; with the identity this is the paper's test between adjacent frames. */
+class PlaneMatcher
+{
+   public:
+    struct TParams
+    {
+        double minOverlap{0.5};
+        double maxNormalAngleDeg{10.0};
+        double maxDistance{0.10};
+
+        template <class V>
+        void visit(V&& v)
+        {
+            v("minOverlap", minOverlap, "-", "common pixels over those of the smaller segment");
+            v("maxNormalAngleDeg", maxNormalAngleDeg, "deg", "between the normals");
+            v("maxDistance", maxDistance, "m", "between the distances |d - d'|");
+        }
+        void check() const;
+    };
+
+    explicit PlaneMatcher(const TParams& params);
+
+    /** \param T_cur_ref predicted motion \return at most one match per reference plane and per current
+     * plane, sorted by reference index */
+    [[nodiscard]] std::vector<PlaneMatch> match(
+        const PlaneSet& ref,
+        const PlaneSet& cur,
+        const PinholeCamera& camera,
+        const Eigen::Isometry3d& T_cur_ref) const;
+
+   private:
+    TParams params_;
+};
+}  // namespace pointplane

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pointplane/core/Parameters.h>
+#include <pointplane/core/PoseGaussian.h>
+#include <pointplane/pose/pairs.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pointplane
+{
+/** What the solver found. */
+struct PoseEstimate
+{
+    PoseGaussian T_base_cur;  //!< left perturbation; cov is H^-1 M H^-1, see docs/theory.md
+    Matrix6d infoPoints{Matrix6d::Zero()};  //!< J^T W J of the points at the solution
+    Matrix6d infoPlanes{Matrix6d::Zero()};  //!< of the planes, alpha not included
+    double pointChi2PerDof{0};  //!< mean squared Mahalanobis norm / 3 of points, Tukey-weighted
+    double planeChi2PerDof{0};  //!< mean squared Mahalanobis norm / 3 of planes
+    int numPointInliers{0};     //!< points with a Tukey weight above 1/2
+    int iterations{0};
+    bool converged{false};
+};
+
+/** Motion from pairs of uncertain points and planes: Levenberg-Marquardt on SE(3) over
+ * E = sum_i rho(|P_i|^2) + alpha sum_j |C_j|^2 + |prior|^2 [P17 Eq. 10], the weights recomputed
+ * from the propagated covariances at each iteration. */
+class PoseSolver
+{
+ public:
+    struct TParams
+    {
+        std::string weighting{"full"};
+        std::string planeResidual{"minimal"};
+        double alpha{1.0};
+        double pointVarianceFactor{1.0};
+        double planeVarianceFactor{1.0};
+        double tukeySigmas{4.7};
+        double planeStudentDof{5.0};
+        int maxIterations{20};
+
+        template <class V>
+        void visit(V&& v)
+        {
+            v("weighting",
+              weighting,
+              "-",
+              "full (inverse covariance), diagonal (the paper's w = 1/diag), or none");
+            v("planeResidual",
+              planeResidual,
+              "-",
+              "minimal (difference of n/d) or closestPoint (the paper's difference of d n)");
+            v("alpha", alpha, "-", "weight of the planes; 0 = points only");
+            v("pointVarianceFactor",
+              pointVarianceFactor,
+              "-",
+              "true variance of point residuals over the propagated one (correlated errors)");
+            v("planeVarianceFactor",
+              planeVarianceFactor,
+              "-",
+              "true variance of plane residuals over the propagated one (correlated errors)");
+            v("tukeySigmas",
+              tukeySigmas,
+              "-",
+              "points farther than this many robust sigmas have no weight; 0 = no M-estimator");
+            v("planeStudentDof", planeStudentDof, "-",
+              "degrees of freedom of Student's t for planes; small = robust, 0 = Gaussian (the paper)");
+            v("maxIterations", maxIterations, "-", "Levenberg-Marquardt iterations");
+        }
+        void check() const;
+    };
+
+    explicit PoseSolver(const TParams& params);
+
+    /** \param start initial T_base_cur
+     * \param prior what is known without the pairs (left covariance); absent = nothing
+     * \pre without a prior, pairs must fix all six directions or the covariance is that of a
+     * minimally damped system */
+    [[nodiscard]] PoseEstimate solve(
+        const std::vector<PointPair>& points,
+        const std::vector<PlanePair>& planes,
+        const Eigen::Isometry3d& start,
+        const std::optional<PoseGaussian>& prior) const;
+
+ private:
+    TParams params_;
+};
+}  // namespace pointplane

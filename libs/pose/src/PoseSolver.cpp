@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/check.h>
+#include <pointplane/core/covariance.h>
+#include <pointplane/core/se3.h>
+#include <pointplane/pose/PoseSolver.h>
+#include <pointplane/pose/residuals.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pointplane
+{
+namespace
+{
+/** Sigma of unweighted residuals; sets only the balance with the prior. */
+constexpr double kUnweightedSigma = 0.01;
+
+/** The median of chi-square with 3 degrees of freedom. */
+constexpr double kMedianChi2Of3 = 2.366;
+
+double tukeyWeight(double squaredNorm, double limit)
+{
+    const double u = squaredNorm / (limit * limit);
+    return u < 1 ? (1 - u) * (1 - u) : 0;
+}
+
+double tukeyCost(double squaredNorm, double limit)
+{
+    const double u = std::min(1.0, squaredNorm / (limit * limit));
+    return limit * limit / 3 * (1 - (1 - u) * (1 - u) * (1 - u));
+}
+
+/** Normal equations of one feature type: H = J^T w W J, g = J^T w W r, and for the sandwich
+ * M = J^T w^2 W Sigma W J. */
+struct Normal
+{
+    Matrix6d H{Matrix6d::Zero()};
+    Matrix6d M{Matrix6d::Zero()};
+    Vector6d g{Vector6d::Zero()};
+    double cost{0};
+    double weightedChi2{0}, weightSum{0};
+    int numInliers{0};
+};
+
+/** One evaluation of all residuals at a pose. */
+class System
+{
+ public:
+    System(
+        const PoseSolver::TParams& params,
+        const std::vector<PointPair>& points,
+        const std::vector<PlanePair>& planes)
+        : params_(params), points_(points), planes_(planes)
+    {
+    }
+
+    /** \param updateScale re-estimates the robust scale of the points at this pose */
+    void evaluate(const Eigen::Isometry3d& T, bool updateScale)
+    {
+        residuals_.clear();
+        squaredNorms_.clear();
+        for (const PointPair& pair : points_)
+        {
+            push(pointResidual(pair, T));
+        }
+        for (const PlanePair& pair : planes_)
+        {
+            push(
+                params_.planeResidual == "minimal" ? planeResidualMinimal(pair, T)
+                                                   : planeResidualClosestPoint(pair, T));
+        }
+        if (updateScale)
+        {
+            estimateScale();
+        }
+        accumulate();
+    }
+
+    [[nodiscard]] const Normal& points() const { return normalPoints_; }
+    [[nodiscard]] const Normal& planes() const { return normalPlanes_; }
+
+ private:
+    void push(const Residual& residual)
+    {
+        Eigen::Matrix3d W;
+        if (params_.weighting == "full")
+        {
+            W = residual.cov.inverse();
+        }
+        else if (params_.weighting == "diagonal")
+        {
+            W = residual.cov.diagonal().cwiseInverse().asDiagonal();  // [P17, after Eq. 10]
+        }
+        else
+        {
+            W = Eigen::Matrix3d::Identity() / (kUnweightedSigma * kUnweightedSigma);
+        }
+        residuals_.push_back({residual, W});
+        squaredNorms_.push_back(residual.r.dot(W * residual.r));
+    }
+
+    void estimateScale()
+    {
+        if (points_.empty())
+        {
+            return;
+        }
+        std::vector<double> norms(
+            squaredNorms_.begin(),
+            squaredNorms_.begin() + static_cast<std::ptrdiff_t>(points_.size()));
+        const auto middle = norms.begin() + static_cast<std::ptrdiff_t>(norms.size() / 2);
+        std::nth_element(norms.begin(), middle, norms.end());
+        // Below one only by chance or by a pessimistic noise model: never tighten the gate for it.
+        scale_ =
+            std::max(params_.weighting == "none" ? 0.1 : 1.0, std::sqrt(*middle / kMedianChi2Of3));
+    }
+
+    /** Weight and cost of a squared Mahalanobis norm. */
+    [[nodiscard]] std::pair<double, double> robust(double squaredNorm, bool isPoint) const
+    {
+        const double limit = params_.tukeySigmas * scale_;
+        const double dof = params_.planeStudentDof;
+        if (isPoint && limit > 0)
+        {
+            return {tukeyWeight(squaredNorm, limit), tukeyCost(squaredNorm, limit)};
+        }
+        if (!isPoint && dof > 0)
+        {
+            return {(dof + 3) / (dof + squaredNorm), (dof + 3) * std::log1p(squaredNorm / dof)};
+        }
+        return {1, squaredNorm};
+    }
+
+    void add(Normal& normal, size_t i, bool isPoint, double gain) const
+    {
+        const auto& [residual, W] = residuals_[i];
+        const auto [w, cost] = robust(squaredNorms_[i], isPoint);
+        normal.cost += gain * cost;
+        normal.weightedChi2 += w * squaredNorms_[i];
+        normal.weightSum += w;
+        normal.numInliers += w > 0.5 ? 1 : 0;
+        if (w > 0)
+        {
+            const Eigen::Matrix<double, 6, 3> JtW = residual.J.transpose() * W;
+            normal.H += gain * w * JtW * residual.J;
+            normal.g += gain * w * JtW * residual.r;
+            normal.M += gain * gain * w * w * JtW * residual.cov * JtW.transpose();
+        }
+    }
+
+    void accumulate()
+    {
+        normalPoints_ = {};
+        normalPlanes_ = {};
+        for (size_t i = 0; i < residuals_.size(); ++i)
+        {
+            if (i < points_.size())
+            {
+                add(normalPoints_, i, true, 1 / params_.pointVarianceFactor);
+            }
+            else
+            {
+                add(normalPlanes_,
+                    i,
+                    false,
+                    params_.alpha / params_.planeVarianceFactor);
+            }
+        }
+    }
+
+    const PoseSolver::TParams& params_;
+    const std::vector<PointPair>& points_;
+    const std::vector<PlanePair>& planes_;
+    std::vector<std::pair<Residual, Eigen::Matrix3d>> residuals_;
+    std::vector<double> squaredNorms_;
+    double scale_{1};
+    Normal normalPoints_, normalPlanes_;
+};
+
+/** The prior as one more residual: r = log(prior T^-1), dr/dxi = -I to first order. */
+struct Prior
+{
+    explicit Prior(const std::optional<PoseGaussian>& prior)
+    {
+        if (prior)
+        {
+            mean = prior->mean;
+            info = prior->cov.ldlt().solve(Matrix6d::Identity());
+        }
+    }
+    [[nodiscard]] Vector6d residual(const Eigen::Isometry3d& T) const
+    {
+        return se3Log(mean * T.inverse());
+    }
+    Eigen::Isometry3d mean{Eigen::Isometry3d::Identity()};
+    Matrix6d info{Matrix6d::Zero()};
+};
+}  // namespace
+
+void PoseSolver::TParams::check() const
+{
+    POINTPLANE_CHECK(
+        weighting == "full" || weighting == "diagonal" || weighting == "none",
+        "weighting = " << weighting << " is none of full, diagonal, none");
+    POINTPLANE_CHECK(
+        planeResidual == "minimal" || planeResidual == "closestPoint",
+        "planeResidual = " << planeResidual << " is neither minimal nor closestPoint");
+    POINTPLANE_CHECK(alpha >= 0, "alpha = " << alpha << " is negative");
+    POINTPLANE_CHECK(
+        pointVarianceFactor > 0,
+        "pointVarianceFactor = " << pointVarianceFactor << " is not positive");
+    POINTPLANE_CHECK(
+        planeVarianceFactor > 0,
+        "planeVarianceFactor = " << planeVarianceFactor << " is not positive");
+    POINTPLANE_CHECK(tukeySigmas >= 0, "tukeySigmas = " << tukeySigmas << " is negative");
+    POINTPLANE_CHECK(
+        maxIterations >= 1 && maxIterations <= 1000,
+        "maxIterations = " << maxIterations << " is not in 1..1000");
+}
+
+PoseSolver::PoseSolver(const TParams& params) : params_(params) { params_.check(); }
+
+PoseEstimate PoseSolver::solve(
+    const std::vector<PointPair>& points,
+    const std::vector<PlanePair>& planes,
+    const Eigen::Isometry3d& start,
+    const std::optional<PoseGaussian>& priorGaussian) const
+{
+    const Prior prior(priorGaussian);
+    System system(params_, points, planes);
+    PoseEstimate out;
+    Eigen::Isometry3d T = start;
+    double lambda = 1e-6;
+    const auto totalCost = [&](const Eigen::Isometry3d& pose)
+    {
+        const Vector6d r = prior.residual(pose);
+        return system.points().cost + system.planes().cost + r.dot(prior.info * r);
+    };
+    for (out.iterations = 0; out.iterations < params_.maxIterations && !out.converged;)
+    {
+        system.evaluate(T, true);
+        const double cost = totalCost(T);
+        const Matrix6d H = system.points().H + system.planes().H + prior.info;
+        const Vector6d g = system.points().g + system.planes().g - prior.info * prior.residual(T);
+        for (bool accepted = false; !accepted && out.iterations < params_.maxIterations;)
+        {
+            ++out.iterations;
+            Matrix6d damped = H;
+            damped.diagonal() += lambda * H.diagonal() + Vector6d::Constant(1e-9);
+            const Vector6d step = -damped.ldlt().solve(g);
+            const Eigen::Isometry3d candidate = se3Exp(step) * T;
+            system.evaluate(candidate, false);
+            accepted = step.allFinite() && totalCost(candidate) <= cost * (1 + 1e-12);
+            out.converged = step.head<3>().norm() < 1e-7 && step.tail<3>().norm() < 1e-7;
+            lambda = accepted ? std::max(1e-9, lambda * 0.1) : lambda * 10;
+            if (accepted)
+            {
+                T = orthonormalised(candidate);
+            }
+            else if (out.converged || lambda > 1e8)
+            {
+                out.converged = true;
+                break;
+            }
+        }
+    }
+    system.evaluate(T, true);
+    const Normal& p = system.points();
+    const Normal& m = system.planes();
+    const Matrix6d H = p.H + m.H + prior.info + 1e-9 * Matrix6d::Identity();
+    const Matrix6d Hinv = H.ldlt().solve(Matrix6d::Identity());
+    // gain^2 Sigma with the true Sigma a factor larger than the propagated one.
+    const Matrix6d M = params_.pointVarianceFactor * p.M + params_.planeVarianceFactor * m.M +
+                       prior.info + 1e-9 * Matrix6d::Identity();
+    out.T_base_cur = {T, propagate(Hinv, M)};
+    out.infoPoints = p.H;
+    out.infoPlanes = params_.alpha > 0 ? Matrix6d(m.H / params_.alpha) : m.H;
+    out.pointChi2PerDof = p.weightSum > 0 ? p.weightedChi2 / (3 * p.weightSum) : 0;
+    out.planeChi2PerDof = m.weightSum > 0 ? m.weightedChi2 / (3 * m.weightSum) : 0;
+    out.numPointInliers = p.numInliers;
+    return out;
+}
+}  // namespace pointplane
