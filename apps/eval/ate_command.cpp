@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/evaluation/ate.h>
+
+#include <map>
+#include <memory>
+#include <ostream>
+
+#include "command.h"
+#include "load_trajectory.h"
+#include "result_output.h"
+
+namespace pointplane
+{
+namespace
+{
+struct AteCommand
+{
+    std::string groundTruth, estimate;
+    AteOptions options;
+    OutputFiles files;
+    bool verbose{false};
+    double maxRmse{-1};
+
+    void addTo(CLI::App& command);
+    void run(CommandContext& context) const;
+};
+
+void AteCommand::addTo(CLI::App& command)
+{
+    const std::string group = "Protocol";
+    command.add_option("groundtruth", groundTruth, "Ground-truth trajectory")->required();
+    command.add_option("estimate", estimate, "Estimated trajectory")->required();
+    command.add_option("--offset", options.offset, "Added to the estimate's stamps [s]")
+        ->capture_default_str()
+        ->group(group);
+    command.add_option("--scale", options.scale, "Multiplies the estimate's translations")
+        ->capture_default_str()
+        ->group(group);
+    command.add_option("--max-difference", options.maxDifference, "Of associated stamps [s]")
+        ->capture_default_str()
+        ->check(CLI::PositiveNumber)
+        ->group(group);
+    const std::map<std::string, Alignment> alignments{
+        {"se3", Alignment::Se3}, {"first", Alignment::FirstPose}, {"none", Alignment::None}};
+    command.add_option("--align", options.alignment, "se3 (as the script), first or none [se3]")
+        ->transform(CLI::CheckedTransformer(alignments))
+        ->group(group);
+    command.add_option("--max-rmse", maxRmse, "Exit with 1 if the RMSE exceeds this [m]")
+        ->check(CLI::NonNegativeNumber)
+        ->group("Gate");
+    command.add_flag("--verbose", verbose, "Print the lines of evaluate_ate.py --verbose instead")
+        ->group("Output");
+    files.addTo(command);
+}
+
+/** What evaluate_ate.py --verbose prints. */
+void printScriptLines(const Statistics& s, std::ostream& out)
+{
+    out << format("compared_pose_pairs %zu pairs\n", s.count)
+        << format("absolute_translational_error.rmse %f m\n", s.rmse)
+        << format("absolute_translational_error.mean %f m\n", s.mean)
+        << format("absolute_translational_error.median %f m\n", s.median)
+        << format("absolute_translational_error.std %f m\n", s.std)
+        << format("absolute_translational_error.min %f m\n", s.min)
+        << format("absolute_translational_error.max %f m\n", s.max);
+}
+
+void AteCommand::run(CommandContext& context) const
+{
+    const Trajectory truth = loadTrajectory(groundTruth, context.err);
+    const Trajectory estimated = loadTrajectory(estimate, context.err);
+    const AteResult result = absoluteTrajectoryError(truth, estimated, options);
+
+    ScoredResult scored;
+    scored.title = "Absolute trajectory error";
+    scored.protocol = describe(options, result, estimated.size());
+    scored.groundTruth = groundTruth;
+    scored.estimate = estimate;
+    scored.rows = {{"translation", "m", result.translation}};
+    scored.details = {
+        {"poses", result.errors.size()},
+        {"estimatePoses", estimated.size()},
+        {"coverage", result.coverage},
+        {"maxDifference", options.maxDifference},
+        {"offset", options.offset},
+        {"scale", options.scale}};
+    if (verbose)
+    {
+        printScriptLines(result.translation, context.out);
+    }
+    writeResult(scored, files, context.out, !verbose);
+    checkThreshold("RMSE", scored.rows[0], maxRmse, context);
+}
+}  // namespace
+
+void addAteCommand(CLI::App& app, CommandContext& context)
+{
+    CLI::App& command = *app.add_subcommand(
+        "ate", "Absolute trajectory error, by the protocol of the TUM benchmark's evaluate_ate.py");
+    const auto options = std::make_shared<AteCommand>();
+    options->addTo(command);
+    command.callback([options, &context] { options->run(context); });
+}
+}  // namespace pointplane

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "result_output.h"
+
+#include <cstdarg>
+#include <cstdio>
+#include <fstream>
+#include <ostream>
+
+#include "command.h"
+
+namespace pointplane
+{
+void OutputFiles::addTo(CLI::App& command)
+{
+    command.add_option("--json", json, "Write the result as JSON ('-': to the standard output)")
+        ->group("Output");
+    command.add_option("--csv", csv, "Write the result as CSV ('-': to the standard output)")
+        ->group("Output");
+}
+
+std::string format(const char* text, ...)
+{
+    char out[1024];
+    va_list args;
+    va_start(args, text);
+    std::vsnprintf(out, sizeof out, text, args);
+    va_end(args);
+    return out;
+}
+
+std::string csvField(const std::string& text)
+{
+    if (text.find_first_of(",\"\n") == std::string::npos)
+    {
+        return text;
+    }
+    std::string out = "\"";
+    for (const char c : text)
+    {
+        out += c == '"' ? "\"\"" : std::string(1, c);
+    }
+    return out + "\"";
+}
+
+void printTable(const ScoredResult& result, std::ostream& out)
+{
+    out << result.title << ": " << result.protocol << "\n"
+        << "ground truth " << result.groundTruth << "\n"
+        << "estimate     " << result.estimate << "\n\n"
+        << format(
+               "%-17s%12s%12s%12s%12s%12s%12s\n",
+               "",
+               "rmse",
+               "mean",
+               "median",
+               "std",
+               "min",
+               "max");
+    for (const StatisticsRow& row : result.rows)
+    {
+        const Statistics& s = row.statistics;
+        out << format(
+            "%-17s%12.6f%12.6f%12.6f%12.6f%12.6f%12.6f\n",
+            (row.name + " [" + row.unit + "]").c_str(),
+            s.rmse,
+            s.mean,
+            s.median,
+            s.std,
+            s.min,
+            s.max);
+    }
+}
+
+nlohmann::ordered_json toJson(const ScoredResult& result)
+{
+    nlohmann::ordered_json json;
+    json["title"] = result.title;
+    json["protocol"] = result.protocol;
+    json["groundTruth"] = result.groundTruth;
+    json["estimate"] = result.estimate;
+    for (const StatisticsRow& row : result.rows)
+    {
+        const Statistics& s = row.statistics;
+        json[row.name] = {
+            {"unit", row.unit},
+            {"count", s.count},
+            {"rmse", s.rmse},
+            {"mean", s.mean},
+            {"median", s.median},
+            {"std", s.std},
+            {"min", s.min},
+            {"max", s.max}};
+    }
+    json.update(result.details);
+    return json;
+}
+
+std::string toCsv(const ScoredResult& result)
+{
+    std::string out =
+        "estimate,ground_truth,protocol,quantity,unit,count,rmse,mean,median,std,min,max\n";
+    for (const StatisticsRow& row : result.rows)
+    {
+        const Statistics& s = row.statistics;
+        out += csvField(result.estimate) + "," + csvField(result.groundTruth) + "," +
+               csvField(result.protocol) + "," + row.name + "," + row.unit +
+               format(
+                   ",%zu,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n",
+                   s.count,
+                   s.rmse,
+                   s.mean,
+                   s.median,
+                   s.std,
+                   s.min,
+                   s.max);
+    }
+    return out;
+}
+
+void writeText(const std::string& text, const std::string& path, std::ostream& out)
+{
+    if (path == "-")
+    {
+        out << text;
+        return;
+    }
+    std::ofstream file(path);
+    file << text;
+    file.close();
+    if (!file)
+    {
+        throw OutputError("cannot write '" + path + "'");
+    }
+}
+
+void writeResult(
+    const ScoredResult& result, const OutputFiles& files, std::ostream& out, bool table)
+{
+    if (table && !files.replaceTable())
+    {
+        printTable(result, out);
+    }
+    if (!files.json.empty())
+    {
+        writeText(toJson(result).dump(2) + "\n", files.json, out);
+    }
+    if (!files.csv.empty())
+    {
+        writeText(toCsv(result), files.csv, out);
+    }
+}
+
+void checkThreshold(
+    const std::string& name, const StatisticsRow& row, double threshold, CommandContext& context)
+{
+    if (threshold >= 0 && row.statistics.rmse > threshold)
+    {
+        context.err << format(
+            "pointplane-eval: %s %.6f %s exceeds the threshold %g %s\n",
+            name.c_str(),
+            row.statistics.rmse,
+            row.unit.c_str(),
+            threshold,
+            row.unit.c_str());
+        context.exitCode = kExitThresholdExceeded;
+    }
+}
+}  // namespace pointplane

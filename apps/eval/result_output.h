@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pointplane/evaluation/Statistics.h>
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+namespace pointplane
+{
+struct CommandContext;
+
+/** One line of a result table. */
+struct StatisticsRow
+{
+    std::string name;  //!< "translation"
+    std::string unit;  //!< "m"
+    Statistics statistics;
+};
+
+/** A result with its title, ready for every form of output. */
+struct ScoredResult
+{
+    std::string title;     //!< "Relative pose error"
+    std::string protocol;  //!< one line: all that is needed to repeat it
+    std::string groundTruth, estimate;
+    std::vector<StatisticsRow> rows;
+    nlohmann::ordered_json details;  //!< further members of the JSON object
+};
+
+/** Options --json FILE and --csv FILE ("-" is the standard output, and replaces the table). */
+struct OutputFiles
+{
+    std::string json, csv;
+    void addTo(CLI::App& command);
+    [[nodiscard]] bool replaceTable() const { return json == "-" || csv == "-"; }
+};
+
+void printTable(const ScoredResult& result, std::ostream& out);
+[[nodiscard]] nlohmann::ordered_json toJson(const ScoredResult& result);
+[[nodiscard]] std::string toCsv(const ScoredResult& result);
+
+/** Writes table (if wanted), JSON and CSV as asked for; throws OutputError naming a file that
+ * cannot be written. */
+void writeResult(
+    const ScoredResult& result, const OutputFiles& files, std::ostream& out, bool table = true);
+
+/** Reports to context.err and sets exit code 1 when the row's RMSE exceeds the threshold (negative:
+ * none was given). */
+void checkThreshold(
+    const std::string& name, const StatisticsRow& row, double threshold, CommandContext& context);
+
+/** Writes `text` to `path`, or to `out` for "-"; throws OutputError naming the file. */
+void writeText(const std::string& text, const std::string& path, std::ostream& out);
+
+/** Field of a CSV file, quoted where needed. */
+[[nodiscard]] std::string csvField(const std::string& text);
+
+/** printf to a string. */
+[[nodiscard]] std::string format(const char* text, ...) __attribute__((format(printf, 1, 2)));
+}  // namespace pointplane

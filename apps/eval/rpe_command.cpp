@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <memory>
+#include <ostream>
+
+#include "command.h"
+#include "load_trajectory.h"
+#include "result_output.h"
+#include "rpe_options.h"
+
+namespace pointplane
+{
+namespace
+{
+constexpr double kDegreesPerRadian = 180 / 3.14159265358979323846;
+constexpr std::int64_t kScriptMaxPairs = 10000;
+
+struct RpeCommand
+{
+    std::string groundTruth, estimate;
+    RpeCommandOptions options;
+    OutputFiles files;
+    bool verbose{false};
+    double maxRmse{-1};
+    double maxRmseDeg{-1};
+
+    void addTo(CLI::App& command);
+    void run(CommandContext& context) const;
+};
+
+void RpeCommand::addTo(CLI::App& command)
+{
+    command.add_option("groundtruth", groundTruth, "Ground-truth trajectory")->required();
+    command.add_option("estimate", estimate, "Estimated trajectory")->required();
+    options.addTo(command);
+    command
+        .add_option("--max-rmse", maxRmse, "Exit with 1 if the translation RMSE exceeds this [m]")
+        ->check(CLI::NonNegativeNumber)
+        ->group("Gate");
+    command
+        .add_option(
+            "--max-rmse-deg", maxRmseDeg, "Exit with 1 if the rotation RMSE exceeds this [deg]")
+        ->check(CLI::NonNegativeNumber)
+        ->group("Gate");
+    command.add_flag("--verbose", verbose, "Print the lines of evaluate_rpe.py --verbose instead")
+        ->group("Output");
+    files.addTo(command);
+}
+
+/** What evaluate_rpe.py --verbose prints. */
+void printScriptLines(const RpeResult& result, std::ostream& out)
+{
+    out << format("compared_pairs %zu pairs\n", result.translation.count);
+    const auto print = [&](const char* name, const Statistics& s, const char* unit)
+    {
+        out << format("%s.rmse %f %s\n", name, s.rmse, unit)
+            << format("%s.mean %f %s\n", name, s.mean, unit)
+            << format("%s.median %f %s\n", name, s.median, unit)
+            << format("%s.std %f %s\n", name, s.std, unit)
+            << format("%s.min %f %s\n", name, s.min, unit)
+            << format("%s.max %f %s\n", name, s.max, unit);
+    };
+    print("translational_error", result.translation, "m");
+    print("rotational_error", scaled(result.rotation, kDegreesPerRadian), "deg");
+}
+
+void RpeCommand::run(CommandContext& context) const
+{
+    const RpeOptions rpe = options.resolved();
+    const RpeResult result = relativePoseError(
+        loadTrajectory(groundTruth, context.err), loadTrajectory(estimate, context.err), rpe);
+
+    ScoredResult scored;
+    scored.title = "Relative pose error";
+    scored.protocol = describe(rpe, result);
+    scored.groundTruth = groundTruth;
+    scored.estimate = estimate;
+    scored.rows = {
+        {"translation", "m", result.translation},
+        {"rotation", "deg", scaled(result.rotation, kDegreesPerRadian)}};
+    scored.details = {
+        {"pairs", result.translation.count},
+        {"candidatePairs", result.candidatePairs},
+        {"coverage", result.coverage},
+        {"fixedDelta", rpe.fixedDelta},
+        {"delta", rpe.delta},
+        {"deltaUnit", nameOf(rpe.unit)},
+        {"offset", rpe.offset},
+        {"scale", rpe.scale}};
+    if (verbose)
+    {
+        printScriptLines(result, context.out);
+    }
+    writeResult(scored, files, context.out, !verbose);
+    checkThreshold("translation RMSE", scored.rows[0], maxRmse, context);
+    checkThreshold("rotation RMSE", scored.rows[1], maxRmseDeg, context);
+}
+}  // namespace
+
+void RpeCommandOptions::addTo(CLI::App& command)
+{
+    const std::string group = "Protocol";
+    command.add_flag("--fixed-delta", rpe.fixedDelta, "Only pairs --delta apart, not all pairs")
+        ->group(group);
+    command.add_option("--delta", rpe.delta, "Distance between the two poses of a pair")
+        ->capture_default_str()
+        ->check(CLI::PositiveNumber)
+        ->group(group);
+    command.add_option("--delta-unit", unit, "s, m, rad, deg or f (frames)")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"s", "m", "rad", "deg", "f"}))
+        ->group(group);
+    command.add_option("--offset", rpe.offset, "Added to the estimate's stamps [s]")
+        ->capture_default_str()
+        ->group(group);
+    command.add_option("--scale", rpe.scale, "Multiplies the estimate's translations")
+        ->capture_default_str()
+        ->group(group);
+    command
+        .add_option(
+            "--max-pairs",
+            maxPairs,
+            "At most so many pairs, drawn at random; 0 = all [10000, with --fixed-delta 0]")
+        ->check(CLI::NonNegativeNumber)
+        ->group(group);
+    command.add_option("--seed", rpe.seed, "Of the random draw")
+        ->capture_default_str()
+        ->group(group);
+    command.add_flag("--evo", evo, "The TUM paper's and evo's formula instead of the TUM script's")
+        ->group(group);
+    command
+        .add_flag(
+            "--interpolate", interpolate, "Interpolate ground truth instead of taking the nearest")
+        ->group(group);
+}
+
+RpeOptions RpeCommandOptions::resolved() const
+{
+    RpeOptions out = rpe;
+    out.unit = deltaUnitFromName(unit);
+    out.maxPairs = maxPairs >= 0 ? maxPairs : (rpe.fixedDelta ? 0 : kScriptMaxPairs);
+    out.formula = evo ? RpeFormula::Evo : RpeFormula::TumScript;
+    out.truthAt = interpolate ? TruthAt::Interpolated : TruthAt::NearestStamp;
+    return out;
+}
+
+void addRpeCommand(CLI::App& app, CommandContext& context)
+{
+    CLI::App& command = *app.add_subcommand(
+        "rpe", "Relative pose error, by the protocol of the TUM benchmark's evaluate_rpe.py");
+    const auto options = std::make_shared<RpeCommand>();
+    options->addTo(command);
+    command.callback([options, &context] { options->run(context); });
+}
+}  // namespace pointplane

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pointplane/evaluation/Trajectory.h>
+
+#include <string>
+
+namespace pointplane
+{
+/** Reads a trajectory from text, in one of two formats told apart by the number of columns:
+ * - 8 or more: TUM, `stamp tx ty tz qx qy qz qw`, further columns ignored;
+ * - 7: MRPT's CPose3DInterpolator, `stamp x y z yaw pitch roll` [m, rad].
+ *
+ * As the TUM scripts read it: commas and tabs count as spaces, lines that start with '#' (or MRPT's
+ * '%') and empty lines are skipped, lines with NaN or a zero quaternion are left out (each kind
+ * counted in the warnings, with its first line), quaternions are normalised, the last of equal
+ * stamps wins.
+ * Throws std::runtime_error naming the file, and the line where one is malformed. */
+[[nodiscard]] Trajectory readTrajectoryText(const std::string& path);
+}  // namespace pointplane

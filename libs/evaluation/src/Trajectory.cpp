@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/evaluation/Statistics.h>
+#include <pointplane/evaluation/Trajectory.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+#include <stdexcept>
+
+namespace pointplane
+{
+namespace
+{
+std::vector<double> intervals(const Trajectory& trajectory)
+{
+    std::vector<double> out;
+    for (std::size_t i = 1; i < trajectory.size(); ++i)
+    {
+        out.push_back(trajectory.stamps[i] - trajectory.stamps[i - 1]);
+    }
+    return out;
+}
+
+/** Running sum of measure(T_next_previous), starting at 0. */
+template <class Measure>
+std::vector<double> accumulate(const Trajectory& trajectory, Measure measure)
+{
+    std::vector<double> out;
+    for (std::size_t i = 0; i < trajectory.size(); ++i)
+    {
+        out.push_back(
+            i == 0 ? 0
+                   : out.back() + measure(trajectory.poses[i].inverse() * trajectory.poses[i - 1]));
+    }
+    return out;
+}
+
+std::string timeRange(const char* role, const Trajectory& trajectory, double offset)
+{
+    std::ostringstream out;
+    out << std::fixed << std::setprecision(3) << role << " '" << trajectory.name << "' ["
+        << trajectory.stamps.front() + offset << ", " << trajectory.stamps.back() + offset << "] s";
+    return out.str();
+}
+}  // namespace
+
+Trajectory makeTrajectory(std::string name, std::vector<StampedPose> poses)
+{
+    std::stable_sort(
+        poses.begin(),
+        poses.end(),
+        [](const StampedPose& a, const StampedPose& b) { return a.stamp < b.stamp; });
+
+    Trajectory out;
+    out.name = std::move(name);
+    std::size_t repeated = 0;
+    const bool withCov =
+        std::all_of(poses.begin(), poses.end(), [](const auto& p) { return p.cov.has_value(); });
+    for (std::size_t i = 0; i < poses.size(); ++i)
+    {
+        if (i + 1 < poses.size() && poses[i + 1].stamp == poses[i].stamp)
+        {
+            ++repeated;
+            continue;
+        }
+        out.stamps.push_back(poses[i].stamp);
+        out.poses.push_back(poses[i].pose);
+        if (withCov)
+        {
+            out.covs.push_back(*poses[i].cov);
+        }
+    }
+    if (repeated > 0)
+    {
+        out.warnings.push_back(
+            out.name + ": " + std::to_string(repeated) +
+            " pose(s) with a repeated stamp; the last one of each was used");
+    }
+    return out;
+}
+
+std::vector<double> pathLengths(const Trajectory& trajectory)
+{
+    return accumulate(
+        trajectory, [](const Eigen::Isometry3d& T) { return T.translation().norm(); });
+}
+
+std::vector<double> accumulatedAngles(const Trajectory& trajectory)
+{
+    return accumulate(
+        trajectory, [](const Eigen::Isometry3d& T) { return rotationAngle(T.linear()); });
+}
+
+double rotationAngle(const Eigen::Matrix3d& R)
+{
+    return std::acos(std::clamp((R.trace() - 1) / 2, -1.0, 1.0));
+}
+
+double coverage(const Trajectory& groundTruth, const Trajectory& estimate, double offset)
+{
+    const double longest = 5 * medianInterval(estimate);
+    double covered = 0;
+    for (std::size_t i = 1; i < estimate.size(); ++i)
+    {
+        if (estimate.stamps[i] - estimate.stamps[i - 1] <= longest)
+        {
+            const double from =
+                std::max(estimate.stamps[i - 1] + offset, groundTruth.stamps.front());
+            const double to = std::min(estimate.stamps[i] + offset, groundTruth.stamps.back());
+            covered += std::max(0.0, to - from);
+        }
+    }
+    return groundTruth.duration() > 0 ? covered / groundTruth.duration() : 0;
+}
+
+void checkOverlap(const Trajectory& groundTruth, const Trajectory& estimate, double offset)
+{
+    for (const Trajectory* t : {&groundTruth, &estimate})
+    {
+        if (t->size() < 2)
+        {
+            throw std::runtime_error(
+                "'" + t->name + "' has " + std::to_string(t->size()) +
+                " usable pose(s); at least two are needed");
+        }
+    }
+    if (estimate.stamps.back() + offset < groundTruth.stamps.front() ||
+        estimate.stamps.front() + offset > groundTruth.stamps.back())
+    {
+        throw std::runtime_error(
+            "the trajectories do not overlap in time: " +
+            timeRange("ground truth", groundTruth, 0) + ", " +
+            timeRange("estimate", estimate, offset) +
+            "; are these files of the same sequence? (--offset shifts the estimate)");
+    }
+}
+
+double medianInterval(const Trajectory& trajectory)
+{
+    return trajectory.size() < 2 ? 0 : statisticsOf(intervals(trajectory)).median;
+}
+}  // namespace pointplane

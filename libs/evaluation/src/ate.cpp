@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/evaluation/association.h>
+#include <pointplane/evaluation/ate.h>
+
+#include <Eigen/LU>
+#include <Eigen/SVD>
+
+#include <cstdio>
+#include <stdexcept>
+
+namespace pointplane
+{
+Eigen::Isometry3d alignPoints(const Eigen::Matrix3Xd& points_a, const Eigen::Matrix3Xd& points_b)
+{
+    const Eigen::Vector3d mean_a = points_a.rowwise().mean();
+    const Eigen::Vector3d mean_b = points_b.rowwise().mean();
+    const Eigen::Matrix3d W =
+        (points_a.colwise() - mean_a) * (points_b.colwise() - mean_b).transpose();
+    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(W, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    Eigen::Vector3d signs(1, 1, 1);
+    if (svd.matrixU().determinant() * svd.matrixV().determinant() < 0)
+    {
+        signs.z() = -1;  // a reflection would fit better, but cameras do not do that
+    }
+    Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+    T.linear() = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
+    T.translation() = mean_a - T.linear() * mean_b;
+    return T;
+}
+
+AteResult absoluteTrajectoryError(
+    const Trajectory& groundTruth, const Trajectory& estimate, const AteOptions& options)
+{
+    checkOverlap(groundTruth, estimate, options.offset);
+    const auto pairs =
+        associate(groundTruth.stamps, estimate.stamps, options.offset, options.maxDifference);
+    if (pairs.size() < 2)
+    {
+        throw std::runtime_error(
+            "only " + std::to_string(pairs.size()) +
+            " pose(s) of the estimate have ground truth within " +
+            std::to_string(options.maxDifference) +
+            " s; at least two are needed (--max-difference, --offset)");
+    }
+    const auto n = static_cast<Eigen::Index>(pairs.size());
+    Eigen::Matrix3Xd truth(3, n);
+    Eigen::Matrix3Xd estimated(3, n);
+    for (Eigen::Index k = 0; k < n; ++k)
+    {
+        const auto& [i, j] = pairs[static_cast<std::size_t>(k)];
+        truth.col(k) = groundTruth.poses[i].translation();
+        estimated.col(k) = options.scale * estimate.poses[j].translation();
+    }
+
+    AteResult result;
+    result.coverage = coverage(groundTruth, estimate, options.offset);
+    if (options.alignment == Alignment::Se3)
+    {
+        result.T_truth_estimate = alignPoints(truth, estimated);
+    }
+    else if (options.alignment == Alignment::FirstPose)
+    {
+        Eigen::Isometry3d first = estimate.poses[pairs.front().second];
+        first.translation() *= options.scale;
+        result.T_truth_estimate = groundTruth.poses[pairs.front().first] * first.inverse();
+    }
+    std::vector<double> errors;
+    for (Eigen::Index k = 0; k < n; ++k)
+    {
+        const auto& [i, j] = pairs[static_cast<std::size_t>(k)];
+        errors.push_back((result.T_truth_estimate * estimated.col(k) - truth.col(k)).norm());
+        result.errors.push_back({i, j, errors.back()});
+    }
+    result.translation = statisticsOf(errors);
+    return result;
+}
+
+std::string describe(const AteOptions& options, const AteResult& result, std::size_t estimatePoses)
+{
+    const char* alignment = options.alignment == Alignment::Se3         ? "SE(3) aligned"
+                            : options.alignment == Alignment::FirstPose ? "first pose aligned"
+                                                                        : "not aligned";
+    char out[256];
+    std::snprintf(
+        out,
+        sizeof out,
+        "TUM protocol (evaluate_ate), %s, association %g s, %zu of %zu poses, coverage %.1f %%",
+        alignment,
+        options.maxDifference,
+        result.errors.size(),
+        estimatePoses,
+        100 * result.coverage);
+    return out;
+}
+}  // namespace pointplane

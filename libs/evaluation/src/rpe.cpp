@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/evaluation/rpe.h>
+
+#include <cstdio>
+#include <numeric>
+#include <random>
+#include <stdexcept>
+
+#include "PairError.h"
+
+namespace pointplane
+{
+namespace
+{
+constexpr double kDegreesPerRadian = 180 / 3.14159265358979323846;
+
+/** The estimate's poses in the unit of delta. */
+std::vector<double> indexOf(const Trajectory& estimate, DeltaUnit unit)
+{
+    switch (unit)
+    {
+        case DeltaUnit::Metres:
+            return pathLengths(estimate);
+        case DeltaUnit::Radians:
+            return accumulatedAngles(estimate);
+        case DeltaUnit::Degrees:
+        {
+            std::vector<double> angles = accumulatedAngles(estimate);
+            for (double& angle : angles)
+            {
+                angle *= kDegreesPerRadian;
+            }
+            return angles;
+        }
+        case DeltaUnit::Frames:
+        {
+            std::vector<double> frames(estimate.size());
+            std::iota(frames.begin(), frames.end(), 0.0);
+            return frames;
+        }
+        case DeltaUnit::Seconds:
+            break;
+    }
+    return estimate.stamps;
+}
+
+using IndexPairs = std::vector<std::pair<std::size_t, std::size_t>>;
+
+IndexPairs fixedDeltaPairs(const Trajectory& estimate, const RpeOptions& options)
+{
+    const std::vector<double> index = indexOf(estimate, options.unit);
+    IndexPairs pairs;
+    for (std::size_t i = 0; i < index.size(); ++i)
+    {
+        const std::size_t j = nearestIndex(index, index[i] + options.delta);
+        if (j != index.size() - 1)  // may be i itself, over gaps: so does the script
+        {
+            pairs.emplace_back(i, j);
+        }
+    }
+    return pairs;
+}
+
+/** Modulo instead of std::uniform_int_distribution, whose values differ between libraries. */
+std::size_t draw(std::mt19937_64& random, std::size_t n)
+{
+    return static_cast<std::size_t>(random() % n);
+}
+
+void keepRandom(IndexPairs& pairs, std::size_t keep, std::uint64_t seed)
+{
+    std::mt19937_64 random(seed);
+    for (std::size_t k = 0; k < keep; ++k)
+    {
+        std::swap(pairs[k], pairs[k + draw(random, pairs.size() - k)]);
+    }
+    pairs.resize(keep);
+    std::sort(pairs.begin(), pairs.end());
+}
+
+IndexPairs randomPairs(std::size_t n, std::int64_t count, std::uint64_t seed)
+{
+    std::mt19937_64 random(seed);
+    IndexPairs pairs;
+    for (std::int64_t k = 0; k < count; ++k)
+    {
+        const std::size_t i = draw(random, n);
+        pairs.emplace_back(i, draw(random, n));
+    }
+    return pairs;
+}
+
+[[noreturn]] void failTooFewPairs(
+    std::size_t used, std::size_t candidates, const SampledTruth& truth)
+{
+    throw std::runtime_error(
+        "only " + std::to_string(used) + " of " + std::to_string(candidates) +
+        " pairs have ground truth within " + std::to_string(truth.maxTimeDifference) +
+        " s of both ends; at least two are needed (is delta longer than the sequence, or are "
+        "these files of different sequences?)");
+}
+
+void evaluateListed(
+    const IndexPairs& pairs, const SampledTruth& truth, const PairError& error, RpeResult& result)
+{
+    result.candidatePairs = pairs.size();
+    std::vector<double> translations;
+    std::vector<double> rotations;
+    for (const auto& [i, j] : pairs)
+    {
+        if (truth.valid[i] != 0 && truth.valid[j] != 0)
+        {
+            result.pairs.push_back({i, j, error.translation(i, j), error.rotation(i, j)});
+            translations.push_back(result.pairs.back().translation);
+            rotations.push_back(result.pairs.back().rotation);
+        }
+    }
+    if (result.pairs.size() < 2)
+    {
+        failTooFewPairs(result.pairs.size(), pairs.size(), truth);
+    }
+    result.translation = statisticsOf(translations);
+    result.rotation = statisticsOf(rotations);
+}
+
+/** All ordered pairs, each with itself too, as the script. They are computed twice and never
+ * stored, see StatisticsAccumulator. */
+void evaluateAll(const SampledTruth& truth, const PairError& error, RpeResult& result)
+{
+    std::vector<std::size_t> valid;
+    for (std::size_t i = 0; i < truth.valid.size(); ++i)
+    {
+        if (truth.valid[i] != 0)
+        {
+            valid.push_back(i);
+        }
+    }
+    result.candidatePairs = truth.valid.size() * truth.valid.size();
+    if (valid.size() < 2)
+    {
+        failTooFewPairs(valid.size() * valid.size(), result.candidatePairs, truth);
+    }
+    const auto statisticsOfAll = [&](auto&& errorOf)
+    {
+        StatisticsAccumulator accumulator;
+        const auto forEachPair = [&](auto&& f)
+        {
+            for (const std::size_t i : valid)
+            {
+                for (const std::size_t j : valid)
+                {
+                    f(errorOf(i, j));
+                }
+            }
+        };
+        forEachPair([&](double value) { accumulator.add(value); });
+        accumulator.beginSecondPass();
+        forEachPair([&](double value) { accumulator.addAgain(value); });
+        return accumulator.result();
+    };
+    result.translation =
+        statisticsOfAll([&](std::size_t i, std::size_t j) { return error.translation(i, j); });
+    result.rotation =
+        statisticsOfAll([&](std::size_t i, std::size_t j) { return error.rotation(i, j); });
+}
+}  // namespace
+
+DeltaUnit deltaUnitFromName(const std::string& name)
+{
+    for (const DeltaUnit unit :
+         {DeltaUnit::Seconds,
+          DeltaUnit::Metres,
+          DeltaUnit::Radians,
+          DeltaUnit::Degrees,
+          DeltaUnit::Frames})
+    {
+        if (nameOf(unit) == name)
+        {
+            return unit;
+        }
+    }
+    throw std::invalid_argument("unknown delta unit '" + name + "'; one of s, m, rad, deg, f");
+}
+
+std::string nameOf(DeltaUnit unit)
+{
+    switch (unit)
+    {
+        case DeltaUnit::Metres:
+            return "m";
+        case DeltaUnit::Radians:
+            return "rad";
+        case DeltaUnit::Degrees:
+            return "deg";
+        case DeltaUnit::Frames:
+            return "f";
+        case DeltaUnit::Seconds:
+            break;
+    }
+    return "s";
+}
+
+RpeResult relativePoseError(
+    const Trajectory& groundTruth, const Trajectory& estimate, const RpeOptions& options)
+{
+    checkOverlap(groundTruth, estimate, options.offset);
+    const SampledTruth truth =
+        sampleTruth(groundTruth, estimate.stamps, options.offset, options.truthAt);
+    const PairError error(truth.poses, estimate.poses, options.scale, options.formula);
+
+    RpeResult result;
+    result.coverage = coverage(groundTruth, estimate, options.offset);
+    const auto maxPairs = static_cast<std::size_t>(std::max<std::int64_t>(0, options.maxPairs));
+    if (options.fixedDelta)
+    {
+        IndexPairs pairs = fixedDeltaPairs(estimate, options);
+        result.randomPairs = maxPairs > 0 && pairs.size() > maxPairs;
+        if (result.randomPairs)
+        {
+            keepRandom(pairs, maxPairs, options.seed);
+        }
+        evaluateListed(pairs, truth, error, result);
+    }
+    else if (maxPairs == 0 || static_cast<double>(estimate.size()) < std::sqrt(maxPairs))
+    {
+        evaluateAll(truth, error, result);
+    }
+    else
+    {
+        result.randomPairs = true;
+        evaluateListed(
+            randomPairs(estimate.size(), options.maxPairs, options.seed), truth, error, result);
+    }
+    return result;
+}
+
+std::string describe(const RpeOptions& options, const RpeResult& result)
+{
+    char delta[64] = "all ordered pairs";
+    if (options.fixedDelta)
+    {
+        std::snprintf(
+            delta, sizeof delta, "fixed delta %g %s", options.delta, nameOf(options.unit).c_str());
+    }
+    char counts[128];
+    std::snprintf(
+        counts,
+        sizeof counts,
+        "%zu of %zu pairs%s, coverage %.1f %%",
+        result.translation.count,
+        result.candidatePairs,
+        result.randomPairs ? (", drawn with seed " + std::to_string(options.seed)).c_str() : "",
+        100 * result.coverage);
+    return std::string(
+               options.formula == RpeFormula::TumScript ? "TUM protocol (evaluate_rpe), "
+                                                        : "evo's formula, ") +
+           delta + ", ground truth " +
+           (options.truthAt == TruthAt::NearestStamp ? "at the nearest stamp, "
+                                                     : "interpolated, ") +
+           counts;
+}
+}  // namespace pointplane

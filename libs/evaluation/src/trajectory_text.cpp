@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/evaluation/trajectory_text.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+
+namespace pointplane
+{
+namespace
+{
+constexpr std::size_t kMrptColumns = 7;
+constexpr std::size_t kTumColumns = 8;
+
+[[noreturn]] void failAt(const std::string& path, std::size_t line, const std::string& what)
+{
+    throw std::runtime_error(path + ":" + std::to_string(line) + ": " + what);
+}
+
+/** Numbers of a line; the locale must not matter, hence from_chars. */
+std::vector<double> parseNumbers(const std::string& text, const std::string& path, std::size_t line)
+{
+    std::vector<double> numbers;
+    const char* const end = text.data() + text.size();
+    const char* at = text.data();
+    const auto isSeparator = [](char c) { return c == ' ' || c == ',' || c == '\t' || c == '\r'; };
+    while (true)
+    {
+        at = std::find_if_not(at, end, isSeparator);
+        if (at == end)
+        {
+            return numbers;
+        }
+        const char* const stop = std::find_if(at, end, isSeparator);
+        double value = 0;
+        const char* const first = (*at == '+' && stop - at > 1) ? at + 1 : at;
+        const auto [parsed, error] = std::from_chars(first, stop, value);
+        if (error != std::errc() || parsed != stop)
+        {
+            failAt(path, line, "'" + std::string(at, stop) + "' is not a number");
+        }
+        numbers.push_back(value);
+        at = stop;
+    }
+}
+
+Eigen::Isometry3d poseFromQuaternion(const std::vector<double>& v)
+{
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    pose.linear() = Eigen::Quaterniond(v[7], v[4], v[5], v[6]).normalized().toRotationMatrix();
+    pose.translation() << v[1], v[2], v[3];
+    return pose;
+}
+
+/** MRPT's convention: R = Rz(yaw) Ry(pitch) Rx(roll). */
+Eigen::Isometry3d poseFromYawPitchRoll(const std::vector<double>& v)
+{
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    pose.linear() = (Eigen::AngleAxisd(v[4], Eigen::Vector3d::UnitZ()) *
+                     Eigen::AngleAxisd(v[5], Eigen::Vector3d::UnitY()) *
+                     Eigen::AngleAxisd(v[6], Eigen::Vector3d::UnitX()))
+                        .toRotationMatrix();
+    pose.translation() << v[1], v[2], v[3];
+    return pose;
+}
+
+/** Lines of one kind that were left out. */
+struct LeftOut
+{
+    const char* kind;
+    std::size_t count{0};
+    std::size_t firstLine{0};
+    void add(std::size_t line) { firstLine = count++ == 0 ? line : firstLine; }
+};
+}  // namespace
+
+Trajectory readTrajectoryText(const std::string& path)
+{
+    std::ifstream file(path);
+    if (!file || std::filesystem::is_directory(path))
+    {
+        throw std::runtime_error("cannot read trajectory '" + path + "'");
+    }
+    std::vector<StampedPose> poses;
+    LeftOut notFinite{"NaN or infinity"};
+    LeftOut zeroQuaternion{"a zero quaternion"};
+    std::size_t columns = 0;
+    std::size_t line = 0;
+    for (std::string text; std::getline(file, text);)
+    {
+        ++line;
+        if (!text.empty() && (text[0] == '#' || text[0] == '%'))
+        {
+            continue;
+        }
+        const std::vector<double> v = parseNumbers(text, path, line);
+        if (v.empty())
+        {
+            continue;
+        }
+        columns = columns == 0 ? v.size() : columns;
+        if (v.size() < kMrptColumns || (v.size() == kMrptColumns) != (columns == kMrptColumns))
+        {
+            failAt(
+                path,
+                line,
+                std::to_string(v.size()) +
+                    " columns; expected 8 (TUM: stamp tx ty tz qx qy qz qw) or, in all lines, 7 "
+                    "(MRPT: stamp x y z yaw pitch roll)");
+        }
+        if (!std::all_of(v.begin(), v.end(), [](double x) { return std::isfinite(x); }))
+        {
+            notFinite.add(line);
+        }
+        else if (columns >= kTumColumns && v[4] == 0 && v[5] == 0 && v[6] == 0 && v[7] == 0)
+        {
+            zeroQuaternion.add(line);
+        }
+        else
+        {
+            const bool isTum = columns >= kTumColumns;
+            poses.push_back({v[0], isTum ? poseFromQuaternion(v) : poseFromYawPitchRoll(v), {}});
+        }
+    }
+    if (poses.empty())
+    {
+        throw std::runtime_error(
+            "'" + path + "' holds no usable pose (" + std::to_string(line) + " lines)");
+    }
+    Trajectory out = makeTrajectory(path, std::move(poses));
+    for (const LeftOut& left : {notFinite, zeroQuaternion})
+    {
+        if (left.count > 0)
+        {
+            out.warnings.push_back(
+                path + ": " + std::to_string(left.count) + " line(s) with " + left.kind +
+                " left out, the first is line " + std::to_string(left.firstLine));
+        }
+    }
+    return out;
+}
+}  // namespace pointplane

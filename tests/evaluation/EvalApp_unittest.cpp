@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "EvalApp.h"
+
+#include <sstream>
+
+#include "test_trajectories.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+using namespace pointplane;
+using testing::HasSubstr;
+
+namespace
+{
+struct CommandRun
+{
+    int code{0};
+    std::string out, err;
+};
+
+CommandRun run(const std::vector<std::string>& args)
+{
+    std::ostringstream out;
+    std::ostringstream err;
+    CommandRun result;
+    result.code = runEval(args, out, err);
+    result.out = out.str();
+    result.err = err.str();
+    return result;
+}
+
+/** Straight motion at 10 Hz, `factor` times as fast as 1 m/s. */
+std::string straightLine(double factor)
+{
+    std::ostringstream out;
+    for (int i = 0; i <= 50; ++i)
+    {
+        out << 0.1 * i << " " << 0.1 * i * factor << " 0 0 0 0 0 1\n";
+    }
+    return out.str();
+}
+
+class EvalApp : public testing::Test
+{
+ protected:
+    test::TempDir files;
+    std::string truth = writeFile(files, "truth.txt", straightLine(1));
+    std::string estimate = writeFile(files, "estimate.txt", straightLine(1.05));
+};
+}  // namespace
+
+TEST_F(EvalApp, rpeTableAndBothSpellings)
+{
+    const CommandRun hyphens = run({"rpe", truth, estimate, "--fixed-delta", "--delta-unit", "s"});
+    EXPECT_EQ(hyphens.code, 0) << hyphens.err;
+    EXPECT_THAT(hyphens.out, HasSubstr("fixed delta 1 s"));
+    EXPECT_THAT(hyphens.out, HasSubstr("translation [m]      0.050000"));
+    const CommandRun underscores = run({"rpe", truth, estimate, "--fixed_delta", "--delta_unit=s"});
+    EXPECT_EQ(underscores.out, hyphens.out);
+}
+
+TEST_F(EvalApp, verboseIsTheScriptsOutput)
+{
+    EXPECT_THAT(
+        run({"rpe", truth, estimate, "--fixed_delta", "--verbose"}).out,
+        testing::StartsWith("compared_pairs 40 pairs\n"
+                            "translational_error.rmse 0.050000 m\n"));
+    EXPECT_THAT(
+        run({"ate", truth, estimate, "--verbose"}).out,
+        testing::StartsWith("compared_pose_pairs 51 pairs\n"
+                            "absolute_translational_error.rmse 0.073598 m\n"));
+}
+
+TEST_F(EvalApp, gateSetsTheExitCode)
+{
+    const std::vector<std::string> base{"rpe", truth, estimate, "--fixed-delta"};
+    const auto with = [&](const char* option, const char* value)
+    {
+        std::vector<std::string> args = base;
+        args.insert(args.end(), {option, value});
+        return run(args);
+    };
+    EXPECT_EQ(with("--max-rmse", "0.0501").code, 0);
+    EXPECT_EQ(with("--max-rmse-deg", "0.1").code, 0);
+    const CommandRun exceeded = with("--max-rmse", "0.0499");
+    EXPECT_EQ(exceeded.code, 1);
+    EXPECT_THAT(exceeded.err, HasSubstr("translation RMSE 0.050000 m exceeds"));
+    EXPECT_EQ(run({"ate", truth, estimate, "--max-rmse", "0.01"}).code, 1);
+}
+
+TEST_F(EvalApp, jsonAndCsv)
+{
+    const CommandRun json = run({"rpe", truth, estimate, "--fixed-delta", "--json", "-"});
+    const auto parsed = nlohmann::json::parse(json.out);
+    EXPECT_EQ(parsed["pairs"], 40);
+    EXPECT_NEAR(parsed["translation"]["rmse"], 0.05, 1e-9);
+    EXPECT_EQ(parsed["translation"]["unit"], "m");
+
+    const std::string csvPath = files / "out.csv";
+    EXPECT_EQ(run({"ate", truth, estimate, "--csv", csvPath}).code, 0);
+    std::ifstream csv(csvPath);
+    std::string header;
+    std::string row;
+    std::getline(csv, header);
+    std::getline(csv, row);
+    EXPECT_THAT(header, testing::StartsWith("estimate,ground_truth,protocol,quantity,unit,count"));
+    EXPECT_THAT(row, HasSubstr(",translation,m,51,0.0735"));
+}
+
+TEST_F(EvalApp, failuresSayWhyAndSetTheExitCode)
+{
+    EXPECT_EQ(run({}).code, 2);
+    EXPECT_EQ(run({"rpe", truth}).code, 2);
+    EXPECT_EQ(run({"rpe", truth, estimate, "--delta", "x"}).code, 2);
+    EXPECT_EQ(run({"--help"}).code, 0);
+    EXPECT_EQ(run({"--version"}).code, 0);
+
+    const CommandRun missing = run({"rpe", truth, files / "none.txt"});
+    EXPECT_EQ(missing.code, 2);
+    EXPECT_THAT(missing.err, HasSubstr("none.txt"));
+
+    const CommandRun unwritable =
+        run({"rpe", truth, estimate, "--fixed-delta", "--json", files / "no/dir.json"});
+    EXPECT_EQ(unwritable.code, 3);
+    EXPECT_THAT(unwritable.err, HasSubstr("no/dir.json"));
+    EXPECT_THAT(unwritable.out, HasSubstr("translation"));  // nothing lost
+}
+
+TEST_F(EvalApp, warningsOfTheReaderReachTheUser)
+{
+    const std::string withNan =
+        writeFile(files, "nan.txt", straightLine(1) + "9 nan 0 0 0 0 0 1\n");
+    EXPECT_THAT(run({"ate", truth, withNan}).err, HasSubstr("warning: "));
+}

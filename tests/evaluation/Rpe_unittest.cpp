@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/evaluation/rpe.h>
+#include <pointplane/evaluation/trajectory_text.h>
+
+#include <cmath>
+
+#include "test_trajectories.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+using namespace pointplane;
+using testing::HasSubstr;
+
+namespace
+{
+constexpr double kDeg = 180 / M_PI;
+
+/** The script's line, as it stands there. */
+Eigen::Isometry3d scriptError(
+    const Trajectory& gt, const Trajectory& est, std::size_t i, std::size_t j, double scale)
+{
+    Eigen::Isometry3d P = est.poses[j].inverse() * est.poses[i];
+    P.translation() *= scale;
+    return P.inverse() * (gt.poses[j].inverse() * gt.poses[i]);
+}
+
+/** n poses along x with a heading about z, at unit intervals. */
+Trajectory line(const std::vector<double>& x, double stampOffset = 0)
+{
+    std::vector<StampedPose> poses;
+    for (std::size_t i = 0; i < x.size(); ++i)
+    {
+        poses.push_back({static_cast<double>(i) + stampOffset, {}, {}});
+        poses.back().pose = Eigen::Translation3d(x[i], 0, 0);
+    }
+    return makeTrajectory("line", poses);
+}
+}  // namespace
+
+struct GoldenCase
+{
+    const char* sequence;
+    std::size_t pairs;
+    const char* translation;
+    const char* rotation;
+    friend void PrintTo(const GoldenCase& c, std::ostream* out) { *out << c.sequence; }
+};
+
+class RpeGolden : public testing::TestWithParam<GoldenCase>
+{
+};
+
+TEST_P(RpeGolden, matchesEvaluateRpeDigitForDigit)
+{
+    if (goldenDirectory().empty())
+    {
+        GTEST_SKIP() << "POINTPLANE_DATA is not set";
+    }
+    const std::string base = goldenDirectory() + "/" + GetParam().sequence;
+    RpeOptions options;
+    options.fixedDelta = true;
+    const RpeResult r = relativePoseError(
+        readTrajectoryText(base + "_groundtruth.txt"),
+        readTrajectoryText(base + "_estimate.txt"),
+        options);
+    char translation[32];
+    char rotation[32];
+    std::snprintf(translation, sizeof translation, "%.6f", r.translation.rmse);
+    std::snprintf(rotation, sizeof rotation, "%.6f", r.rotation.rmse * kDeg);
+    EXPECT_EQ(r.translation.count, GetParam().pairs);
+    EXPECT_STREQ(translation, GetParam().translation);
+    EXPECT_STREQ(rotation, GetParam().rotation);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Tum,
+    RpeGolden,
+    testing::Values(
+        GoldenCase{"fr1_360", 716, "0.088942", "3.415249"},
+        GoldenCase{"fr1_desk", 542, "0.033252", "1.599193"},
+        GoldenCase{"fr1_desk2", 575, "0.054410", "2.622562"},
+        GoldenCase{"fr1_room", 1301, "0.095368", "3.156646"},
+        GoldenCase{"fr1_xyz", 753, "0.021217", "0.934480"},
+        GoldenCase{"fr1_rpy", 649, "0.045952", "2.735805"}),
+    [](const auto& testCase) { return testCase.param.sequence; });
+
+TEST(Rpe, handValueOfADrift)
+{
+    RpeOptions options;
+    options.fixedDelta = true;
+    options.delta = 2;
+    // 10 % too long: every 2 s interval of 2 m is wrong by 0.2 m.
+    const RpeResult r = relativePoseError(
+        line({0, 1, 2, 3, 4, 5}),
+        line({0, 1.1, 2.2, 3.3, 4.4, 5.5}),
+        [&]
+        {
+            options.delta = 2;
+            return options;
+        }());
+    EXPECT_EQ(r.translation.count, 3u);  // the pair that ends at the last pose is dropped
+    EXPECT_NEAR(r.translation.rmse, 0.2, 1e-12);
+    EXPECT_NEAR(r.translation.std, 0, 1e-12);
+    EXPECT_EQ(r.rotation.max, 0);
+    options.scale = 1 / 1.1;
+    EXPECT_NEAR(
+        relativePoseError(line({0, 1, 2, 3, 4}), line({0, 1.1, 2.2, 3.3, 4.4}), options)
+            .translation.max,
+        0,
+        1e-12);
+}
+
+TEST(Rpe, identicalTrajectoriesAndRigidlyMovedOnesHaveNoError)
+{
+    const Trajectory truth = randomTrajectory(80, 5);
+    Trajectory moved = truth;
+    Vector6d xi;
+    xi << 3, -2, 1, 0.5, -0.7, 1.1;
+    for (Eigen::Isometry3d& T : moved.poses)
+    {
+        T = se3Exp(xi) * T;
+    }
+    RpeOptions options;
+    options.fixedDelta = true;
+    const RpeResult r = relativePoseError(truth, moved, options);
+    EXPECT_LT(r.translation.max, 1e-12);
+    EXPECT_LT(r.rotation.max, 1e-7);  // arccos near 1
+}
+
+TEST(Rpe, allPairsAreThoseOfTheScript)
+{
+    const Trajectory truth = randomTrajectory(40, 1);
+    const Trajectory estimate = perturbed(truth, 0.02, 2);
+    for (const double scale : {1.0, 1.3})
+    {
+        RpeOptions options;
+        options.scale = scale;
+        const RpeResult r = relativePoseError(truth, estimate, options);
+        std::vector<double> translations;
+        std::vector<double> rotations;
+        for (std::size_t i = 0; i < 40; ++i)
+        {
+            for (std::size_t j = 0; j < 40; ++j)
+            {
+                const Eigen::Isometry3d E = scriptError(truth, estimate, i, j, scale);
+                translations.push_back(E.translation().norm());
+                rotations.push_back(rotationAngle(E.linear()));
+            }
+        }
+        const Statistics t = statisticsOf(translations);
+        const Statistics w = statisticsOf(rotations);
+        EXPECT_EQ(r.translation.count, 1600u);
+        EXPECT_NEAR(r.translation.rmse, t.rmse, 1e-12);
+        EXPECT_NEAR(r.translation.median, t.median, 1e-12);
+        EXPECT_NEAR(r.translation.std, t.std, 1e-12);
+        EXPECT_NEAR(r.translation.max, t.max, 1e-12);
+        EXPECT_NEAR(r.rotation.rmse, w.rmse, 1e-9);
+        EXPECT_NEAR(r.rotation.mean, w.mean, 1e-9);
+    }
+}
+
+TEST(Rpe, evoFormulaIsThePapersOne)
+{
+    const Trajectory truth = randomTrajectory(30, 1);
+    const Trajectory estimate = perturbed(truth, 0.05, 2);
+    RpeOptions options;
+    options.fixedDelta = true;
+    options.delta = 3;
+    options.unit = DeltaUnit::Frames;
+    options.formula = RpeFormula::Evo;
+    for (const RpePair& pair : relativePoseError(truth, estimate, options).pairs)
+    {
+        EXPECT_EQ(pair.j, pair.i + 3);
+        const Eigen::Isometry3d E =
+            (truth.poses[pair.i].inverse() * truth.poses[pair.j]).inverse() *
+            (estimate.poses[pair.i].inverse() * estimate.poses[pair.j]);
+        EXPECT_NEAR(pair.translation, E.translation().norm(), 1e-12);
+        EXPECT_NEAR(pair.rotation, rotationAngle(E.linear()), 1e-9);
+    }
+}
+
+TEST(Rpe, deltaUnits)
+{
+    const Trajectory truth = line({0, 0.5, 1, 1.5, 2, 2.5, 3, 3.5});
+    const auto jOfFirst = [&](DeltaUnit unit, double delta, const Trajectory& t)
+    {
+        RpeOptions options;
+        options.fixedDelta = true;
+        options.unit = unit;
+        options.delta = delta;
+        return relativePoseError(t, t, options).pairs.at(0).j;
+    };
+    EXPECT_EQ(jOfFirst(DeltaUnit::Seconds, 2, truth), 2u);
+    EXPECT_EQ(jOfFirst(DeltaUnit::Frames, 3, truth), 3u);
+    EXPECT_EQ(jOfFirst(DeltaUnit::Metres, 2, truth), 4u);
+    Trajectory turning = truth;
+    for (std::size_t i = 0; i < turning.size(); ++i)
+    {
+        turning.poses[i].linear() = so3Exp({0, 0, 0.1 * static_cast<double>(i)});
+    }
+    EXPECT_EQ(jOfFirst(DeltaUnit::Radians, 0.41, turning), 4u);
+    EXPECT_EQ(jOfFirst(DeltaUnit::Degrees, 5.7, turning), 1u);
+    EXPECT_THROW((void)deltaUnitFromName("km"), std::invalid_argument);
+    EXPECT_EQ(deltaUnitFromName("deg"), DeltaUnit::Degrees);
+}
+
+TEST(Rpe, overAGapAPoseIsPairedWithItself)
+{
+    Trajectory estimate = line({0, 1, 2, 3, 4});
+    estimate.stamps = {0, 1, 2, 12, 13};
+    Trajectory truth = randomTrajectory(200, 3);
+    for (double& stamp : truth.stamps)
+    {
+        stamp -= 100;
+    }
+    RpeOptions options;
+    options.fixedDelta = true;
+    const RpeResult r = relativePoseError(truth, estimate, options);
+    EXPECT_EQ(r.pairs.at(2).i, 2u);
+    EXPECT_EQ(r.pairs.at(2).j, 2u);
+    EXPECT_EQ(r.pairs.at(2).translation, 0);
+    EXPECT_LT(r.coverage, 0.2);  // the title says so
+}
+
+TEST(Rpe, randomPairsAreRepeatableAndSaid)
+{
+    const Trajectory truth = randomTrajectory(150, 1);
+    const Trajectory estimate = perturbed(truth, 0.02, 2);
+    RpeOptions options;
+    options.maxPairs = 10000;
+    const RpeResult a = relativePoseError(truth, estimate, options);
+    const RpeResult b = relativePoseError(truth, estimate, options);
+    EXPECT_EQ(a.translation.count, 10000u);
+    EXPECT_TRUE(a.randomPairs);
+    EXPECT_EQ(a.translation.rmse, b.translation.rmse);
+    options.seed = 2;
+    EXPECT_NE(relativePoseError(truth, estimate, options).translation.rmse, a.translation.rmse);
+    EXPECT_THAT(describe(options, a), HasSubstr("drawn with seed 2"));
+    options.fixedDelta = true;
+    options.maxPairs = 50;
+    EXPECT_EQ(relativePoseError(truth, estimate, options).pairs.size(), 50u);
+}
+
+TEST(Rpe, titleStatesTheProtocol)
+{
+    const Trajectory truth = randomTrajectory(50, 1);
+    RpeOptions options;
+    options.fixedDelta = true;
+    const std::string title = describe(options, relativePoseError(truth, truth, options));
+    for (const char* part :
+         {"evaluate_rpe", "fixed delta 1 s", "nearest stamp", "39 of 39 pairs", "coverage 100.0 %"})
+    {
+        EXPECT_THAT(title, HasSubstr(part));
+    }
+}
+
+TEST(Rpe, refusesWhatCannotBeScored)
+{
+    const Trajectory truth = line({0, 1, 2, 3});
+    RpeOptions options;
+    options.fixedDelta = true;
+    try
+    {
+        (void)relativePoseError(truth, line({0, 1, 2}, 1000), options);
+        FAIL() << "no exception";
+    }
+    catch (const std::runtime_error& e)
+    {
+        EXPECT_THAT(e.what(), HasSubstr("[0.000, 3.000]"));
+        EXPECT_THAT(e.what(), HasSubstr("[1000.000, 1002.000]"));
+    }
+    EXPECT_THROW((void)relativePoseError(truth, line({0}), options), std::runtime_error);
+    options.delta = 1000;  // no pair at all
+    EXPECT_THROW((void)relativePoseError(truth, truth, options), std::runtime_error);
+}

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/evaluation/trajectory_text.h>
+
+#include "test_trajectories.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+using namespace pointplane;
+using testing::HasSubstr;
+
+namespace
+{
+std::string messageOf(const std::string& path)
+{
+    try
+    {
+        (void)readTrajectoryText(path);
+    }
+    catch (const std::runtime_error& e)
+    {
+        return e.what();
+    }
+    return "";
+}
+}  // namespace
+
+TEST(TrajectoryText, readsTumWithCommentsCommasTabsAndCarriageReturns)
+{
+    test::TempDir files;
+    const Trajectory t = readTrajectoryText(writeFile(
+        files,
+        "t.txt",
+        "# comment\n\n1.5 1 2 3 0 0 0 2\r\n0.5,\t4,5,6,  0,0,1,1 99\n"
+        "\t\n"));
+    ASSERT_EQ(t.size(), 2u);
+    EXPECT_EQ(t.stamps[0], 0.5);                                                 // sorted
+    EXPECT_TRUE(t.poses[0].linear().isApprox(so3Exp({0, 0, M_PI / 2}), 1e-12));  // normalised
+    EXPECT_EQ(t.poses[1].translation(), Eigen::Vector3d(1, 2, 3));
+    EXPECT_TRUE(t.warnings.empty());
+    EXPECT_TRUE(t.covs.empty());
+}
+
+TEST(TrajectoryText, readsMrptInterpolatorText)
+{
+    test::TempDir files;
+    const Trajectory t = readTrajectoryText(
+        writeFile(files, "t.txt", "% time x y z yaw pitch roll\n7 1 2 3 0.3 0 0\n"));
+    ASSERT_EQ(t.size(), 1u);
+    EXPECT_TRUE(t.poses[0].linear().isApprox(so3Exp({0, 0, 0.3}), 1e-12));
+    const Trajectory r = readTrajectoryText(writeFile(files, "r.txt", "7 1 2 3 0.3 0.2 0.1\n"));
+    const Eigen::Matrix3d expected =
+        so3Exp({0, 0, 0.3}) * so3Exp({0, 0.2, 0}) * so3Exp({0.1, 0, 0});
+    EXPECT_TRUE(r.poses[0].linear().isApprox(expected, 1e-12));
+}
+
+TEST(TrajectoryText, leavesOutNanZeroQuaternionsAndRepeatsButSaysSo)
+{
+    test::TempDir files;
+    const Trajectory t = readTrajectoryText(writeFile(
+        files,
+        "t.txt",
+        "1 0 0 0 0 0 0 1\n"
+        "2 nan 0 0 0 0 0 1\n"
+        "3 0 0 0 0 0 0 0\n"
+        "4 7 0 0 0 0 0 1\n"
+        "4 8 0 0 0 0 0 1\n"));
+    ASSERT_EQ(t.size(), 2u);
+    EXPECT_EQ(t.poses[1].translation().x(), 8);  // the last one wins
+    EXPECT_THAT(
+        t.warnings,
+        testing::ElementsAre(
+            HasSubstr("1 pose(s) with a repeated stamp"),
+            HasSubstr("NaN or infinity left out, the first is line 2"),
+            HasSubstr("zero quaternion left out, the first is line 3")));
+}
+
+TEST(TrajectoryText, namesFileAndLineOfMalformedInput)
+{
+    test::TempDir files;
+    EXPECT_THAT(messageOf(files / "none.txt"), HasSubstr("none.txt"));
+    EXPECT_THAT(messageOf(files / ""), HasSubstr("cannot read"));
+    EXPECT_THAT(
+        messageOf(writeFile(files, "a.txt", "1 0 0 0 0 0 0 1\n2 0 0 x1 0 0 0 1\n")),
+        HasSubstr("a.txt:2: 'x1' is not a number"));
+    EXPECT_THAT(
+        messageOf(writeFile(files, "c.txt", "1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0\n")),
+        HasSubstr("c.txt:2: 7 columns"));
+    EXPECT_THAT(messageOf(writeFile(files, "d.txt", "1 2 3\n")), HasSubstr("d.txt:1: 3 columns"));
+    EXPECT_THAT(messageOf(writeFile(files, "e.txt", "# nothing\n")), HasSubstr("no usable pose"));
+    EXPECT_THAT(
+        messageOf(writeFile(files, "f.txt", "1 1e999 0 0 0 0 0 1\n")), HasSubstr("f.txt:1"));
+}
