@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pointplane/simulation/Renderer.h>
+#include <pointplane/simulation/SimulationParams.h>
+
+#include <cstdint>
+
+namespace pointplane
+{
+/** A structured-light depth camera: what it makes of the true inverse depth.
+ *
+ * It matches windows of a projected pattern, so its noise lives in disparity = f b / Z: constant in
+ * inverse depth, correlated over the window, and quantised (Khoshelham & Elberink 2012; Konolige &
+ * Mihelich 2010). Edges are ragged because a window may match either side (Nguyen, Izadi & Lovell
+ * 2012, lateral noise). No reading: in the projector's shadow, at depth edges, on surfaces seen
+ * too flat, out of range. */
+class DepthSensor
+{
+ public:
+    DepthSensor(const SimulationParams& params, const Scene& scene);
+
+    /** \param cast true picture \param frameKey seed of this frame's noise
+     * \return CV_32FC1 [m], NaN = no reading */
+    [[nodiscard]] cv::Mat sense(const CastImage& cast, std::uint64_t frameKey) const;
+
+ private:
+    [[nodiscard]] cv::Mat readable(const CastImage& cast) const;
+    void dropShadow(const float* inverseDepth, uchar* readable) const;
+    void dropFlat(const CastImage& cast, int v, uchar* readable) const;
+    void dropEdges(const cv::Mat& inverseDepth, int v, uchar* readable) const;
+
+    SimulationParams params_;
+    PinholeCamera camera_;
+    double pixelScale_;           //!< image width / 640
+    std::vector<char> hasDepth_;  //!< per surface
+};
+}  // namespace pointplane

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pointplane/sensor/PinholeCamera.h>
+#include <pointplane/simulation/Scene.h>
+
+#include <opencv2/core/mat.hpp>
+
+#include <vector>
+
+namespace pointplane
+{
+/** The camera's pose T_world_cam when each row of a picture was taken, top row first. */
+using RowPoses = std::vector<Eigen::Isometry3d>;
+
+/** What the rays of a picture hit. */
+struct CastImage
+{
+    cv::Mat inverseDepth;  //!< CV_32FC1 [1/m], 0 = nothing
+    cv::Mat ids;           //!< CV_32SC1, index of the surface, -1 = nothing
+};
+
+[[nodiscard]] CastImage castImage(
+    const Scene& scene, const PinholeCamera& camera, const RowPoses& poses);
+
+/** Colours of a cast picture, CV_8UC3.
+ * \param antialias pixels at the edges of surfaces are averages over four samples */
+[[nodiscard]] cv::Mat shadeImage(
+    const Scene& scene,
+    const PinholeCamera& camera,
+    const RowPoses& poses,
+    const CastImage& cast,
+    bool antialias);
+}  // namespace pointplane

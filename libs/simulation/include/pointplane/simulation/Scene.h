@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pointplane/simulation/CameraPath.h>
+#include <pointplane/simulation/Surface.h>
+
+#include <string>
+#include <vector>
+
+namespace pointplane
+{
+/** A world that stands still, and how a camera is carried through it. World: z up, metres. */
+struct Scene
+{
+    std::string name;
+    std::vector<Surface> surfaces;
+    CameraMotion motion;
+};
+
+/** Light of a scene: a lamp with soft shadows, and as much from everywhere. */
+struct Lamp
+{
+    Eigen::Vector3d position{0, 0, 2.4};
+    double size{0.5};     //!< edge of the square it shines from [m]
+    double power{0.55};   //!< brightness of a surface that faces it at 1.5 m, of 1
+    double ambient{0.5};  //!< brightness of what it does not reach
+};
+
+/** Multiplies each picture by the light that falls on its surface (Lambert's law, independent of
+ * the viewpoint) and makes it the surface's texture.
+ * \param pictures CV_8UC3, one per surface \param texels [m] */
+void bakeTextures(
+    Scene& scene,
+    const Lamp& lamp,
+    const std::vector<cv::Mat>& pictures,
+    const std::vector<double>& texels);
+}  // namespace pointplane

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/simulation/DepthSensor.h>
+#include <pointplane/simulation/Random.h>
+
+#include <opencv2/imgproc.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pointplane
+{
+namespace
+{
+constexpr double kRadPerDeg = 3.14159265358979323846 / 180;
+/** A disparity step larger than this splits a matching window [px]. */
+constexpr double kEdgeDisparityPx = 1.0;
+/** Spacing of the points between which the lateral displacement is interpolated [px]. */
+constexpr double kLateralGridPx = 4.0;
+
+cv::Mat whiteNoise(int rows, int cols, double sigma, std::uint64_t key, std::uint64_t purpose)
+{
+    cv::Mat out(rows, cols, CV_32FC1);
+    for (int v = 0; v < rows; ++v)
+    {
+        Random random({key, purpose, static_cast<std::uint64_t>(v)});
+        auto* row = out.ptr<float>(v);
+        for (int u = 0; u < cols; ++u)
+        {
+            row[u] = static_cast<float>(sigma) * random.gaussian();
+        }
+    }
+    return out;
+}
+
+/** Noise with standard deviation sigma whose neighbours share a window x window box. */
+cv::Mat windowNoise(
+    cv::Size size, int window, double sigma, std::uint64_t key, std::uint64_t purpose)
+{
+    cv::Mat white =
+        whiteNoise(size.height + window - 1, size.width + window - 1, sigma * window, key, purpose);
+    if (window == 1)
+    {
+        return white;
+    }
+    cv::Mat out;
+    cv::boxFilter(white, out, CV_32F, {window, window}, {0, 0});
+    return out(cv::Rect(cv::Point(0, 0), size));
+}
+
+/** Smooth displacement of pixels, rounded. */
+cv::Mat lateralNoise(
+    cv::Size size, double grid, double sigma, std::uint64_t key, std::uint64_t purpose)
+{
+    const int rows = static_cast<int>(std::ceil(size.height / grid)) + 1;
+    const int cols = static_cast<int>(std::ceil(size.width / grid)) + 1;
+    // Linear interpolation leaves 4/9 of the variance on average in two dimensions.
+    const cv::Mat coarse = whiteNoise(rows, cols, 1.5 * sigma, key, purpose);
+    cv::Mat fine, out;
+    cv::resize(coarse, fine, {}, grid, grid, cv::INTER_LINEAR);
+    fine(cv::Rect(cv::Point(0, 0), size)).convertTo(out, CV_16S);
+    return out;
+}
+}  // namespace
+
+DepthSensor::DepthSensor(const SimulationParams& params, const Scene& scene)
+    : params_(params), camera_(params.camera()), pixelScale_(params.width / 640.0)
+{
+    for (const Surface& surface : scene.surfaces)
+    {
+        hasDepth_.push_back(surface.hasDepth ? 1 : 0);
+    }
+}
+
+void DepthSensor::dropShadow(const float* inverseDepth, uchar* readable) const
+{
+    // The projector is to the right of the camera: column u lies on its column u - f b / Z. From
+    // the right, what lies behind a column already lit is in shadow.
+    const auto perInverseDepth = static_cast<float>(camera_.fx * params_.shadowBaseline);
+    float lit = std::numeric_limits<float>::max();
+    for (int u = camera_.width - 1; u >= 0; --u)
+    {
+        const float column = static_cast<float>(u) - perInverseDepth * inverseDepth[u];
+        if (column > lit + 1.0F)
+        {
+            readable[u] = 0;
+        }
+        lit = std::min(lit, column);
+    }
+}
+
+void DepthSensor::dropFlat(const CastImage& cast, int v, uchar* readable) const
+{
+    const auto* q = cast.inverseDepth.ptr<float>(v);
+    const auto* id = cast.ids.ptr<std::int32_t>(v);
+    const int other = v > 0 ? v - 1 : v + 1;
+    const auto* qOther = cast.inverseDepth.ptr<float>(other);
+    const auto* idOther = cast.ids.ptr<std::int32_t>(other);
+    const auto fx = static_cast<float>(camera_.fx), fy = static_cast<float>(camera_.fy);
+    const auto cx = static_cast<float>(camera_.cx);
+    const auto y = static_cast<float>((v - camera_.cy) / camera_.fy);
+    const double cosine = std::cos(params_.maxIncidenceDeg * kRadPerDeg);
+    const auto minCosineSquared = static_cast<float>(cosine * cosine);
+    for (int u = 0; u < camera_.width; ++u)
+    {
+        const int left = u > 0 && id[u - 1] == id[u] ? u - 1 : u;
+        const int right = u + 1 < camera_.width && id[u + 1] == id[u] ? u + 1 : u;
+        const float gx = fx * (q[right] - q[left]) / static_cast<float>(std::max(1, right - left));
+        const float gy =
+            idOther[u] == id[u] ? fy * (q[u] - qOther[u]) / static_cast<float>(v - other) : 0.0F;
+        // 1/Z = m . (x, y, 1) on the tangent plane; its normal is m / |m|.
+        const float x = (static_cast<float>(u) - cx) / fx;
+        const float gz = q[u] - gx * x - gy * y;
+        const float m2 = gx * gx + gy * gy + gz * gz;
+        if (q[u] * q[u] < minCosineSquared * m2 * (x * x + y * y + 1))
+        {
+            readable[u] = 0;
+        }
+    }
+}
+
+void DepthSensor::dropEdges(const cv::Mat& inverseDepth, int v, uchar* readable) const
+{
+    const int reach = std::max(1, static_cast<int>(std::lround(params_.edgeLossPx * pixelScale_)));
+    const auto step = static_cast<float>(kEdgeDisparityPx / params_.disparityPxMetre);
+    const auto* q = inverseDepth.ptr<float>(v);
+    const auto* above = inverseDepth.ptr<float>(std::max(v - reach, 0));
+    const auto* below = inverseDepth.ptr<float>(std::min(v + reach, camera_.height - 1));
+    for (int u = 0; u < camera_.width; ++u)
+    {
+        const float left = q[std::max(u - reach, 0)];
+        const float right = q[std::min(u + reach, camera_.width - 1)];
+        const float far = std::max(
+            std::max(std::abs(left - q[u]), std::abs(right - q[u])),
+            std::max(std::abs(above[u] - q[u]), std::abs(below[u] - q[u])));
+        if (far > step)
+        {
+            readable[u] = 0;
+        }
+    }
+}
+
+cv::Mat DepthSensor::readable(const CastImage& cast) const
+{
+    cv::Mat out(camera_.height, camera_.width, CV_8UC1);
+    const auto low = static_cast<float>(1 / params_.maxDepth);
+    const auto high = static_cast<float>(1 / std::max(params_.minDepth, 1e-3));
+    for (int v = 0; v < camera_.height; ++v)
+    {
+        auto* row = out.ptr<uchar>(v);
+        const auto* q = cast.inverseDepth.ptr<float>(v);
+        const auto* id = cast.ids.ptr<std::int32_t>(v);
+        for (int u = 0; u < camera_.width; ++u)
+        {
+            row[u] = id[u] >= 0 && q[u] >= low && q[u] <= high &&
+                             hasDepth_[static_cast<std::size_t>(id[u])]
+                         ? 1
+                         : 0;
+        }
+        if (params_.shadowBaseline > 0)
+        {
+            dropShadow(q, row);
+        }
+        if (params_.maxIncidenceDeg < 90)
+        {
+            dropFlat(cast, v, row);
+        }
+        if (params_.edgeLossPx > 0)
+        {
+            dropEdges(cast.inverseDepth, v, row);
+        }
+    }
+    return out;
+}
+
+cv::Mat DepthSensor::sense(const CastImage& cast, std::uint64_t frameKey) const
+{
+    const cv::Size size(camera_.width, camera_.height);
+    const cv::Mat ok = readable(cast);
+    const double step = params_.disparityStepPx / params_.disparityPxMetre;
+    // Rounding to multiples of step has variance step^2 / 12; the rest comes from matching.
+    const double matching = std::sqrt(
+        std::max(0.0, params_.sigmaInverseDepth * params_.sigmaInverseDepth - step * step / 12));
+    const int window =
+        std::max(1, static_cast<int>(std::lround(params_.noiseWindowPx * pixelScale_)));
+    cv::Mat noise, dx, dy;
+    if (matching > 0)
+    {
+        noise = windowNoise(size, window, matching, frameKey, 1);
+    }
+    const double lateral = params_.lateralSigmaPx * pixelScale_;
+    if (lateral > 0)
+    {
+        const double grid = std::max(2.0, kLateralGridPx * pixelScale_);
+        dx = lateralNoise(size, grid, lateral, frameKey, 2);
+        dy = lateralNoise(size, grid, lateral, frameKey, 3);
+    }
+    cv::Mat depth(size, CV_32FC1);
+    const auto stepF = static_cast<float>(step);
+    const float perStep = step > 0 ? 1.0F / stepF : 0.0F;
+    for (int v = 0; v < size.height; ++v)
+    {
+        auto* out = depth.ptr<float>(v);
+        for (int u = 0; u < size.width; ++u)
+        {
+            const int x = dx.empty() ? u : std::clamp(u + dx.ptr<short>(v)[u], 0, size.width - 1);
+            const int y = dy.empty() ? v : std::clamp(v + dy.ptr<short>(v)[u], 0, size.height - 1);
+            float q = cast.inverseDepth.ptr<float>(y)[x];
+            if (!noise.empty())
+            {
+                q += noise.ptr<float>(v)[u];
+            }
+            if (step > 0)
+            {
+                q = stepF * static_cast<float>(static_cast<int>(q * perStep + 0.5F));
+            }
+            const bool good = ok.ptr<uchar>(y)[x] != 0 && q > 0;
+            out[u] = good ? 1.0F / q : std::numeric_limits<float>::quiet_NaN();
+        }
+    }
+    return depth;
+}
+}  // namespace pointplane

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/simulation/scenes.h>
+
+#include <sstream>
+#include <stdexcept>
+
+#include "scenes_internal.h"
+
+namespace pointplane
+{
+namespace
+{
+struct Entry
+{
+    SceneInfo info;
+    Scene (*make)(std::uint64_t seed);
+};
+
+const std::vector<Entry>& entries()
+{
+    static const std::vector<Entry> all{
+        {{"corner", "three planes of a room corner, moderate texture"}, makeCorner},
+        {{"desk", "objects on a desk, posters on the walls"}, makeDesk}};
+    return all;
+}
+}  // namespace
+
+const std::vector<SceneInfo>& sceneList()
+{
+    static const std::vector<SceneInfo> infos = []
+    {
+        std::vector<SceneInfo> out;
+        for (const Entry& entry : entries())
+        {
+            out.push_back(entry.info);
+        }
+        return out;
+    }();
+    return infos;
+}
+
+Scene makeScene(const std::string& name, std::uint64_t seed)
+{
+    std::ostringstream known;
+    for (const Entry& entry : entries())
+    {
+        if (entry.info.name == name)
+        {
+            return entry.make(seed);
+        }
+        known << ' ' << entry.info.name;
+    }
+    throw std::invalid_argument("unknown scene '" + name + "', known are:" + known.str());
+}
+}  // namespace pointplane

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pointplane/simulation/Scene.h>
+
+#include <cstdint>
+
+namespace pointplane
+{
+[[nodiscard]] Scene makeCorner(std::uint64_t seed);
+[[nodiscard]] Scene makeDesk(std::uint64_t seed);
+}  // namespace pointplane
