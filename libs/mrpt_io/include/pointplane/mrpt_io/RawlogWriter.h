@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+namespace mrpt::serialization
+{
+class CSerializable;
+}
+
+namespace pointplane
+{
+struct RawlogWriterOptions
+{
+    int compressionLevel{1};  //!< zlib level 0 to 9; 0 keeps the gz frame and its checksum
+    /** After so many objects or bytes, whichever comes first, everything so far is handed to the
+     * operating system; a killed process loses at most the rest. Counts, not time: the bytes
+     * written must not depend on the clock. */
+    std::size_t flushEveryObjects{30};
+    std::size_t flushEveryBytes{1U << 20U};
+};
+
+/** Writes a rawlog that is either complete or marked as not.
+ *
+ * Objects go to `<path>.partial`, which close() renames to `path`. Without close() the partial file
+ * stays, readable up to the last flush. Every write is checked (MRPT's own stream swallows a full
+ * disk). The file is gz-compressed, as MRPT's are. Not thread-safe. */
+class RawlogWriter
+{
+ public:
+    using Options = RawlogWriterOptions;
+
+    /** Replaces a partial file that an earlier run left; `path` itself stays untouched until
+     * close(). \throws EnvironmentError if the file cannot be created */
+    explicit RawlogWriter(const std::string& path, const Options& options = {});
+    /** Leaves the partial file if close() was not called. */
+    ~RawlogWriter();
+    RawlogWriter(const RawlogWriter&) = delete;
+    RawlogWriter& operator=(const RawlogWriter&) = delete;
+
+    /** Appends an observation, a CSensoryFrame or a CActionCollection.
+     * \throws EnvironmentError if the disk is full or the like */
+    void write(const mrpt::serialization::CSerializable& object);
+
+    /** Hands everything written so far to the operating system. \throws EnvironmentError */
+    void flush();
+
+    /** Completes the file and renames it to path(). \throws EnvironmentError */
+    void close();
+
+    [[nodiscard]] const std::string& path() const;
+    [[nodiscard]] const std::string& partialPath() const;
+    [[nodiscard]] std::size_t numObjects() const;
+    [[nodiscard]] std::uint64_t numBytes() const;  //!< before compression
+
+ private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+}  // namespace pointplane

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace pointplane
+{
+/** Something that the user gave is wrong: a missing file, an unknown key, a wrong label. The
+ * message is one line that names it. Applications exit with kExitBadInput. */
+class InputError : public std::runtime_error
+{
+ public:
+    using std::runtime_error::runtime_error;
+};
+
+/** The machine does not play along: disk full, unwritable output, no device. One line. Applications
+ * exit with kExitEnvironment. */
+class EnvironmentError : public std::runtime_error
+{
+ public:
+    using std::runtime_error::runtime_error;
+};
+
+/** @name Exit codes of all applications
+ * @{ */
+constexpr int kExitOk = 0;
+constexpr int kExitIncomplete = 1;  //!< gate exceeded, or input damaged: what was read is written
+constexpr int kExitBadInput = 2;
+constexpr int kExitEnvironment = 3;
+/** @} */
+
+/** The first sentence of an exception; MRPT's carry a stack trace of many lines. */
+[[nodiscard]] std::string oneLine(const std::exception& e);
+}  // namespace pointplane

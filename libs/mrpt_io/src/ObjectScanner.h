@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "GzInput.h"
+
+namespace pointplane
+{
+/** Copies one serialised MRPT object from a file into memory, checking every length field on the
+ * way.
+ *
+ * MRPT allocates what a length field says before it reads, unchecked: a flipped bit means gigabytes
+ * or a crash. The scanner knows the layout of the classes of RGB-D rawlogs (observations, poses,
+ * images, frames and actions, in the versions listed in the source) and grows its buffer only as
+ * bytes arrive. Objects of other classes are measured by letting MRPT read them. */
+class ObjectScanner
+{
+ public:
+    /** Why an object could not be copied; the text is one clause. */
+    class Problem : public std::runtime_error
+    {
+     public:
+        using std::runtime_error::runtime_error;
+    };
+
+    /** What a range scan says about its depth camera. MRPT replaces it by the size of the range
+     * image while reading, which hides intrinsics of another resolution. */
+    struct Resolution
+    {
+        std::uint32_t rows{0}, cols{0};
+    };
+
+    explicit ObjectScanner(GzInput& in) : in_(in) {}
+
+    /** Copies the next object. False if the input ended before its first byte.
+     * \throws Problem */
+    bool scan(std::vector<std::uint8_t>& bytes);
+
+    /** Of the depth camera of each range scan in the object, in order, as it was in the file; in
+     * the copied bytes the size of the range image stands in its place. */
+    [[nodiscard]] const std::vector<Resolution>& cameraResolutions() const { return resolutions_; }
+
+ private:
+    struct Header
+    {
+        std::string className;  //!< without namespace
+        int version{0};
+        std::size_t begin{0};  //!< of the object in the buffer
+    };
+
+    // Primitives: copy and return.
+    void copy(std::uint64_t size);
+    template <class T>
+    T copyValue();
+    bool copyBool();
+    void copyString();
+    void copyArray(std::uint64_t count, std::uint64_t elementSize);
+
+    Header copyHeader();
+    void copyBody(const Header& header, int depth);
+    void copyObject(const char* expectedClass);
+    void copyAnyObject(int depth);
+    void copyObjects(int depth);
+    void copyEndFlag(const Header& header);
+
+    // Bodies, each named after its class.
+    void range3DScan(int version);
+    void rangeImage(int version);
+    void exchangeResolution(const Resolution& range);
+    void pixelLabels();
+    void image(int version);
+    void grayPixels(int version);
+    void colourPixels(int version);
+    void camera(int version);
+    void pose3D(int version);
+    void opaque(const Header& header);
+
+    GzInput& in_;
+    std::vector<std::uint8_t>* bytes_{nullptr};
+    std::vector<Resolution> resolutions_;
+    std::size_t cameraResolutionAt_{0};  // in the buffer, of the latest camera
+};
+}  // namespace pointplane

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/mrpt_io/errors.h>
+
+namespace pointplane
+{
+std::string oneLine(const std::exception& e)
+{
+    std::string text = e.what();
+    // MRPT: "Message:  <text>\nLocation: ..." once per stack frame, the innermost first.
+    const std::string key = "Message:";
+    if (const auto at = text.find(key); at != std::string::npos)
+    {
+        text = text.substr(at + key.size());
+    }
+    const auto first = text.find_first_not_of(" \t\r\n");
+    if (first == std::string::npos)
+    {
+        return "unknown error";
+    }
+    text = text.substr(first);
+    text = text.substr(0, text.find_first_of("\r\n"));
+    return text.substr(0, text.find_last_not_of(" \t") + 1);
+}
+}  // namespace pointplane

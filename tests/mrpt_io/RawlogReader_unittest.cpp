@@ -1,0 +1,377 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/mrpt_io/RawlogReader.h>
+#include <pointplane/mrpt_io/errors.h>
+
+#include <mrpt/io/CFileGZInputStream.h>
+#include <mrpt/io/CFileGZOutputStream.h>
+#include <mrpt/io/CFileOutputStream.h>
+#include <mrpt/io/CMemoryStream.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservationIMU.h>
+#include <mrpt/serialization/CArchive.h>
+
+#include <random>
+
+#include "TempDir.h"
+#include "rawlog_samples.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace pointplane
+{
+namespace
+{
+using test::RawlogContents;
+using test::readAll;
+using test::readBytes;
+using test::TempDir;
+using test::writeBytes;
+
+std::string messageFor(const std::string& path)
+{
+    try
+    {
+        RawlogReader reader(path);
+    }
+    catch (const InputError& e)
+    {
+        return e.what();
+    }
+    return "no error";
+}
+
+/** The decompressed bytes of a gz rawlog. */
+std::string decompressed(const std::string& path)
+{
+    mrpt::io::CFileGZInputStream in(path);
+    std::string out;
+    char buffer[65536];
+    while (const std::size_t n = in.Read(buffer, sizeof(buffer)))
+    {
+        out.append(buffer, n);
+    }
+    return out;
+}
+
+TEST(RawlogReader, readsBackWhatMrptWrote)
+{
+    const TempDir dir;
+    const auto expected = test::sampleScan(3);
+    {
+        mrpt::io::CFileGZOutputStream file(dir / "a.rawlog");
+        auto archive = mrpt::serialization::archiveFrom(file);
+        archive << *expected;
+    }
+    const RawlogContents contents = readAll(dir / "a.rawlog");
+    ASSERT_EQ(contents.objects.size(), 1U);
+    EXPECT_EQ(contents.ending.kind, RawlogEnd::Clean);
+    const auto scan =
+        std::dynamic_pointer_cast<mrpt::obs::CObservation3DRangeScan>(contents.objects[0]);
+    ASSERT_TRUE(scan);
+    EXPECT_EQ(scan->timestamp, expected->timestamp);
+    EXPECT_EQ(scan->rangeImage, expected->rangeImage);
+    EXPECT_EQ(scan->intensityImage.getAsFloat(5, 7), expected->intensityImage.getAsFloat(5, 7));
+}
+
+TEST(RawlogReader, readsEveryMemberThatAScanCanHave)
+{
+    const TempDir dir;
+    const auto scan = test::sampleScan(0);
+    scan->hasPoints3D = true;
+    scan->resizePoints3DVectors(7);
+    for (std::size_t i = 0; i < 7; ++i)
+    {
+        scan->points3D_x[i] = static_cast<float>(i);
+    }
+    scan->hasConfidenceImage = true;
+    scan->confidenceImage.resize(32, 24, mrpt::img::CH_GRAY);
+    scan->rangeImageOtherLayers["second"].setSize(24, 32);
+    {
+        RawlogWriter writer(dir / "a.rawlog");
+        writer.write(*scan);
+        auto gray = test::sampleScan(1);
+        gray->intensityImage = gray->intensityImage.grayscale();
+        writer.write(*gray);
+        auto deep = test::sampleScan(2);
+        deep->intensityImage.resize(32, 24, mrpt::img::CH_GRAY, mrpt::img::PixelDepth::D16U);
+        writer.write(*deep);
+        auto empty = mrpt::obs::CObservation3DRangeScan::Create();
+        writer.write(*empty);
+        writer.close();
+    }
+    const RawlogContents contents = readAll(dir / "a.rawlog");
+    EXPECT_EQ(contents.ending.kind, RawlogEnd::Clean) << contents.ending.message;
+    ASSERT_EQ(contents.objects.size(), 4U);
+    const auto back =
+        std::dynamic_pointer_cast<mrpt::obs::CObservation3DRangeScan>(contents.objects[0]);
+    EXPECT_EQ(back->points3D_x.at(6), 6.0F);
+}
+
+TEST(RawlogReader, readsBothFormatsPlainAndCompressed)
+{
+    const TempDir dir;
+    test::writeObservations(dir / "2.rawlog", 5);
+    test::writeActionsAndFrames(dir / "1.rawlog", 5);
+    writeBytes(dir / "2plain.rawlog", decompressed(dir / "2.rawlog"));
+    writeBytes(dir / "1plain.rawlog", decompressed(dir / "1.rawlog"));
+    for (const auto& [name, count] :
+         {std::pair{"1.rawlog", 10}, {"1plain.rawlog", 10}, {"2.rawlog", 5}, {"2plain.rawlog", 5}})
+    {
+        const RawlogContents contents = readAll(dir / name);
+        EXPECT_EQ(contents.objects.size(), static_cast<std::size_t>(count)) << name;
+        EXPECT_EQ(contents.ending.kind, RawlogEnd::Clean) << name << contents.ending.message;
+    }
+}
+
+TEST(RawlogReader, readsConcatenatedCompressedFiles)
+{
+    const TempDir dir;
+    test::writeObservations(dir / "a.rawlog", 3);
+    const std::string bytes = readBytes(dir / "a.rawlog");
+    writeBytes(dir / "b.rawlog", bytes + bytes);
+    const RawlogContents contents = readAll(dir / "b.rawlog");
+    EXPECT_EQ(contents.objects.size(), 6U);
+    EXPECT_EQ(contents.ending.kind, RawlogEnd::Clean);
+    // The same with a damaged second half, which zlib's own reader would ignore.
+    writeBytes(dir / "c.rawlog", bytes + "?" + bytes.substr(1));
+    const RawlogContents damaged = readAll(dir / "c.rawlog");
+    EXPECT_EQ(damaged.objects.size(), 3U);
+    EXPECT_EQ(damaged.ending.kind, RawlogEnd::Damaged);
+}
+
+TEST(RawlogReader, passesOtherSensorsOn)
+{
+    const TempDir dir;
+    {
+        RawlogWriter writer(dir / "a.rawlog");
+        mrpt::obs::CObservationIMU imu;
+        imu.sensorLabel = "IMU";
+        writer.write(imu);
+        mrpt::obs::CSensoryFrame frame;
+        auto laser = mrpt::obs::CObservation2DRangeScan::Create();
+        laser->resizeScan(361);
+        frame.insert(laser);
+        frame.insert(test::sampleScan(0));
+        writer.write(frame);
+        writer.write(*test::sampleScan(1));
+        writer.close();
+    }
+    const RawlogContents contents = readAll(dir / "a.rawlog");
+    EXPECT_EQ(contents.ending.kind, RawlogEnd::Clean) << contents.ending.message;
+    ASSERT_EQ(contents.objects.size(), 3U);
+    const auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(contents.objects[1]);
+    ASSERT_TRUE(frame);
+    EXPECT_EQ(frame->size(), 2U);
+}
+
+TEST(RawlogReader, readsMrptsOwnDatasets)
+{
+    for (const char* name :
+         {"tests_rgbd.rawlog", "kf-slam_6D_demo.rawlog", "localization_demo.rawlog"})
+    {
+        const std::string path = std::string("/usr/share/mrpt/datasets/") + name;
+        if (!std::filesystem::exists(path))
+        {
+            GTEST_SKIP() << path << " is not installed (package mrpt-common)";
+        }
+        const RawlogContents contents = readAll(path);
+        EXPECT_EQ(contents.ending.kind, RawlogEnd::Clean) << contents.ending.message;
+        EXPECT_GE(contents.objects.size(), 1U);
+    }
+}
+
+TEST(RawlogReader, badFilesAreNamed)
+{
+    const TempDir dir;
+    EXPECT_THAT(messageFor(dir / "none.rawlog"), testing::HasSubstr("none.rawlog: No such file"));
+    EXPECT_THAT(messageFor(dir / ""), testing::HasSubstr("is a directory"));
+    writeBytes(dir / "empty.rawlog", "");
+    EXPECT_EQ(messageFor(dir / "empty.rawlog"), dir / "empty.rawlog" + ": is empty");
+    writeBytes(dir / "text.rawlog", "# timestamp tx ty tz\n1 2 3\n");
+    EXPECT_THAT(messageFor(dir / "text.rawlog"), testing::HasSubstr("is it a rawlog?"));
+    writeBytes(dir / "zstd.rawlog", "\x28\xb5\x2f\xfd----");
+    EXPECT_THAT(messageFor(dir / "zstd.rawlog"), testing::HasSubstr("zstd -dc"));
+    test::writeObservations(dir / "good.rawlog", 1);
+    writeBytes(dir / "short.rawlog", readBytes(dir / "good.rawlog").substr(0, 30));
+    EXPECT_THAT(messageFor(dir / "short.rawlog"), testing::HasSubstr("truncated at byte 30"));
+    writeBytes(
+        dir / "unknown.rawlog",
+        "\x88"
+        "CNothing" +
+            std::string(20, '\0'));
+    EXPECT_THAT(messageFor(dir / "unknown.rawlog"), testing::HasSubstr("CNothing"));
+}
+
+TEST(RawlogReader, truncationAtAnObjectBoundaryOfGzIsSeen)
+{
+    const TempDir dir;
+    RawlogWriterOptions options;
+    options.flushEveryObjects = 1;
+    test::writeObservations(dir / "a.rawlog", 5, options);
+    const std::string bytes = readBytes(dir / "a.rawlog");
+    // The trailer (8 bytes) gone: every object is there, yet the file is not complete.
+    writeBytes(dir / "cut.rawlog", bytes.substr(0, bytes.size() - 8));
+    const RawlogContents contents = readAll(dir / "cut.rawlog");
+    EXPECT_EQ(contents.objects.size(), 5U);
+    EXPECT_EQ(contents.ending.kind, RawlogEnd::Truncated);
+    EXPECT_EQ(contents.ending.objectIndex, 5U);
+    EXPECT_EQ(contents.ending.byteOffset, bytes.size() - 8);
+    EXPECT_THAT(contents.ending.message, testing::HasSubstr("cut.rawlog: truncated at byte"));
+}
+
+TEST(RawlogReader, sizesThatTheFileCannotHoldAreDamage)
+{
+    const TempDir dir;
+    test::writeObservations(dir / "a.rawlog", 2);
+    const std::string bytes = decompressed(dir / "a.rawlog");
+    // rangeUnits (1 mm), then rows and columns of the range image: 24 and 32, little endian.
+    const std::string units("\x6f\x12\x83\x3a", 4);
+    const std::string sizes("\x18\0\0\0\x20\0\0\0", 8);
+    const std::size_t second = bytes.rfind(units + sizes);
+    ASSERT_NE(second, std::string::npos);
+    for (const std::string& wrong :
+         {std::string("\xff\xff\xff\x7f\x20\0\0\0", 8),
+          std::string("\0\x20\0\0\0\x20\0\0", 8),
+          std::string("\x18\0\0\0\xff\xff\xff\xff", 8)})
+    {
+        std::string damaged = bytes;
+        damaged.replace(second + units.size(), sizes.size(), wrong);
+        writeBytes(dir / "b.rawlog", damaged);
+        const RawlogContents contents = readAll(dir / "b.rawlog");
+        EXPECT_EQ(contents.objects.size(), 1U);
+        EXPECT_NE(contents.ending.kind, RawlogEnd::Clean);
+        EXPECT_EQ(contents.ending.objectIndex, 1U);
+    }
+}
+
+TEST(RawlogReader, intrinsicsOfAnotherResolutionAreNotHidden)
+{
+    const TempDir dir;
+    const auto scan = test::sampleScan(0);
+    scan->cameraParams.ncols = 64;
+    mrpt::obs::CSensoryFrame frame;
+    frame.insert(test::sampleScan(1));
+    frame.insert(scan);
+    {
+        RawlogWriter writer(dir / "a.rawlog");
+        writer.write(frame);
+        writer.close();
+    }
+    const RawlogContents contents = readAll(dir / "a.rawlog");
+    const auto back = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(contents.objects.at(0));
+    ASSERT_EQ(back->size(), 2U);
+    const auto ncols = [&back](std::size_t i)
+    {
+        return back->getObservationByIndexAs<mrpt::obs::CObservation3DRangeScan::Ptr>(i)
+            ->cameraParams.ncols;
+    };
+    EXPECT_EQ(ncols(0), 32U);
+    EXPECT_EQ(ncols(1), 64U);
+}
+
+class RawlogReaderDamage : public testing::TestWithParam<bool>
+{
+ protected:
+    static constexpr int kFrames = 4;
+
+    void SetUp() override
+    {
+        const bool format1 = GetParam();
+        (format1 ? test::writeActionsAndFrames : test::writeObservations)(
+            dir_ / "gz.rawlog", kFrames, {});
+        gz_ = readBytes(dir_ / "gz.rawlog");
+        plain_ = decompressed(dir_ / "gz.rawlog");
+        numObjects_ = format1 ? 2 * kFrames : kFrames;
+    }
+
+    /** Number of objects read from damaged bytes, 0 if the file was refused. */
+    std::size_t objectsIn(const std::string& bytes, RawlogEnding* ending)
+    {
+        writeBytes(dir_ / "damaged.rawlog", bytes);
+        try
+        {
+            const RawlogContents contents = readAll(dir_ / "damaged.rawlog");
+            *ending = contents.ending;
+            return contents.objects.size();
+        }
+        catch (const InputError& e)
+        {
+            ending->kind = RawlogEnd::Damaged;
+            ending->message = e.what();
+            return 0;
+        }
+    }
+
+    TempDir dir_;
+    std::string gz_, plain_;
+    std::size_t numObjects_{0};
+    std::mt19937 rng_{20171};
+};
+
+TEST_P(RawlogReaderDamage, everyCutIsReported)
+{
+    for (int i = 0; i < 125; ++i)
+    {
+        for (const std::string& bytes : {gz_, plain_})
+        {
+            const std::size_t cut = 1 + rng_() % (bytes.size() - 1);
+            RawlogEnding ending;
+            const std::size_t n = objectsIn(bytes.substr(0, cut), &ending);
+            // Everything before the cut is delivered: objects are of nearly equal size.
+            if (&bytes == &plain_)
+            {
+                EXPECT_GE(n + 2, numObjects_ * cut / bytes.size());
+            }
+            EXPECT_LE(n, numObjects_);
+            EXPECT_NE(ending.kind, RawlogEnd::Clean) << "cut at " << cut << " of " << bytes.size();
+            EXPECT_THAT(ending.message, testing::HasSubstr("damaged.rawlog"));
+        }
+    }
+}
+
+TEST_P(RawlogReaderDamage, noFlippedBitCrashesOrPassesInGz)
+{
+    for (int i = 0; i < 500; ++i)
+    {
+        std::string bytes = gz_;
+        const std::size_t at = rng_() % bytes.size();
+        bytes[at] = static_cast<char>(bytes[at] ^ (1 << (rng_() % 8)));
+        RawlogEnding ending;
+        const std::size_t n = objectsIn(bytes, &ending);
+        // Some bits of gz mean nothing: the time in the header, padding before a flush.
+        if (ending.kind == RawlogEnd::Clean)
+        {
+            EXPECT_EQ(decompressed(dir_ / "damaged.rawlog"), plain_)
+                << "bit flipped in byte " << at;
+        }
+        EXPECT_LE(n, numObjects_);
+    }
+}
+
+TEST_P(RawlogReaderDamage, noFlippedBitCrashesInPlainFiles)
+{
+    int reported = 0;
+    for (int i = 0; i < 500; ++i)
+    {
+        std::string bytes = plain_;
+        const std::size_t at = rng_() % bytes.size();
+        bytes[at] = static_cast<char>(bytes[at] ^ (1 << (rng_() % 8)));
+        RawlogEnding ending;
+        const std::size_t n = objectsIn(bytes, &ending);
+        // A plain file has no checksum: a flipped pixel cannot be seen, a lost object must be.
+        if (n < numObjects_)
+        {
+            EXPECT_NE(ending.kind, RawlogEnd::Clean) << "bit flipped in byte " << at;
+            ++reported;
+        }
+    }
+    EXPECT_GT(reported, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Formats,
+    RawlogReaderDamage,
+    testing::Bool(),
+    [](const auto& test) { return test.param ? "format1" : "format2"; });
+}  // namespace
+}  // namespace pointplane

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pointplane/mrpt_io/RawlogReader.h>
+#include <pointplane/mrpt_io/RawlogWriter.h>
+
+#include <mrpt/obs/CActionCollection.h>
+#include <mrpt/obs/CActionRobotMovement3D.h>
+#include <mrpt/obs/CObservation3DRangeScan.h>
+#include <mrpt/obs/CObservationComment.h>
+#include <mrpt/obs/CObservationRobotPose.h>
+#include <mrpt/obs/CSensoryFrame.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace pointplane::test
+{
+/** A registered RGB-D observation of a textured wall that moves with `index`. */
+[[nodiscard]] inline mrpt::obs::CObservation3DRangeScan::Ptr sampleScan(
+    int index, int width = 32, int height = 24)
+{
+    auto scan = mrpt::obs::CObservation3DRangeScan::Create();
+    scan->sensorLabel = "RGBD";
+    scan->timestamp = mrpt::Clock::fromDouble(1000.0 + index / 32.0);
+    scan->cameraParams.ncols = static_cast<std::uint32_t>(width);
+    scan->cameraParams.nrows = static_cast<std::uint32_t>(height);
+    scan->cameraParams.setIntrinsicParamsFromValues(
+        width * 0.82, width * 0.82, (width - 1) / 2.0, (height - 1) / 2.0);
+    scan->cameraParamsIntensity = scan->cameraParams;
+    scan->relativePoseIntensityWRTDepth =
+        mrpt::poses::CPose3D::FromXYZYawPitchRoll(0, 0, 0, -M_PI / 2, 0, -M_PI / 2);
+    scan->hasRangeImage = true;
+    scan->rangeUnits = 0.001F;
+    scan->rangeImage_setSize(height, width);
+    scan->hasIntensityImage = true;
+    scan->intensityImage.resize(width, height, mrpt::img::CH_RGB);
+    for (int v = 0; v < height; ++v)
+    {
+        for (int u = 0; u < width; ++u)
+        {
+            scan->rangeImage(v, u) = static_cast<std::uint16_t>(1500 + 4 * u + 3 * v + index);
+            const auto gray = static_cast<std::uint8_t>(((u + index) * 37 + v * 91) % 251);
+            scan->intensityImage.setPixel(u, v, mrpt::img::TColor(gray, 90, gray));
+        }
+    }
+    return scan;
+}
+
+/** The scans 0 to n - 1 as bare observations (format 2). */
+inline void writeObservations(
+    const std::string& path, int n, const RawlogWriterOptions& options = {})
+{
+    RawlogWriter writer(path, options);
+    for (int i = 0; i < n; ++i)
+    {
+        writer.write(*sampleScan(i));
+    }
+    writer.close();
+}
+
+/** The scans as action and frame pairs (format 1). */
+inline void writeActionsAndFrames(
+    const std::string& path, int n, const RawlogWriterOptions& options = {})
+{
+    RawlogWriter writer(path, options);
+    for (int i = 0; i < n; ++i)
+    {
+        mrpt::obs::CActionRobotMovement3D movement;
+        movement.poseChange.cov.setIdentity();
+        mrpt::obs::CActionCollection actions;
+        actions.insert(movement);
+        writer.write(actions);
+        mrpt::obs::CSensoryFrame frame;
+        frame.insert(sampleScan(i));
+        writer.write(frame);
+    }
+    writer.close();
+}
+
+/** Everything in a rawlog, and how it ended. */
+struct RawlogContents
+{
+    std::vector<mrpt::serialization::CSerializable::Ptr> objects;
+    RawlogEnding ending;
+};
+[[nodiscard]] inline RawlogContents readAll(const std::string& path)
+{
+    RawlogReader reader(path);
+    RawlogContents out;
+    while (auto object = reader.next())
+    {
+        out.objects.push_back(object);
+    }
+    out.ending = reader.ending();
+    return out;
+}
+}  // namespace pointplane::test
