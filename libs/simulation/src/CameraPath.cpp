@@ -67,10 +67,12 @@ Eigen::Isometry3d CameraPath::pose(double t) const
         const double angle = motion_.orbitAmplitude * std::sin(kTwoPi * t / motion_.orbitPeriod);
         arm = Eigen::AngleAxisd(angle, axis) * arm;
     }
-    const Eigen::Vector3d eye = target + arm;
+    Eigen::Vector3d eye = target + arm;
     if (motion_.turnPeriod != 0)
     {
         arm = Eigen::AngleAxisd(kTwoPi * t / motion_.turnPeriod, axis) * arm;
+        const Eigen::Vector3d outward(-arm.x(), -arm.y(), 0);
+        eye += motion_.turnRadius * outward.normalized();
     }
     const Eigen::Matrix3d R_base = lookAlong(-arm);
     const Eigen::Vector3d shift(hand(0, t), hand(1, t), hand(2, t));

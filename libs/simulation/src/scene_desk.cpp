@@ -50,7 +50,7 @@ void addWalls(SceneBuilder& builder, Random& random)
     builder.addWall({2.6, 2.4, 0}, {2.6, -2.4, 0}, 2.6, {{192, 204, 208}, 3e-3, posters});
     builder.addWall({-2.5, 2.4, 0}, {2.6, 2.4, 0}, 2.6, {{196, 200, 196}, 3e-3, posters});
     builder.addWall({2.6, -2.4, 0}, {-2.5, -2.4, 0}, 2.6, {{200, 200, 190}, 3e-3, posters});
-    builder.addWall({-2.5, -2.4, 0}, {-2.5, 2.4, 0}, 2.6, {{200, 200, 200}, 4e-3, {}});
+    builder.addWall({-2.5, -2.4, 0}, {-2.5, 2.4, 0}, 2.6, {{200, 200, 200}, 3e-3, posters});
     builder.addRectangle({-2.5, -2.4, 0}, {5.1, 0, 0}, {0, 4.8, 0}, {{70, 105, 140}, 3e-3, floor});
 }
 
@@ -110,67 +110,86 @@ void addKeyboard(SceneBuilder& builder, double top)
     const Finish side{{30, 30, 30}, 1e-3, {}};
     builder.addBox({0.55, 0.3, top}, {0.15, 0.44, 0.02}, 0.08, side, {{30, 30, 30}, 0.8e-3, keys});
 }
-}  // namespace
 
-Scene makeDesk(std::uint64_t seed)
+void addObjects(SceneBuilder& builder, Random& random, double top)
 {
-    SceneBuilder builder("desk");
+    const auto box = [&](double x, double y, double z, double w, double d, double h, double yaw)
+    {
+        const Finish sides = packageFinish(random);
+        builder.addBox({x, y, z}, {w, d, h}, yaw, sides, packageFinish(random));
+    };
+    const auto can = [&](double x, double y, double z, double radius, double height)
+    {
+        const Finish lid{randomColour(random, 80, 200), 1e-3, {}};
+        builder.addCylinder({x, y, z}, radius, height, packageFinish(random), lid);
+    };
+    box(0.85, -0.35, top, 0.2, 0.3, 0.25, 0.4);
+    box(0.5, -0.6, top, 0.14, 0.1, 0.2, -0.3);
+    box(1.0, -0.68, top, 0.12, 0.26, 0.34, 0.1);
+    box(0.3, 0.65, top, 0.16, 0.22, 0.12, 0.6);
+    double height = top;
+    for (int i = 0; i < 4; ++i)  // a pile of books
+    {
+        const double thick = random.uniform(0.02, 0.045);
+        const double w = random.uniform(0.15, 0.19), d = random.uniform(0.21, 0.26);
+        box(0.42, -0.22, height, w, d, thick, random.uniform(-0.3, 0.3));
+        height += thick;
+    }
+    can(0.42, 0.02, top, 0.04, 0.1);
+    can(0.66, -0.1, top, 0.033, 0.12);
+    can(0.7, 0.7, top, 0.06, 0.22);
+    can(0.22, 0.42, top, 0.04, 0.09);
+    can(0.9, 0.0, top, 0.05, 0.28);
+    // Shelves along the walls, a bin and a chest behind.
+    box(2.3, -1.5, 0, 0.5, 0.9, 1.1, 0);
+    box(2.35, 1.2, 0, 0.4, 1.2, 0.7, 0);
+    can(1.6, -1.3, 0, 0.16, 0.4);
+    box(-2.1, 1.4, 0, 0.6, 0.8, 0.9, 0.3);
+    box(-2.2, -1.2, 0, 0.4, 1.1, 1.3, 0);
+}
+
+SceneBuilder furnishedRoom(const std::string& name, std::uint64_t seed)
+{
+    SceneBuilder builder(name);
     Random random({seed, 2});
     const double top = 0.75;
     addWalls(builder, random);
     addDesk(builder, random, top);
     addMonitor(builder, random, top);
     addKeyboard(builder, top);
-    // Boxes, stacks of books and cans in free places of the board.
-    builder.addBox(
-        {0.85, -0.35, top}, {0.2, 0.3, 0.25}, 0.4, packageFinish(random), packageFinish(random));
-    builder.addBox(
-        {0.5, -0.6, top}, {0.14, 0.1, 0.2}, -0.3, packageFinish(random), packageFinish(random));
-    double height = top;
-    for (int i = 0; i < 4; ++i)
-    {
-        const double thick = random.uniform(0.02, 0.045);
-        builder.addBox(
-            {0.42, -0.22, height},
-            {random.uniform(0.15, 0.19), random.uniform(0.21, 0.26), thick},
-            random.uniform(-0.3, 0.3),
-            packageFinish(random),
-            packageFinish(random));
-        height += thick;
-    }
-    builder.addBox(
-        {1.0, -0.68, top}, {0.12, 0.26, 0.34}, 0.1, packageFinish(random), packageFinish(random));
-    builder.addBox(
-        {0.3, 0.65, top}, {0.16, 0.22, 0.12}, 0.6, packageFinish(random), packageFinish(random));
-    const double cans[][4] = {
-        {0.42, 0.02, 0.04, 0.1},
-        {0.66, -0.1, 0.033, 0.12},
-        {0.7, 0.7, 0.06, 0.22},
-        {0.22, 0.42, 0.04, 0.09},
-        {0.9, 0.0, 0.05, 0.28}};
-    for (const auto& can : cans)
-    {
-        builder.addCylinder(
-            {can[0], can[1], top},
-            can[2],
-            can[3],
-            packageFinish(random),
-            {randomColour(random, 80, 200), 1e-3, {}});
-    }
-    // Shelves along the walls and a bin.
-    builder.addBox(
-        {2.3, -1.5, 0}, {0.5, 0.9, 1.1}, 0, packageFinish(random), packageFinish(random));
-    builder.addBox(
-        {2.35, 1.2, 0}, {0.4, 1.2, 0.7}, 0, packageFinish(random), packageFinish(random));
-    builder.addCylinder({1.6, -1.3, 0}, 0.16, 0.4, packageFinish(random), {{40, 40, 40}, 3e-3, {}});
+    addObjects(builder, random, top);
+    return builder;
+}
 
+Lamp roomLamp()
+{
+    Lamp lamp;
+    lamp.position = {0.0, 0.4, 2.5};
+    return lamp;
+}
+}  // namespace
+
+Scene makeDesk(std::uint64_t seed)
+{
+    SceneBuilder builder = furnishedRoom("desk", seed);
     CameraMotion& motion = builder.scene().motion;
     motion.eye = {-0.45, 0.0, 1.35};
     motion.target = {0.8, 0.0, 0.75};
     motion.handSpeed = 0.3;
     motion.handTurnRate = 0.3;
-    Lamp lamp;
-    lamp.position = {0.0, 0.4, 2.5};
-    return builder.build(lamp);
+    return builder.build(roomLamp());
+}
+
+Scene makeRoom(std::uint64_t seed)
+{
+    SceneBuilder builder = furnishedRoom("room", seed);
+    CameraMotion& motion = builder.scene().motion;
+    motion.eye = {-0.8, 0.0, 1.4};
+    motion.target = {0.8, 0.0, 1.1};
+    motion.turnPeriod = 18;
+    motion.turnRadius = 0.4;
+    motion.handSpeed = 0.15;
+    motion.handTurnRate = 0.12;
+    return builder.build(roomLamp());
 }
 }  // namespace pointplane

@@ -20,7 +20,13 @@ const std::vector<Entry>& entries()
 {
     static const std::vector<Entry> all{
         {{"corner", "three planes of a room corner, moderate texture"}, makeCorner},
-        {{"desk", "objects on a desk, posters on the walls"}, makeDesk}};
+        {{"desk", "objects on a desk, posters on the walls"}, makeDesk},
+        {{"room", "a full turn in a furnished room: ends where it began"}, makeRoom},
+        {{"notexture", "blank zigzag walls"}, makeNoTexture},
+        {{"cabinet", "around a cabinet, little texture"}, makeCabinet},
+        {{"corridor", "along two parallel blank walls, nothing else has depth"}, makeCorridor},
+        {{"corridor_floor", "along a blank corridor with floor and ceiling"},
+         makeCorridorWithFloor}};
     return all;
 }
 }  // namespace

@@ -18,6 +18,7 @@ struct CameraMotion
     double orbitAmplitude{0};           //!< swing of the eye around the target [rad]
     double orbitPeriod{12};             //!< [s]
     double turnPeriod{0};               //!< full turn of the view around the eye [s], 0 = none
+    double turnRadius{0};               //!< of the circle that the eye goes round meanwhile [m]
     double handSpeed{0.25};             //!< rms speed of the hand's motion [m/s]
     double handTurnRate{0.26};          //!< rms angular rate of the hand's motion [rad/s]
     double tremorSpeed{0.012};          //!< rms, at 3 to 6 Hz [m/s]
