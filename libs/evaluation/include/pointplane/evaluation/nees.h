@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pointplane/evaluation/association.h>
+#include <pointplane/evaluation/rpe.h>
+
+#include <array>
+#include <string>
+
+namespace pointplane
+{
+/** Length of the increments whose covariance is tested: frames or seconds. */
+struct NeesInterval
+{
+    double delta{1};
+    DeltaUnit unit{DeltaUnit::Frames};
+};
+
+/** "1f", "10f", "0.5s"; throws std::invalid_argument for anything else. */
+[[nodiscard]] NeesInterval neesIntervalFromName(const std::string& name);
+[[nodiscard]] std::string nameOf(const NeesInterval& interval);
+
+struct NeesOptions
+{
+    double offset{0};  //!< added to the estimate's stamps [s]
+    TruthAt truthAt{TruthAt::Interpolated};
+    double truthSigmaTranslation{0};  //!< of each ground-truth pose, per axis [m]
+    double truthSigmaRotation{0};     //!< of each ground-truth pose, per axis [rad]
+    /** The estimate's body in the ground truth's body frame (fixed); see withBody(). */
+    Eigen::Isometry3d T_truth_body{Eigen::Isometry3d::Identity()};
+};
+
+/** One tested increment T_i_j of the estimate. */
+struct NeesIncrement
+{
+    std::size_t i{0}, j{0};  //!< indices into the estimate
+    /** log(truth * estimate^-1), in body frame i, [translation; rotation] [m, rad]. */
+    Vector6d error{Vector6d::Zero()};
+    /** Of that error: the increment's, and that of the ground truth at both ends. */
+    Matrix6d cov{Matrix6d::Identity()};
+    double nees{0};  //!< error^T cov^-1 error; its expectation is 6
+};
+
+/** Covariance of the increment i -> j (left perturbation, in body frame i) out of the accumulated
+ * poses' covariances. These grow by Sigma_{k+1} = Sigma_k + Ad(T_k) Q_k Ad(T_k)^T (compose()), so
+ * that Ad(T_i)^-1 (Sigma_j - Sigma_i) Ad(T_i)^-T holds exactly the increments from i to j. */
+[[nodiscard]] Matrix6d incrementCovariance(
+    const Trajectory& estimate, std::size_t i, std::size_t j);
+
+/** All increments of the given length that have ground truth at both ends, one per start pose.
+ * Ground-truth noise N per pose (in the body frame) adds N + Ad(T_i_j) N Ad(T_i_j)^T.
+ * Throws std::runtime_error when the estimate has no covariances, the trajectories do not overlap,
+ * or a covariance is not positive definite (naming the stamps). */
+[[nodiscard]] std::vector<NeesIncrement> neesIncrements(
+    const Trajectory& groundTruth,
+    const Trajectory& estimate,
+    const NeesInterval& interval,
+    const NeesOptions& options);
+
+/** Mean NEES per degree of freedom against its two-sided 95 % chi-square bounds. */
+struct ConsistencyTest
+{
+    double nees{0};  //!< per degree of freedom; 1 is consistent
+    double lower{0}, upper{0};
+    [[nodiscard]] bool isOptimistic() const { return nees > upper; }
+    [[nodiscard]] bool isConservative() const { return nees < lower; }
+};
+
+/** Consistency of one degree of freedom. */
+struct AxisConsistency
+{
+    ConsistencyTest test;
+    double meanError{0};  //!< [m or rad]
+    double rmsError{0};   //!< [m or rad]
+    double rmsSigma{0};   //!< what the covariance says [m or rad]
+};
+
+struct NeesResult
+{
+    NeesInterval interval;
+    std::size_t increments{0};
+    /** Of these, how many fit one after the other: the number the bounds are computed with, as
+     * increments that overlap are not independent. */
+    std::size_t independent{0};
+    ConsistencyTest joint, translation, rotation;
+    std::array<AxisConsistency, 6> axes;  //!< x y z rx ry rz in the body frame
+    /** Eigenvalues (ascending) of the whitened errors' second moment: NEES per degree of freedom
+     * along the most conservative to the most optimistic direction; all 1 if consistent. */
+    Vector6d whitenedEigenvalues{Vector6d::Ones()};
+    /** Direction of the most optimistic one, in whitened [x y z rx ry rz]. */
+    Vector6d mostOptimistic{Vector6d::Zero()};
+};
+
+/** Pools the increments of one or more runs. \param independent see NeesResult
+ * Throws std::runtime_error when there are fewer than two. */
+[[nodiscard]] NeesResult consistencyOf(
+    const std::vector<NeesIncrement>& increments,
+    std::size_t independent,
+    const NeesInterval& interval);
+
+/** How many of the increments, taken greedily in time, do not overlap. */
+[[nodiscard]] std::size_t countIndependent(const std::vector<NeesIncrement>& increments);
+
+/** "consistent", "optimistic: sigmas are too small by a factor of 3.2" or "conservative: ..." */
+[[nodiscard]] std::string verdict(const ConsistencyTest& test);
+
+/** The trajectory of another frame rigidly attached to the moving body: poses * T_body_other. The
+ * covariances, being left perturbations, stay. */
+[[nodiscard]] Trajectory withBody(Trajectory trajectory, const Eigen::Isometry3d& T_body_other);
+}  // namespace pointplane

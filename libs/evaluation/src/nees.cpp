@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/covariance.h>
+#include <pointplane/core/se3.h>
+#include <pointplane/evaluation/chi_square.h>
+#include <pointplane/evaluation/nees.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <stdexcept>
+
+namespace pointplane
+{
+namespace
+{
+constexpr double kConfidence = 0.95;
+
+/** End of the increment that starts at i, if the estimate has one of about that length. */
+std::optional<std::size_t> endOf(
+    const Trajectory& estimate, std::size_t i, const NeesInterval& interval, double tolerance)
+{
+    if (interval.unit == DeltaUnit::Frames)
+    {
+        const auto j = i + static_cast<std::size_t>(interval.delta);
+        return j < estimate.size() ? std::optional(j) : std::nullopt;
+    }
+    const double target = estimate.stamps[i] + interval.delta;
+    const std::size_t j = nearestIndex(estimate.stamps, target);
+    const bool fits = j > i && std::abs(estimate.stamps[j] - target) <= tolerance;
+    return fits ? std::optional(j) : std::nullopt;
+}
+
+ConsistencyTest testOf(double meanNees, std::size_t dof, std::size_t independent)
+{
+    const double n = static_cast<double>(independent * dof);
+    ConsistencyTest test;
+    test.nees = meanNees / static_cast<double>(dof);
+    test.lower = chiSquareQuantile(0.5 * (1 - kConfidence), n) / n;
+    test.upper = chiSquareQuantile(0.5 * (1 + kConfidence), n) / n;
+    return test;
+}
+
+/** cov^-1/2 error, with the symmetric root so that axes keep their meaning. */
+Vector6d whitened(const NeesIncrement& increment)
+{
+    const Eigen::SelfAdjointEigenSolver<Matrix6d> es(increment.cov);
+    return es.operatorInverseSqrt() * increment.error;
+}
+
+double blockNees(const NeesIncrement& increment, int start)
+{
+    const Eigen::Vector3d e = increment.error.segment<3>(start);
+    const Eigen::Matrix3d C = increment.cov.block<3, 3>(start, start);
+    return e.dot(C.llt().solve(e));
+}
+}  // namespace
+
+NeesInterval neesIntervalFromName(const std::string& name)
+{
+    NeesInterval interval;
+    const char* const end = name.data() + name.size();
+    const auto [parsed, error] = std::from_chars(name.data(), end, interval.delta);
+    const std::string unit(parsed, end);
+    interval.unit = unit == "s" ? DeltaUnit::Seconds : DeltaUnit::Frames;
+    const bool isWhole = interval.delta == std::floor(interval.delta);
+    if (error != std::errc() || !(interval.delta > 0) || !std::isfinite(interval.delta) ||
+        (unit != "s" && unit != "f") || (unit == "f" && !isWhole))
+    {
+        throw std::invalid_argument(
+            "'" + name + "' is not an interval; frames or seconds, e.g. 1f, 10f or 1s");
+    }
+    return interval;
+}
+
+std::string nameOf(const NeesInterval& interval)
+{
+    char out[64];
+    std::snprintf(out, sizeof out, "%g%s", interval.delta, nameOf(interval.unit).c_str());
+    return out;
+}
+
+Matrix6d incrementCovariance(const Trajectory& estimate, std::size_t i, std::size_t j)
+{
+    const Matrix6d Ad = adjoint(estimate.poses[i].inverse());
+    return propagate(Ad, (estimate.covs[j] - estimate.covs[i]).eval());
+}
+
+std::vector<NeesIncrement> neesIncrements(
+    const Trajectory& groundTruth,
+    const Trajectory& estimate,
+    const NeesInterval& interval,
+    const NeesOptions& options)
+{
+    if (estimate.covs.size() != estimate.size())
+    {
+        throw std::runtime_error(
+            "'" + estimate.name +
+            "' has no covariances: give a rawlog or .simplemap with pose PDFs");
+    }
+    checkOverlap(groundTruth, estimate, options.offset);
+    const SampledTruth truth =
+        sampleTruth(groundTruth, estimate.stamps, options.offset, options.truthAt);
+
+    Vector6d variances;
+    variances.head<3>().setConstant(std::pow(options.truthSigmaTranslation, 2));
+    variances.tail<3>().setConstant(std::pow(options.truthSigmaRotation, 2));
+    const Eigen::Isometry3d& T_truth_body = options.T_truth_body;
+    const Matrix6d N = propagate(adjoint(T_truth_body.inverse()), Matrix6d(variances.asDiagonal()));
+
+    std::vector<NeesIncrement> out;
+    const double tolerance = 0.5 * medianInterval(estimate) + 1e-6;
+    for (std::size_t i = 0; i < estimate.size(); ++i)
+    {
+        const std::optional<std::size_t> j = endOf(estimate, i, interval, tolerance);
+        if (!j || truth.valid[i] == 0 || truth.valid[*j] == 0)
+        {
+            continue;
+        }
+        NeesIncrement increment;
+        increment.i = i;
+        increment.j = *j;
+        const Eigen::Isometry3d T_estimate = estimate.poses[i].inverse() * estimate.poses[*j];
+        const Eigen::Isometry3d T_truth =
+            (truth.poses[i] * T_truth_body).inverse() * (truth.poses[*j] * T_truth_body);
+        increment.error = se3Log(T_truth * T_estimate.inverse());
+        increment.cov = incrementCovariance(estimate, i, *j) + N + propagate(adjoint(T_truth), N);
+        if (!isPositiveDefinite(increment.cov))
+        {
+            char stamps[128];
+            std::snprintf(
+                stamps, sizeof stamps, "%.6f to %.6f s", estimate.stamps[i], estimate.stamps[*j]);
+            throw std::runtime_error(
+                "'" + estimate.name + "': the covariance of the increment from " + stamps +
+                " is not positive definite; do the covariances of the poses accumulate?");
+        }
+        increment.nees = increment.error.dot(increment.cov.llt().solve(increment.error));
+        out.push_back(increment);
+    }
+    return out;
+}
+
+std::size_t countIndependent(const std::vector<NeesIncrement>& increments)
+{
+    std::size_t count = 0;
+    std::size_t end = 0;
+    for (const NeesIncrement& increment : increments)
+    {
+        if (count == 0 || increment.i >= end)
+        {
+            ++count;
+            end = increment.j;
+        }
+    }
+    return count;
+}
+
+NeesResult consistencyOf(
+    const std::vector<NeesIncrement>& increments,
+    std::size_t independent,
+    const NeesInterval& interval)
+{
+    if (increments.size() < 2)
+    {
+        throw std::runtime_error(
+            "only " + std::to_string(increments.size()) + " increment(s) of " + nameOf(interval) +
+            " have ground truth at both ends; at least two are needed");
+    }
+    const double n = static_cast<double>(increments.size());
+    double joint = 0;
+    double translation = 0;
+    double rotation = 0;
+    Vector6d perAxis = Vector6d::Zero();
+    Vector6d sum = Vector6d::Zero();
+    Vector6d squares = Vector6d::Zero();
+    Vector6d variances = Vector6d::Zero();
+    Matrix6d secondMoment = Matrix6d::Zero();
+    for (const NeesIncrement& increment : increments)
+    {
+        const Vector6d z = whitened(increment);
+        const Vector6d e2 = increment.error.cwiseAbs2();
+        joint += increment.nees / n;
+        translation += blockNees(increment, 0) / n;
+        rotation += blockNees(increment, 3) / n;
+        perAxis += e2.cwiseQuotient(increment.cov.diagonal()) / n;
+        sum += increment.error / n;
+        squares += e2 / n;
+        variances += increment.cov.diagonal() / n;
+        secondMoment += z * z.transpose() / n;
+    }
+    NeesResult out;
+    out.interval = interval;
+    out.increments = increments.size();
+    out.independent = independent;
+    out.joint = testOf(joint, 6, independent);
+    out.translation = testOf(translation, 3, independent);
+    out.rotation = testOf(rotation, 3, independent);
+    for (std::size_t k = 0; k < 6; ++k)
+    {
+        const auto axis = static_cast<Eigen::Index>(k);
+        out.axes[k].test = testOf(perAxis[axis], 1, independent);
+        out.axes[k].meanError = sum[axis];
+        out.axes[k].rmsError = std::sqrt(squares[axis]);
+        out.axes[k].rmsSigma = std::sqrt(variances[axis]);
+    }
+    const Eigen::SelfAdjointEigenSolver<Matrix6d> es(secondMoment);
+    out.whitenedEigenvalues = es.eigenvalues();
+    out.mostOptimistic = es.eigenvectors().col(5);
+    return out;
+}
+
+std::string verdict(const ConsistencyTest& test)
+{
+    char out[160] = "consistent";
+    if (test.isOptimistic())
+    {
+        std::snprintf(
+            out,
+            sizeof out,
+            "optimistic: the stated standard deviations are too small by a factor of %.2f",
+            std::sqrt(test.nees));
+    }
+    else if (test.isConservative())
+    {
+        std::snprintf(
+            out,
+            sizeof out,
+            "conservative: the stated standard deviations are too large by a factor of %.2f",
+            1 / std::sqrt(test.nees));
+    }
+    return out;
+}
+
+Trajectory withBody(Trajectory trajectory, const Eigen::Isometry3d& T_body_other)
+{
+    for (Eigen::Isometry3d& pose : trajectory.poses)
+    {
+        pose = pose * T_body_other;
+    }
+    return trajectory;
+}
+}  // namespace pointplane

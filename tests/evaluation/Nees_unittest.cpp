@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/PoseGaussian.h>
+#include <pointplane/core/covariance.h>
+#include <pointplane/evaluation/nees.h>
+
+#include <cmath>
+
+#include "matchers.h"
+#include "test_trajectories.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+using namespace pointplane;
+using testing::HasSubstr;
+
+namespace
+{
+/** Covariance of one frame's increment: 2 mm and 0.1 deg, correlated and unequal. */
+Matrix6d incrementCov()
+{
+    Vector6d sigma;
+    sigma << 0.002, 0.001, 0.004, 0.002, 0.001, 0.003;
+    Matrix6d cov = sigma.cwiseAbs2().asDiagonal();
+    cov(0, 4) = cov(4, 0) = 0.5 * sigma[0] * sigma[4];
+    return cov;
+}
+
+/** Odometry along `truth` whose increments err by N(0, incrementCov()) and which states
+ * stated = incrementCov() / optimism^2. */
+Trajectory odometry(
+    const Trajectory& truth,
+    unsigned seed,
+    double optimism = 1,
+    const Vector6d& bias = Vector6d::Zero())
+{
+    test::GaussianSampler random(seed);
+    const Matrix6d cov = incrementCov();
+    PoseGaussian pose;
+    Trajectory out = truth;
+    out.name = "odometry";
+    out.poses[0] = pose.mean;
+    out.covs = {pose.cov};
+    for (std::size_t k = 1; k < truth.size(); ++k)
+    {
+        const Vector6d error = bias + random.sample(cov);
+        const Eigen::Isometry3d step = truth.poses[k - 1].inverse() * truth.poses[k];
+        pose = compose(pose, {se3Exp(error) * step, cov / (optimism * optimism)});
+        out.poses[k] = pose.mean;
+        out.covs.push_back(pose.cov);
+    }
+    return out;
+}
+
+NeesResult neesOf(
+    const Trajectory& truth,
+    const Trajectory& estimate,
+    const std::string& interval,
+    const NeesOptions& options = {})
+{
+    const auto increments =
+        neesIncrements(truth, estimate, neesIntervalFromName(interval), options);
+    return consistencyOf(increments, countIndependent(increments), neesIntervalFromName(interval));
+}
+}  // namespace
+
+TEST(NeesInterval, parsesFramesAndSeconds)
+{
+    EXPECT_EQ(neesIntervalFromName("10f").delta, 10);
+    EXPECT_EQ(neesIntervalFromName("0.5s").unit, DeltaUnit::Seconds);
+    EXPECT_EQ(nameOf(neesIntervalFromName("0.5s")), "0.5s");
+    for (const char* bad : {"", "f", "0f", "1.5f", "-1s", "1m", "1", "nans", "1ss"})
+    {
+        EXPECT_THROW((void)neesIntervalFromName(bad), std::invalid_argument) << bad;
+    }
+}
+
+TEST(Nees, incrementCovarianceComesBackOutOfTheAccumulatedOnes)
+{
+    const Trajectory truth = randomTrajectory(300, 1);
+    const Trajectory estimate = odometry(truth, 2);
+    EXPECT_THAT(
+        incrementCovariance(estimate, 250, 251),
+        test::IsMatrixNear(incrementCov(), 1e-6 * incrementCov().norm()));
+
+    PoseGaussian two{estimate.poses[250].inverse() * estimate.poses[251], incrementCov()};
+    two = compose(two, {estimate.poses[251].inverse() * estimate.poses[252], incrementCov()});
+    EXPECT_THAT(
+        incrementCovariance(estimate, 250, 252),
+        test::IsMatrixNear(two.cov, 1e-6 * two.cov.norm()));
+}
+
+TEST(Nees, honestCovariancesAreConsistentAtEveryInterval)
+{
+    const Trajectory truth = randomTrajectory(3000, 1);
+    const Trajectory estimate = odometry(truth, 2);
+    for (const char* interval : {"1f", "10f", "1s"})
+    {
+        const NeesResult r = neesOf(truth, estimate, interval);
+        EXPECT_THAT(
+            r.joint.nees, testing::AllOf(testing::Gt(r.joint.lower), testing::Lt(r.joint.upper)))
+            << interval;
+        EXPECT_EQ(verdict(r.joint), "consistent") << interval;
+        EXPECT_NEAR(r.translation.nees, 1, 0.15) << interval;
+        EXPECT_NEAR(r.rotation.nees, 1, 0.15) << interval;
+        for (const AxisConsistency& axis : r.axes)
+        {
+            EXPECT_NEAR(axis.rmsError / axis.rmsSigma, 1, 0.15) << interval;
+        }
+    }
+}
+
+TEST(Nees, boundsHoldInNineteenOfTwentyRuns)
+{
+    int outside = 0;
+    constexpr int kRuns = 200;
+    const Trajectory truth = randomTrajectory(60, 1);
+    for (unsigned seed = 0; seed < kRuns; ++seed)
+    {
+        const NeesResult r = neesOf(truth, odometry(truth, seed), "1f");
+        outside += r.joint.isOptimistic() || r.joint.isConservative() ? 1 : 0;
+    }
+    EXPECT_NEAR(outside, 0.05 * kRuns, 9);  // three sigmas of the binomial
+}
+
+TEST(Nees, optimismIsFoundAndItsFactorNamed)
+{
+    const Trajectory truth = randomTrajectory(2000, 3);
+    const NeesResult optimistic = neesOf(truth, odometry(truth, 2, 3), "1f");
+    EXPECT_NEAR(optimistic.joint.nees, 9, 0.5);
+    EXPECT_THAT(
+        verdict(optimistic.joint),
+        testing::ContainsRegex("too small by a factor of (2\\.9|3\\.0)"));
+    const NeesResult conservative = neesOf(truth, odometry(truth, 2, 0.5), "1f");
+    EXPECT_THAT(
+        verdict(conservative.joint),
+        testing::ContainsRegex("too large by a factor of (1\\.9|2\\.0)"));
+}
+
+TEST(Nees, anisotropyShowsTheAxisThatIsWrong)
+{
+    const Trajectory truth = randomTrajectory(2000, 3);
+    Vector6d bias = Vector6d::Zero();
+    bias.y() = 0.004;  // four sigmas
+    const NeesResult r = neesOf(truth, odometry(truth, 2, 1, bias), "1f");
+    EXPECT_NEAR(r.whitenedEigenvalues[5], 17, 1.5);
+    EXPECT_NEAR(r.whitenedEigenvalues[0], 1, 0.15);
+    EXPECT_GT(std::abs(r.mostOptimistic[1]), 0.98);
+    EXPECT_NEAR(r.axes[1].meanError, -0.004, 2e-4);  // the estimate errs to +y: truth lies at -y
+    EXPECT_TRUE(r.axes[1].test.isOptimistic());
+    EXPECT_NEAR(r.axes[2].test.nees, 1, 0.15);
+}
+
+TEST(Nees, statedGroundTruthNoiseIsAccountedFor)
+{
+    const Trajectory exact = randomTrajectory(2000, 3);
+    const Trajectory estimate = odometry(exact, 2);
+    test::GaussianSampler random(9);
+    Trajectory noisy = exact;
+    for (Eigen::Isometry3d& T : noisy.poses)
+    {
+        T.translation() += 0.005 * random.vector<3>();
+        T.linear() = T.linear() * so3Exp(0.003 * random.vector<3>());
+    }
+    EXPECT_TRUE(neesOf(noisy, estimate, "1f").joint.isOptimistic());
+    NeesOptions options;
+    options.truthSigmaTranslation = 0.005;
+    options.truthSigmaRotation = 0.003;
+    EXPECT_NEAR(neesOf(noisy, estimate, "1f", options).joint.nees, 1, 0.06);
+    EXPECT_NEAR(neesOf(noisy, estimate, "10f", options).joint.nees, 1, 0.1);
+}
+
+TEST(Nees, bodyFramesOfTruthAndEstimateMayDiffer)
+{
+    Vector6d xi;
+    xi << 0.1, -0.2, 0.3, -0.5, 1.2, 0.4;
+    const Eigen::Isometry3d T_truth_body = se3Exp(xi);
+    const Trajectory body = randomTrajectory(500, 3);
+    const Trajectory estimate = odometry(body, 2);
+    const Trajectory truth = withBody(body, T_truth_body.inverse());
+    NeesOptions options;
+    options.T_truth_body = T_truth_body;
+    EXPECT_NEAR(
+        neesOf(truth, estimate, "1f", options).joint.nees,
+        neesOf(body, estimate, "1f").joint.nees,
+        1e-6);
+
+    // Noise of the truth's body moves the estimate's body by the lever arm too.
+    test::GaussianSampler random(9);
+    Trajectory noisy = truth;
+    for (Eigen::Isometry3d& T : noisy.poses)
+    {
+        T.linear() = T.linear() * so3Exp(0.01 * random.vector<3>());
+    }
+    options.truthSigmaRotation = 0.01;
+    EXPECT_NEAR(neesOf(noisy, estimate, "1f", options).joint.nees, 1, 0.12);
+}
+
+TEST(Nees, refusesWhatCannotBeTested)
+{
+    const Trajectory truth = randomTrajectory(50, 3);
+    EXPECT_THROW((void)neesOf(truth, truth, "1f"), std::runtime_error);  // no covariances
+    const Trajectory estimate = odometry(truth, 2);
+    EXPECT_THROW((void)neesOf(truth, estimate, "60f"), std::runtime_error);
+    Trajectory constant = estimate;
+    constant.covs.assign(50, incrementCov());  // does not accumulate: the difference is zero
+    try
+    {
+        (void)neesOf(truth, constant, "1f");
+        FAIL() << "no exception";
+    }
+    catch (const std::runtime_error& e)
+    {
+        EXPECT_THAT(e.what(), HasSubstr("100.000000 to 100.100000 s is not positive definite"));
+    }
+}
