@@ -65,7 +65,7 @@ struct Score
 Score track(
     const View& from,
     const View& to,
-    const PatchAlignerParams& params,
+    const PatchAligner::TParams& params,
     const Vector2d& startError,
     unsigned seed = 5)
 {
@@ -104,9 +104,9 @@ Score track(
     return score;
 }
 
-PatchAlignerParams oneLevel(int size = 8)
+PatchAligner::TParams oneLevel(int size = 8)
 {
-    PatchAlignerParams params;
+    PatchAligner::TParams params;
     params.patchSizePx = size;
     params.numLevels = 1;
     return params;
@@ -156,7 +156,7 @@ TEST(PatchAligner, followsAffineWarps)
           (Matrix2d() << 1.1, 0.3, 0.0, 0.9).finished()})   // sheared
     {
         second.A_ref_cur = A;
-        PatchAlignerParams params = oneLevel();
+        PatchAligner::TParams params = oneLevel();
         const Score score = track(first, second, params, {0.4, -0.4});
         EXPECT_GT(score.tried, 200) << A;
         EXPECT_GT(score.converged, 0.95 * score.tried) << A;
@@ -182,7 +182,7 @@ TEST(PatchAligner, coarseToFineReachesFarther)
 {
     View first, second;
     first.noise = second.noise = 1;
-    PatchAlignerParams params;
+    PatchAligner::TParams params;
     const Vector2d far(7, -6);
     params.numLevels = 1;
     const Score fineOnly = track(first, second, params, far);
@@ -288,7 +288,7 @@ TEST(PatchAligner, anotherTextureIsDissimilar)
     const ImagePyramid reference(renderImage(120, 100, Texture(1)), 1);
     const ImagePyramid current(renderImage(120, 100, Texture(2)), 1);
     const ImagePyramid blank(cv::Mat(100, 120, CV_8UC1, cv::Scalar(50)), 1);
-    PatchAlignerParams params = oneLevel(16);
+    PatchAligner::TParams params = oneLevel(16);
     params.minZncc = 0.9;
     const PatchAligner aligner(params);
     const PatchReference patch = aligner.makeReference(reference, {60, 50});
@@ -341,7 +341,7 @@ TEST(PatchAligner, reusedReferenceForgetsTheOldPatch)
 
 TEST(PatchAligner, checkNamesTheKey)
 {
-    PatchAlignerParams params;
+    PatchAligner::TParams params;
     params.patchSizePx = 9;
     EXPECT_THROW(PatchAligner{params}, std::invalid_argument);
     params = {};

@@ -99,7 +99,7 @@ double gradientNoise(int count, const PatchReference::Level& level, double noise
 /** Template, gradients and Hessian from (n+2)^2 samples. \param data 3 n^2 values, written */
 void fillLevel(
     const float* samples,
-    const PatchAlignerParams& params,
+    const PatchAligner::TParams& params,
     PatchReference::Level& level,
     float* data)
 {
@@ -173,7 +173,7 @@ LevelResult searchLevel(
     const cv::Mat& image,
     const Eigen::Vector2d& start,
     double convergencePx,
-    const PatchAlignerParams& params)
+    const PatchAligner::TParams& params)
 {
     constexpr double kHalf = 0.5 * (N - 1);
     alignas(64) float patch[N * N];
@@ -231,7 +231,7 @@ LevelResult searchLevel(
     const cv::Mat& image,
     const Eigen::Vector2d& start,
     double convergencePx,
-    const PatchAlignerParams& params)
+    const PatchAligner::TParams& params)
 {
     switch (params.patchSizePx)
     {
@@ -270,14 +270,14 @@ Eigen::Matrix2d positionCovariance(
 }
 }  // namespace
 
-void PatchAlignerParams::check() const
+void PatchAligner::TParams::check() const
 {
     POINTPLANE_CHECK(
         patchSizePx == 8 || patchSizePx == 12 || patchSizePx == 16,
         "patchSizePx = " << patchSizePx << " is not 8, 12 or 16");
     POINTPLANE_CHECK(
-        numLevels >= 1 && numLevels <= kMaxLevels,
-        "numLevels = " << numLevels << " is not in [1, " << kMaxLevels << "]");
+        numLevels >= 1 && numLevels <= PatchReference::kMaxLevels,
+        "numLevels = " << numLevels << " is not in [1, " << PatchReference::kMaxLevels << "]");
     POINTPLANE_CHECK(maxIterations > 0, "maxIterations = " << maxIterations << " is not positive");
     POINTPLANE_CHECK(convergencePx > 0, "convergencePx = " << convergencePx << " is not positive");
     POINTPLANE_CHECK(noise >= 0, "noise = " << noise << " is negative");
@@ -285,7 +285,7 @@ void PatchAlignerParams::check() const
     POINTPLANE_CHECK(minZncc >= -1 && minZncc < 1, "minZncc = " << minZncc << " is not in [-1, 1)");
 }
 
-PatchAligner::PatchAligner(const PatchAlignerParams& params) : params_(params) { params.check(); }
+PatchAligner::PatchAligner(const TParams& params) : params_(params) { params.check(); }
 
 void PatchAligner::makeReference(
     const ImagePyramid& reference,

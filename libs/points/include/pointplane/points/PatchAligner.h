@@ -9,38 +9,12 @@
 
 namespace pointplane
 {
-struct PatchAlignerParams
-{
-    static constexpr const char* kSection = "PatchAligner";
-    static constexpr int kMaxLevels = 6;
-
-    int patchSizePx{8};          //!< 8, 12 or 16
-    int numLevels{3};            //!< pyramid levels searched, coarse to fine
-    int maxIterations{12};       //!< per level
-    double convergencePx{0.01};  //!< a smaller step ends the search
-    double noise{2};             //!< [grey levels] sigma of image noise
-    double minContrast{3};       //!< [grey levels] standard deviation of a usable patch
-    double minZncc{0.7};         //!< similarity below which a patch is not the same
-
-    template <class V>
-    void visit(V&& v)
-    {
-        v("patchSizePx", patchSizePx, "px", "side of the patch: 8, 12 or 16");
-        v("numLevels", numLevels, "-", "pyramid levels searched, coarse to fine");
-        v("maxIterations", maxIterations, "-", "Gauss-Newton steps per pyramid level");
-        v("convergencePx", convergencePx, "px", "a smaller step ends the search");
-        v("noise", noise, "grey", "image noise; gradients that it explains are not followed");
-        v("minContrast", minContrast, "grey", "least standard deviation of a patch");
-        v("minZncc", minZncc, "-", "least zero-mean normalised cross-correlation of a match");
-    }
-    /** \throws std::invalid_argument naming the key */
-    void check() const;
-};
-
 /** A patch of the reference image, warped as the current image will show it, with all that the
  * search needs and that depends on it alone. Made by PatchAligner. */
 struct PatchReference
 {
+    static constexpr int kMaxLevels = 6;
+
     /** One pyramid level. */
     struct Level
     {
@@ -53,7 +27,7 @@ struct PatchReference
         Eigen::Matrix2d inverse{
             Eigen::Matrix2d::Zero()};  //!< pseudo-inverse over the directions with texture
     };
-    std::array<Level, PatchAlignerParams::kMaxLevels> levels;
+    std::array<Level, kMaxLevels> levels;
     std::vector<float> data;  //!< of a level: zero-mean template, x gradient, y gradient
 
     /** False: flat, or too near to the border of the image. */
@@ -94,10 +68,37 @@ struct AlignResult
 class PatchAligner
 {
  public:
-    /** \throws std::invalid_argument naming the key when a parameter is out of range */
-    explicit PatchAligner(const PatchAlignerParams& params = {});
+    struct TParams
+    {
+        int patchSizePx{8};          //!< 8, 12 or 16
+        int numLevels{3};            //!< pyramid levels searched, coarse to fine
+        int maxIterations{12};       //!< per level
+        double convergencePx{0.01};  //!< a smaller step ends the search
+        double noise{2};             //!< [grey levels] sigma of image noise
+        double minContrast{3};       //!< [grey levels] standard deviation of a usable patch
+        double minZncc{0.7};         //!< similarity below which a patch is not the same
 
-    [[nodiscard]] const PatchAlignerParams& params() const { return params_; }
+        template <class V>
+        void visit(V&& v)
+        {
+            v("patchSizePx", patchSizePx, "px", "side of the patch: 8, 12 or 16");
+            v("numLevels", numLevels, "-", "pyramid levels searched, coarse to fine");
+            v("maxIterations", maxIterations, "-", "Gauss-Newton steps per pyramid level");
+            v("convergencePx", convergencePx, "px", "a smaller step ends the search");
+            v("noise", noise, "grey", "image noise; gradients that it explains are not followed");
+            v("minContrast", minContrast, "grey", "least standard deviation of a patch");
+            v("minZncc", minZncc, "-", "least zero-mean normalised cross-correlation of a match");
+        }
+        /** \throws std::invalid_argument naming the key */
+        void check() const;
+    };
+
+    PatchAligner() : PatchAligner(TParams{}) {}
+
+    /** \throws std::invalid_argument naming the key when a parameter is out of range */
+    explicit PatchAligner(const TParams& params);
+
+    [[nodiscard]] const TParams& params() const { return params_; }
 
     /** \param uv_px centre of the patch in the reference image
      * \param A_ref_cur 2x2, maps offsets from the centre in the current image to offsets in the
@@ -122,6 +123,6 @@ class PatchAligner
         const Eigen::Vector2d& start_px) const;
 
  private:
-    PatchAlignerParams params_;
+    TParams params_;
 };
 }  // namespace pointplane
