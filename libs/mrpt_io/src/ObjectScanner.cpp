@@ -434,8 +434,8 @@ void ObjectScanner::pose3D(int version)
     require(
         version == 2 || version == 3,
         "a pose of serialisation version " + std::to_string(version) + " (2, 3 are supported)");
-    // Translation and rotation matrix; before, its logarithm.
-    copyArray(version == 3 ? 12 : 6, sizeof(double));
+    // Translation and rotation matrix; a quaternion in version 2.
+    copyArray(version == 3 ? 12 : 7, sizeof(double));
 }
 
 void ObjectScanner::opaque(const Header& header)

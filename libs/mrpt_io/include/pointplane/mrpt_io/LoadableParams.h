@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pointplane/mrpt_io/errors.h>
+#include <pointplane/mrpt_io/params_ini.h>
+
+#include <mrpt/config/CConfigFileBase.h>
+#include <mrpt/config/CLoadableOptions.h>
+
+#include <algorithm>
+#include <sstream>
+
+namespace pointplane
+{
+/** One parameter group as MRPT's CLoadableOptions, so that it loads, saves and prints like any
+ * other of an MRPT program. Loading is as strict as loadIni(): an unknown key or a value that is
+ * not what the key takes throws InputError. */
+template <class Group>
+class LoadableParams : public mrpt::config::CLoadableOptions
+{
+ public:
+    Group values;
+
+    void loadFromConfigFile(
+        const mrpt::config::CConfigFileBase& source, const std::string& section) override
+    {
+        std::vector<std::string> keys;
+        source.getAllKeys(section, keys);
+        std::string text = "[" + section + "]\n";
+        for (const std::string& key : keys)
+        {
+            text += key + " = " + source.read_string(section, key, "") + "\n";
+        }
+        parseIni(text, "configuration", parametersOf(section, values));
+        values.check();
+    }
+
+    void saveToConfigFile(
+        mrpt::config::CConfigFileBase& target, const std::string& section) const override
+    {
+        Group copy = values;
+        for (const auto& p : parametersOf(section, copy))
+        {
+            target.write(section, p.key, p.text(), -1, -1, "[" + p.unit + "] " + p.help);
+        }
+    }
+
+    void dumpToTextStream(std::ostream& out) const override
+    {
+        Group copy = values;
+        out << iniText(parametersOf("parameters", copy));
+    }
+};
+}  // namespace pointplane

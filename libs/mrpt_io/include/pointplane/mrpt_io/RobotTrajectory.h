@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pointplane/odometry/OdometryResult.h>
+
+#include <mrpt/poses/CPose3DPDFGaussian.h>
+
+#include <string>
+
+namespace pointplane
+{
+/** One frame's result in the robot's frame, MRPT axes. */
+struct RobotMotion
+{
+    TrackingStatus status{TrackingStatus::Lost};
+    std::string reason;                         //!< why not tracked, or empty
+    mrpt::poses::CPose3DPDFGaussian increment;  //!< since the previous frame
+    mrpt::poses::CPose3DPDFGaussian pose;       //!< since the first frame
+    FrameDiagnostics diagnostics;
+};
+
+/** Motions of the camera -> motions of the robot that carries it. The camera may move on the robot
+ * (a pan-tilt head): its pose there is taken from each frame. */
+class RobotTrajectory
+{
+ public:
+    /** \param result in the camera's optical frame
+     * \param T_robot_cam of this frame, optical axes; taken as exact */
+    [[nodiscard]] RobotMotion add(
+        const OdometryResult& result, const Eigen::Isometry3d& T_robot_cam);
+
+    /** As add() for a frame whose camera pose is not known: that of the previous one is used. */
+    [[nodiscard]] RobotMotion add(const OdometryResult& result);
+
+    void reset() { *this = RobotTrajectory(); }
+
+ private:
+    bool started_{false};
+    Eigen::Isometry3d T_robot_cam_first_{Eigen::Isometry3d::Identity()};
+    Eigen::Isometry3d T_robot_cam_prev_{Eigen::Isometry3d::Identity()};
+};
+}  // namespace pointplane

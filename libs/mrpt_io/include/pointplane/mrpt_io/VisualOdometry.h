@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pointplane/mrpt_io/ObservationConverter.h>
+#include <pointplane/mrpt_io/RobotTrajectory.h>
+#include <pointplane/odometry/Odometry.h>
+
+#include <mrpt/obs/CObservation3DRangeScan.h>
+#include <mrpt/system/COutputLogger.h>
+
+#include <string>
+
+namespace pointplane
+{
+/** RGB-D odometry for MRPT programs: observations in, pose PDFs of the robot out.
+ *
+ *     pointplane::VisualOdometry vo;
+ *     vo.loadFromConfigFileName("config.ini");
+ *     const auto r = vo.process(*observation);
+ *     std::cout << r.pose << pointplane::toString(r.status);
+ *
+ * One object per camera, observations in order of time. Not thread-safe. A frame that cannot be
+ * used is Lost with a reason, never an exception. Logs at LVL_DEBUG per frame, LVL_WARN when not
+ * tracked.
+ */
+class VisualOdometry : public mrpt::system::COutputLogger
+{
+ public:
+    using TParams = OdometryParams;
+
+    explicit VisualOdometry(const TParams& params = {});
+
+    /** Replaces all parameters and starts anew. \throws InputError naming file, line and key */
+    void loadFromConfigFileName(const std::string& path);
+
+    /** \return increment and pose in the robot's frame: sensorPose is taken into account */
+    [[nodiscard]] RobotMotion process(const mrpt::obs::CObservation3DRangeScan& scan);
+
+    /** Points and planes of the latest frame, camera's optical frame. */
+    [[nodiscard]] const FrameFeatures& features() const { return odometry_.features(); }
+    [[nodiscard]] const TParams& params() const { return odometry_.params(); }
+
+    /** For external images and shutter comments. */
+    [[nodiscard]] ObservationConverter& converter() { return converter_; }
+
+    /** Starts anew with the same parameters. */
+    void reset();
+
+ private:
+    Odometry odometry_;
+    ObservationConverter converter_;
+    RobotTrajectory trajectory_;
+};
+}  // namespace pointplane

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pointplane/core/PoseGaussian.h>
+
+#include <mrpt/core/Clock.h>
+#include <mrpt/poses/CPose3DPDFGaussian.h>
+
+#include <string>
+
+namespace pointplane
+{
+/** @name Between this project's conventions and MRPT's
+ * A pose T_a_b is MRPT's "pose of b in a". Covariances: here of the tangent [translation; rotation]
+ * of a perturbation on the left; in MRPT of (x, y, z, yaw, pitch, roll). The two 6x6 matrices
+ * differ by the Jacobian below; copying one into the other is wrong.
+ * @{ */
+
+/** T_body_optical: MRPT's sensor axes (x forward, y left, z up) from optical axes (x right, y down,
+ * z forward); the rotation of CPose3D(0, 0, 0, -90 deg, 0, -90 deg), exactly. */
+[[nodiscard]] Eigen::Isometry3d opticalInBody();
+
+[[nodiscard]] mrpt::poses::CPose3D toMrpt(const Eigen::Isometry3d& T_a_b);
+[[nodiscard]] Eigen::Isometry3d fromMrpt(const mrpt::poses::CPose3D& pose);
+
+/** 6x6 Jacobian of (x, y, z, yaw, pitch, roll) with respect to the left tangent at T_a_b. Near
+ * pitch = +-90 deg, where yaw and roll cannot be told apart, it is kept finite (cos(pitch) at least
+ * 1e-4): variances of yaw and roll are huge there, and nothing is better in these coordinates. */
+[[nodiscard]] Matrix6d jacobianYprOfTangent(const Eigen::Isometry3d& T_a_b);
+
+/** Covariance through the Jacobian above; the result is strictly positive definite, whatever
+ * rounding did. */
+[[nodiscard]] mrpt::poses::CPose3DPDFGaussian toMrpt(const PoseGaussian& T_a_b);
+
+/** The inverse of toMrpt(). */
+[[nodiscard]] PoseGaussian fromMrpt(const mrpt::poses::CPose3DPDFGaussian& pdf);
+
+/** Seconds since 1970, UTC. */
+[[nodiscard]] double toSeconds(mrpt::Clock::time_point stamp);
+[[nodiscard]] mrpt::Clock::time_point fromSeconds(double seconds);
+
+/** Exact decimal text of a stamp in seconds since 1970: nine decimals, of which MRPT's clock (100
+ * ns) fills seven. */
+[[nodiscard]] std::string stampText(mrpt::Clock::time_point stamp);
+/** The inverse; exact to 100 ns. \throws InputError if the text is not a decimal number */
+[[nodiscard]] mrpt::Clock::time_point stampFromText(const std::string& text);
+/** @} */
+}  // namespace pointplane

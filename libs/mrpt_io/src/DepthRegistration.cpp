@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "DepthRegistration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pointplane
+{
+namespace
+{
+constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+/** Neighbours whose inverse depth differs by more lie on another surface: some 20 standard
+ * deviations of a Kinect [1/m]. */
+constexpr float kMaxGradient = 0.03F;
+
+/** Change of inverse depth per pixel between two neighbours, or 0 across an edge or a hole. */
+[[nodiscard]] float gradient(float before, float after)
+{
+    const float difference = 0.5F * (1 / after - 1 / before);
+    return std::abs(difference) <= kMaxGradient ? difference : 0.0F;  // false for NaN
+}
+}  // namespace
+
+DepthRegistration::DepthRegistration(
+    const PinholeCamera& source,
+    const PinholeCamera& target,
+    const Eigen::Isometry3d& T_target_source)
+    : source_(source), target_(target), T_target_source_(T_target_source)
+{
+    source_.depthAtUndistortedPixel = false;
+    rays_.reserve(static_cast<std::size_t>(source.width) * static_cast<std::size_t>(source.height));
+    for (int v = 0; v < source.height; ++v)
+    {
+        for (int u = 0; u < source.width; ++u)
+        {
+            rays_.push_back(source_.normalisedOfDepth({u, v}).cast<float>());
+        }
+    }
+}
+
+void DepthRegistration::splat(const cv::Mat& depth, int u, int v, cv::Mat& out) const
+{
+    const float z = depth.at<float>(v, u);
+    const std::size_t index =
+        static_cast<std::size_t>(v) * static_cast<std::size_t>(source_.width) +
+        static_cast<std::size_t>(u);
+    const Eigen::Vector3d p =
+        T_target_source_ * (static_cast<double>(z) * rays_[index].homogeneous().cast<double>());
+    if (!(p.z() > 1e-3))
+    {
+        return;
+    }
+    const double centreU = target_.fx * p.x() / p.z() + target_.cx;
+    const double centreV = target_.fy * p.y() / p.z() + target_.cy;
+    // Size of one source pixel in the target, a little more against rounding at shared borders.
+    const double zoom = static_cast<double>(z) / p.z();
+    const double sizeU = 1.01 * std::abs(target_.fx / source_.fx) * zoom;
+    const double sizeV = 1.01 * std::abs(target_.fy / source_.fy) * zoom;
+    const int firstU = std::max(0, static_cast<int>(std::ceil(centreU - sizeU / 2)));
+    const int lastU = std::min(out.cols - 1, static_cast<int>(std::floor(centreU + sizeU / 2)));
+    const int firstV = std::max(0, static_cast<int>(std::ceil(centreV - sizeV / 2)));
+    const int lastV = std::min(out.rows - 1, static_cast<int>(std::floor(centreV + sizeV / 2)));
+    if (firstU > lastU || firstV > lastV)
+    {
+        return;
+    }
+    const bool inside = u > 0 && v > 0 && u + 1 < depth.cols && v + 1 < depth.rows;
+    const float slopeU =
+        inside ? gradient(depth.at<float>(v, u - 1), depth.at<float>(v, u + 1)) : 0.0F;
+    const float slopeV =
+        inside ? gradient(depth.at<float>(v - 1, u), depth.at<float>(v + 1, u)) : 0.0F;
+    const double perU = slopeU * source_.fx / (target_.fx * zoom);
+    const double perV = slopeV * source_.fy / (target_.fy * zoom);
+    for (int row = firstV; row <= lastV; ++row)
+    {
+        auto* line = out.ptr<float>(row);
+        for (int col = firstU; col <= lastU; ++col)
+        {
+            const double q = 1 / p.z() + perU * (col - centreU) + perV * (row - centreV);
+            const auto rendered = static_cast<float>(1 / q);
+            if (rendered > 0 && !(line[col] <= rendered))  // also true where nothing is yet
+            {
+                line[col] = rendered;
+            }
+        }
+    }
+}
+
+cv::Mat DepthRegistration::render(const cv::Mat& depth) const
+{
+    cv::Mat out(target_.height, target_.width, CV_32FC1, cv::Scalar(kNone));
+    for (int v = 0; v < depth.rows; ++v)
+    {
+        const auto* line = depth.ptr<float>(v);
+        for (int u = 0; u < depth.cols; ++u)
+        {
+            if (line[u] > 0)  // false for NaN
+            {
+                splat(depth, u, v, out);
+            }
+        }
+    }
+    return out;
+}
+}  // namespace pointplane

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pointplane/core/types.h>
+#include <pointplane/sensor/PinholeCamera.h>
+
+#include <opencv2/core/mat.hpp>
+
+#include <vector>
+
+namespace pointplane
+{
+/** Renders the depth image of one camera into another that is rigidly attached to it.
+ *
+ * Each reading covers its footprint in the target, so that no holes appear when the target's pixels
+ * are finer; the nearest surface wins. Inside a footprint the inverse depth follows its gradient in
+ * the source (it is linear in the pixel on a plane), which avoids steps on slanted surfaces. */
+class DepthRegistration
+{
+ public:
+    /** \param source its depth lies at raw pixels if it is distorted
+     * \param target depth is rendered at its ideal (undistorted) pixels
+     * \param T_target_source optical frames */
+    DepthRegistration(
+        const PinholeCamera& source,
+        const PinholeCamera& target,
+        const Eigen::Isometry3d& T_target_source);
+
+    /** \param depth CV_32FC1, size of the source [m], NaN = none
+     * \return CV_32FC1, size of the target [m], NaN = none */
+    [[nodiscard]] cv::Mat render(const cv::Mat& depth) const;
+
+ private:
+    void splat(const cv::Mat& depth, int u, int v, cv::Mat& out) const;
+
+    PinholeCamera source_;
+    PinholeCamera target_;
+    Eigen::Isometry3d T_target_source_;
+    std::vector<Eigen::Vector2f> rays_;  // normalised coordinates of each source pixel
+};
+}  // namespace pointplane

@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/mrpt_io/ObservationConverter.h>
+#include <pointplane/mrpt_io/errors.h>
+#include <pointplane/mrpt_io/mrpt_poses.h>
+
+#include <mrpt/img/CImage.h>
+
+#include <opencv2/imgproc.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "DepthRegistration.h"
+#include "externalFiles.h"
+#include "shutterText.h"
+
+namespace pointplane
+{
+namespace
+{
+using mrpt::obs::CObservation3DRangeScan;
+
+constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+
+/** Why a frame cannot be used; caught in convert(). */
+class FrameProblem : public std::runtime_error
+{
+ public:
+    using std::runtime_error::runtime_error;
+};
+
+void require(bool condition, const std::string& problem)
+{
+    if (!condition)
+    {
+        throw FrameProblem(problem);
+    }
+}
+
+[[nodiscard]] std::string sizeText(int width, int height)
+{
+    return std::to_string(width) + "x" + std::to_string(height);
+}
+
+[[nodiscard]] PinholeCamera cameraOf(const mrpt::img::TCamera& from, const std::string& name)
+{
+    PinholeCamera camera;
+    camera.width = static_cast<int>(std::min(from.ncols, 1U << 20U));
+    camera.height = static_cast<int>(std::min(from.nrows, 1U << 20U));
+    camera.fx = from.fx();
+    camera.fy = from.fy();
+    camera.cx = from.cx();
+    camera.cy = from.cy();
+    if (from.distortion == mrpt::img::DistortionModel::plumb_bob)
+    {
+        std::copy_n(from.dist.begin(), camera.distortion.size(), camera.distortion.begin());
+        const bool rational =
+            std::any_of(from.dist.begin() + 5, from.dist.end(), [](double k) { return k != 0; });
+        require(!rational, name + ": distortion k4 to k6 is not supported");
+    }
+    require(
+        from.distortion != mrpt::img::DistortionModel::kannala_brandt,
+        name + ": fisheye distortion is not supported");
+    require(camera.problem().empty(), name + ": " + camera.problem());
+    return camera;
+}
+
+[[nodiscard]] bool sameProjection(const PinholeCamera& a, const PinholeCamera& b)
+{
+    const auto near = [](double x, double y) { return std::abs(x - y) < 1e-6; };
+    return a.width == b.width && a.height == b.height && near(a.fx, b.fx) && near(a.fy, b.fy) &&
+           near(a.cx, b.cx) && near(a.cy, b.cy);
+}
+
+[[nodiscard]] cv::Mat grayOf(const cv::Mat& image)
+{
+    cv::Mat bytes = image;
+    if (image.depth() == CV_16U)
+    {
+        image.convertTo(bytes, CV_8U, 1.0 / 256);
+    }
+    require(bytes.depth() == CV_8U, "intensity image is neither 8 nor 16 bit");
+    cv::Mat gray;
+    switch (bytes.channels())
+    {
+        case 1:
+            return bytes.clone();
+        case 3:
+            cv::cvtColor(bytes, gray, cv::COLOR_BGR2GRAY);
+            return gray;
+        case 4:
+            cv::cvtColor(bytes, gray, cv::COLOR_BGRA2GRAY);
+            return gray;
+        default:
+            throw FrameProblem("intensity image has neither 1 nor 3 channels");
+    }
+}
+
+/** Raw readings to metres; 0 is none. */
+[[nodiscard]] cv::Mat metres(const mrpt::math::CMatrix_u16& raw, float units)
+{
+    const int rows = static_cast<int>(raw.rows()), cols = static_cast<int>(raw.cols());
+    cv::Mat depth(rows, cols, CV_32FC1);
+    for (int v = 0; v < rows; ++v)
+    {
+        const std::uint16_t* in = raw.data() + static_cast<std::ptrdiff_t>(v) * cols;
+        auto* out = depth.ptr<float>(v);
+        for (int u = 0; u < cols; ++u)
+        {
+            out[u] = in[u] == 0 ? kNone : static_cast<float>(in[u]) * units;
+        }
+    }
+    return depth;
+}
+
+/** Distances along the rays to distances along the optical axis. */
+void rangesToDepths(const PinholeCamera& camera, cv::Mat& depth)
+{
+    PinholeCamera raw = camera;
+    raw.depthAtUndistortedPixel = false;
+    for (int v = 0; v < depth.rows; ++v)
+    {
+        for (int u = 0; u < depth.cols; ++u)
+        {
+            const double length = raw.normalisedOfDepth({u, v}).homogeneous().norm();
+            depth.at<float>(v, u) /= static_cast<float>(length);
+        }
+    }
+}
+}  // namespace
+
+struct ObservationConverter::Impl
+{
+    [[nodiscard]] std::string resolved(const std::string& name) const
+    {
+        return name.empty() || name.front() == '/' ? name : externals + name;
+    }
+    [[nodiscard]] cv::Mat intensityOf(const CObservation3DRangeScan& scan) const;
+    [[nodiscard]] cv::Mat depthOf(
+        const CObservation3DRangeScan& scan, const PinholeCamera& camera) const;
+    [[nodiscard]] const DepthRegistration& registration(
+        const PinholeCamera& source,
+        const PinholeCamera& target,
+        const Eigen::Isometry3d& T_target_source) const;
+    void fill(const CObservation3DRangeScan& scan, ConvertedFrame& out) const;
+
+    std::string externals;
+    std::map<std::string, ShutterModel> shutters;
+
+    // The latest registration: its ray table is the costly part.
+    mutable std::optional<DepthRegistration> registrationCache;
+    mutable PinholeCamera cachedSource, cachedTarget;
+    mutable Eigen::Isometry3d cachedTransform{Eigen::Isometry3d::Identity()};
+};
+
+cv::Mat ObservationConverter::Impl::intensityOf(const CObservation3DRangeScan& scan) const
+{
+    const mrpt::img::CImage& image = scan.intensityImage;
+    if (image.isExternallyStored())
+    {
+        return grayOf(readExternalImage(resolved(image.getExternalStorageFile())));
+    }
+    require(!image.isEmpty(), "intensity image is empty");
+    return grayOf(image.asCvMatRef());
+}
+
+cv::Mat ObservationConverter::Impl::depthOf(
+    const CObservation3DRangeScan& scan, const PinholeCamera& camera) const
+{
+    require(
+        std::isfinite(scan.rangeUnits) && scan.rangeUnits > 0,
+        "rangeUnits is " + std::to_string(scan.rangeUnits));
+    cv::Mat depth;
+    if (scan.rangeImage_isExternallyStored() && scan.rangeImage.size() == 0)
+    {
+        depth = metres(
+            readExternalRange(resolved(scan.rangeImage_getExternalStorageFile(""))),
+            scan.rangeUnits);
+    }
+    else
+    {
+        require(scan.rangeImage.size() != 0, "range image is empty");
+        depth = metres(scan.rangeImage, scan.rangeUnits);
+    }
+    require(
+        depth.cols == camera.width && depth.rows == camera.height,
+        "range image is " + sizeText(depth.cols, depth.rows) + " but cameraParams is for " +
+            sizeText(camera.width, camera.height));
+    if (!scan.range_is_depth)
+    {
+        rangesToDepths(camera, depth);
+    }
+    return depth;
+}
+
+const DepthRegistration& ObservationConverter::Impl::registration(
+    const PinholeCamera& source,
+    const PinholeCamera& target,
+    const Eigen::Isometry3d& T_target_source) const
+{
+    const bool hit = registrationCache && sameProjection(source, cachedSource) &&
+                     source.distortion == cachedSource.distortion &&
+                     sameProjection(target, cachedTarget) &&
+                     T_target_source.isApprox(cachedTransform, 1e-12);
+    if (!hit)
+    {
+        registrationCache.emplace(source, target, T_target_source);
+        cachedSource = source;
+        cachedTarget = target;
+        cachedTransform = T_target_source;
+    }
+    return *registrationCache;
+}
+
+void ObservationConverter::Impl::fill(
+    const CObservation3DRangeScan& scan, ConvertedFrame& out) const
+{
+    require(scan.hasRangeImage, "observation has no range image");
+    const Eigen::Isometry3d T_robot_body = fromMrpt(scan.sensorPose);
+    require(T_robot_body.matrix().allFinite(), "sensorPose is not finite");
+    const PinholeCamera depthCamera = cameraOf(scan.cameraParams, "cameraParams");
+    const cv::Mat depth = depthOf(scan, depthCamera);
+    if (!scan.hasIntensityImage)
+    {
+        out.frame.depth = depth;
+        out.frame.camera = depthCamera;
+        out.frame.camera.depthAtUndistortedPixel = false;
+        out.T_robot_cam = T_robot_body * opticalInBody();
+        return;
+    }
+    PinholeCamera camera = cameraOf(scan.cameraParamsIntensity, "cameraParamsIntensity");
+    const cv::Mat gray = intensityOf(scan);
+    require(
+        gray.cols == camera.width && gray.rows == camera.height,
+        "intensity image is " + sizeText(gray.cols, gray.rows) +
+            " but cameraParamsIntensity is for " + sizeText(camera.width, camera.height));
+    const Eigen::Isometry3d T_body_cam = fromMrpt(scan.relativePoseIntensityWRTDepth);
+    require(T_body_cam.matrix().allFinite(), "relativePoseIntensityWRTDepth is not finite");
+    const Eigen::Isometry3d T_cam_depth = T_body_cam.inverse() * opticalInBody();
+    const bool registered =
+        T_cam_depth.isApprox(Eigen::Isometry3d::Identity(), 1e-6) &&
+        sameProjection(depthCamera, camera) &&
+        (!depthCamera.isDistorted() || depthCamera.distortion == camera.distortion);
+    camera.depthAtUndistortedPixel = !(registered && depthCamera.isDistorted());
+    out.frame.depth =
+        registered ? depth : registration(depthCamera, camera, T_cam_depth).render(depth);
+    out.frame.gray = gray;
+    out.frame.camera = camera;
+    out.T_robot_cam = T_robot_body * T_body_cam;
+}
+
+ObservationConverter::ObservationConverter() : impl_(std::make_unique<Impl>()) {}
+ObservationConverter::~ObservationConverter() = default;
+ObservationConverter::ObservationConverter(ObservationConverter&&) noexcept = default;
+ObservationConverter& ObservationConverter::operator=(ObservationConverter&&) noexcept = default;
+
+void ObservationConverter::setExternalsDirectory(const std::string& directory)
+{
+    impl_->externals = directory;
+    if (!directory.empty() && directory.back() != '/')
+    {
+        impl_->externals += '/';
+    }
+}
+
+void ObservationConverter::readComment(const mrpt::obs::CObservationComment& comment)
+{
+    if (auto parsed = parseShutterComment(comment.text))
+    {
+        impl_->shutters[parsed->label] = parsed->shutter;
+    }
+}
+
+ConvertedFrame ObservationConverter::convert(const CObservation3DRangeScan& scan) const
+{
+    ConvertedFrame out;
+    try
+    {
+        impl_->fill(scan, out);
+        if (const auto it = impl_->shutters.find(scan.sensorLabel); it != impl_->shutters.end())
+        {
+            out.frame.shutter = it->second;
+        }
+    }
+    catch (const std::exception& e)
+    {
+        out = ConvertedFrame();
+        out.problem = oneLine(e);
+    }
+    out.frame.stamp = toSeconds(scan.timestamp);
+    return out;
+}
+}  // namespace pointplane

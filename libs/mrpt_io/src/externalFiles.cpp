@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "externalFiles.h"
+
+#include <pointplane/mrpt_io/errors.h>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <vector>
+
+#include "GzInput.h"
+
+namespace pointplane
+{
+namespace
+{
+constexpr std::uint64_t kMaxPixels = 1ULL << 26U;
+}
+
+mrpt::math::CMatrix_u16 readExternalRange(const std::string& path)
+{
+    GzInput in(path);
+    std::uint32_t size[2] = {0, 0};
+    if (in.read(size, sizeof(size)) != sizeof(size))
+    {
+        throw InputError(path + ": is not a range image");
+    }
+    const std::uint64_t count = static_cast<std::uint64_t>(size[0]) * size[1];
+    const std::string sizeText = std::to_string(size[1]) + "x" + std::to_string(size[0]);
+    if (count == 0 || count > kMaxPixels)
+    {
+        throw InputError(path + ": is not a range image (its size would be " + sizeText + ")");
+    }
+    std::vector<std::uint16_t> readings;
+    constexpr std::size_t kChunk = 1U << 19U;
+    while (readings.size() < count)  // in steps: a wrong size must not cost memory
+    {
+        const std::size_t at = readings.size();
+        const std::size_t step = std::min<std::size_t>(kChunk, count - at);
+        readings.resize(at + step);
+        if (in.read(readings.data() + at, step * sizeof(std::uint16_t)) !=
+            step * sizeof(std::uint16_t))
+        {
+            throw InputError(path + ": stops before the end of its " + sizeText + " readings");
+        }
+    }
+    std::uint8_t extra = 0;
+    if (in.read(&extra, 1) != 0 || in.end() != GzInput::End::Clean)
+    {
+        throw InputError(
+            path + ": " +
+            (in.problem().empty() ? "has more than its " + sizeText + " readings" : in.problem()));
+    }
+    mrpt::math::CMatrix_u16 out(static_cast<int>(size[0]), static_cast<int>(size[1]));
+    std::memcpy(out.data(), readings.data(), readings.size() * sizeof(std::uint16_t));
+    return out;
+}
+
+cv::Mat readExternalImage(const std::string& path)
+{
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(path, error))
+    {
+        throw InputError("cannot open " + path + ": no such file");
+    }
+    cv::Mat image;
+    try
+    {
+        image = cv::imread(path, cv::IMREAD_ANYCOLOR | cv::IMREAD_ANYDEPTH);
+    }
+    catch (const cv::Exception& e)
+    {
+        throw InputError(path + ": " + e.err);
+    }
+    if (image.empty())
+    {
+        throw InputError(path + ": is not an image, or damaged");
+    }
+    return image;
+}
+}  // namespace pointplane

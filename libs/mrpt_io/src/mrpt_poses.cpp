@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/covariance.h>
+#include <pointplane/core/se3.h>
+#include <pointplane/mrpt_io/errors.h>
+#include <pointplane/mrpt_io/mrpt_poses.h>
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdio>
+
+namespace pointplane
+{
+namespace
+{
+constexpr std::int64_t kTicksPerSecond = 10'000'000;
+constexpr std::int64_t kTicksTo1970 = 116'444'736'000'000'000;  // MRPT counts from 1601
+constexpr int kTickDigits = 7;
+
+[[nodiscard]] std::int64_t ticksSince1970(mrpt::Clock::time_point stamp)
+{
+    return stamp.time_since_epoch().count() - kTicksTo1970;
+}
+
+[[nodiscard]] mrpt::Clock::time_point fromTicksSince1970(std::int64_t ticks)
+{
+    return mrpt::Clock::time_point(mrpt::Clock::duration(ticks + kTicksTo1970));
+}
+}  // namespace
+
+Eigen::Isometry3d opticalInBody()
+{
+    Eigen::Isometry3d T_body_optical = Eigen::Isometry3d::Identity();
+    T_body_optical.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+    return T_body_optical;
+}
+
+mrpt::poses::CPose3D toMrpt(const Eigen::Isometry3d& T_a_b)
+{
+    return mrpt::poses::CPose3D(mrpt::math::CMatrixDouble44(T_a_b.matrix()));
+}
+
+Eigen::Isometry3d fromMrpt(const mrpt::poses::CPose3D& pose)
+{
+    Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+    T.linear() = pose.getRotationMatrix().asEigen();
+    T.translation() << pose.x(), pose.y(), pose.z();
+    return T;
+}
+
+Matrix6d jacobianYprOfTangent(const Eigen::Isometry3d& T_a_b)
+{
+    const Eigen::Matrix3d R = T_a_b.linear();
+    // R = Rz(yaw) Ry(pitch) Rx(roll).
+    const double sinPitch = -R(2, 0);
+    const double trueCosPitch = std::hypot(R(0, 0), R(1, 0));
+    const double yaw = trueCosPitch > 1e-9 ? std::atan2(R(1, 0), R(0, 0)) : 0.0;
+    const double cosPitch = std::max(trueCosPitch, 1e-4);
+    const double c = std::cos(yaw), s = std::sin(yaw);
+    Matrix6d J = Matrix6d::Zero();
+    // exp(xi) moves the translation t by rho + omega x t.
+    J.topLeftCorner<3, 3>().setIdentity();
+    J.topRightCorner<3, 3>() = -hat(T_a_b.translation());
+    // omega = yaw' e_z + pitch' R_z e_y + roll' R_z R_y e_x, solved for the rates.
+    const Eigen::RowVector3d roll(c / cosPitch, s / cosPitch, 0);
+    J.block<1, 3>(3, 3) = Eigen::RowVector3d(0, 0, 1) + sinPitch * roll;
+    J.block<1, 3>(4, 3) << -s, c, 0;
+    J.block<1, 3>(5, 3) = roll;
+    return J;
+}
+
+mrpt::poses::CPose3DPDFGaussian toMrpt(const PoseGaussian& T_a_b)
+{
+    Matrix6d cov = propagate(jacobianYprOfTangent(T_a_b.mean), T_a_b.cov);
+    if (!isPositiveDefinite(cov))
+    {
+        cov = withEigenvalueFloor(cov, std::max(1e-15, 1e-12 * cov.trace()));
+    }
+    return {toMrpt(T_a_b.mean), mrpt::math::CMatrixDouble66(cov)};
+}
+
+PoseGaussian fromMrpt(const mrpt::poses::CPose3DPDFGaussian& pdf)
+{
+    PoseGaussian out;
+    out.mean = fromMrpt(pdf.mean);
+    const Matrix6d inverse = jacobianYprOfTangent(out.mean).inverse();
+    out.cov = propagate(inverse, Matrix6d(pdf.cov.asEigen()));
+    return out;
+}
+
+double toSeconds(mrpt::Clock::time_point stamp)
+{
+    return static_cast<double>(ticksSince1970(stamp)) / static_cast<double>(kTicksPerSecond);
+}
+
+mrpt::Clock::time_point fromSeconds(double seconds)
+{
+    return fromTicksSince1970(std::llround(seconds * static_cast<double>(kTicksPerSecond)));
+}
+
+std::string stampText(mrpt::Clock::time_point stamp)
+{
+    const std::int64_t ticks = ticksSince1970(stamp);
+    const std::int64_t magnitude = std::abs(ticks);
+    char text[48];
+    std::snprintf(
+        text,
+        sizeof(text),
+        "%s%lld.%07lld00",
+        ticks < 0 ? "-" : "",
+        static_cast<long long>(magnitude / kTicksPerSecond),
+        static_cast<long long>(magnitude % kTicksPerSecond));
+    return text;
+}
+
+mrpt::Clock::time_point stampFromText(const std::string& text)
+{
+    const std::size_t dot = std::min(text.find('.'), text.size());
+    const std::string whole = text.substr(0, dot);
+    std::string fraction = dot < text.size() ? text.substr(dot + 1) : "";
+    const auto isDigits = [](const std::string& s)
+    { return std::all_of(s.begin(), s.end(), [](unsigned char c) { return std::isdigit(c); }); };
+    if (whole.empty() || whole.size() > 11 || !isDigits(whole) || !isDigits(fraction))
+    {
+        throw InputError("'" + text + "' is not a time stamp in seconds");
+    }
+    const bool roundUp = fraction.size() > kTickDigits && fraction[kTickDigits] >= '5';
+    fraction.resize(kTickDigits, '0');
+    return fromTicksSince1970(
+        std::stoll(whole) * kTicksPerSecond + std::stoll(fraction) + (roundUp ? 1 : 0));
+}
+}  // namespace pointplane

@@ -1,0 +1,315 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/mrpt_io/errors.h>
+#include <pointplane/mrpt_io/params_ini.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <numeric>
+#include <set>
+#include <sstream>
+
+#include "numbers.h"
+
+namespace pointplane
+{
+namespace
+{
+[[nodiscard]] std::string trimmed(const std::string& text)
+{
+    const auto first = text.find_first_not_of(" \t\r");
+    const auto last = text.find_last_not_of(" \t\r");
+    return first == std::string::npos ? "" : text.substr(first, last - first + 1);
+}
+
+/** Levenshtein distance: insertions, deletions and exchanges from a to b. */
+[[nodiscard]] std::size_t editDistance(const std::string& a, const std::string& b)
+{
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), 0U);
+    for (std::size_t i = 1; i <= a.size(); ++i)
+    {
+        std::size_t diagonal = row[0];
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j)
+        {
+            const std::size_t exchange = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+            diagonal = row[j];
+            row[j] = std::min({row[j] + 1, row[j - 1] + 1, exchange});
+        }
+    }
+    return row.back();
+}
+
+[[nodiscard]] std::string closest(const std::string& word, const std::set<std::string>& candidates)
+{
+    std::string best;
+    std::size_t bestDistance = std::string::npos;
+    for (const std::string& candidate : candidates)
+    {
+        if (const std::size_t d = editDistance(word, candidate); d < bestDistance)
+        {
+            bestDistance = d;
+            best = candidate;
+        }
+    }
+    return best;
+}
+
+[[nodiscard]] std::set<std::string> sectionsOf(const ParameterTable& table)
+{
+    std::set<std::string> out;
+    for (const auto& p : table)
+    {
+        out.insert(p.section);
+    }
+    return out;
+}
+
+[[noreturn]] void failUnknownSection(
+    const std::string& where, const std::string& section, const ParameterTable& table)
+{
+    throw InputError(
+        where + ": unknown section [" + section + "]; did you mean [" +
+        closest(section, sectionsOf(table)) + "]?");
+}
+
+[[nodiscard]] const ParameterRef& find(
+    const std::string& where,
+    const std::string& section,
+    const std::string& key,
+    const ParameterTable& table)
+{
+    std::set<std::string> keys;
+    std::string elsewhere;
+    for (const auto& p : table)
+    {
+        if (p.section == section)
+        {
+            if (p.key == key)
+            {
+                return p;
+            }
+            keys.insert(p.key);
+        }
+        else if (p.key == key)
+        {
+            elsewhere = p.section;
+        }
+    }
+    if (keys.empty())
+    {
+        failUnknownSection(where, section, table);
+    }
+    throw InputError(
+        where + ": unknown key '" + key + "' in [" + section + "]; " +
+        (elsewhere.empty() ? "did you mean '" + closest(key, keys) + "'?"
+                           : "it belongs in [" + elsewhere + "]"));
+}
+
+[[nodiscard]] bool assignTo(bool* target, const std::string& text)
+{
+    const bool yes = text == "true" || text == "1" || text == "yes";
+    *target = yes;
+    return yes || text == "false" || text == "0" || text == "no";
+}
+[[nodiscard]] bool assignTo(std::string* target, const std::string& text)
+{
+    *target = text;
+    return !text.empty();
+}
+template <class Number>
+[[nodiscard]] bool assignTo(Number* target, const std::string& text)
+{
+    const auto number = parseNumber<Number>(text);
+    if (!number || !std::isfinite(static_cast<double>(*number)))
+    {
+        return false;
+    }
+    *target = *number;
+    return true;
+}
+
+void assign(const std::string& where, const ParameterRef& parameter, const std::string& text)
+{
+    const bool good =
+        std::visit([&text](auto* target) { return assignTo(target, text); }, parameter.value);
+    if (!good)
+    {
+        throw InputError(
+            where + ": [" + parameter.section + "] " + parameter.key + " = '" + text + "' is not " +
+            parameter.typeName() +
+            (text.find_first_of("#;") == std::string::npos
+                 ? ""
+                 : " (a comment after a value starts with //)"));
+    }
+}
+
+[[nodiscard]] std::string withoutComment(const std::string& line)
+{
+    const std::string text = trimmed(line);
+    if (text.empty() || text[0] == '#' || text[0] == ';')
+    {
+        return "";
+    }
+    return trimmed(text.substr(0, text.find("//")));
+}
+}  // namespace
+
+std::string ParameterRef::text() const
+{
+    struct Writer
+    {
+        std::string operator()(const bool* v) const { return *v ? "true" : "false"; }
+        std::string operator()(const int* v) const { return std::to_string(*v); }
+        std::string operator()(const double* v) const { return numberText(*v); }
+        std::string operator()(const std::string* v) const { return *v; }
+    };
+    return std::visit(Writer(), value);
+}
+
+const char* ParameterRef::typeName() const
+{
+    static constexpr const char* kNames[] = {
+        "true or false", "a whole number", "a number", "a word"};
+    return kNames[value.index()];
+}
+
+void parseIni(const std::string& text, const std::string& name, const ParameterTable& table)
+{
+    std::istringstream lines(text);
+    std::string line, section;
+    std::set<std::string> seen;
+    for (int number = 1; std::getline(lines, line); ++number)
+    {
+        const std::string where = name + ":" + std::to_string(number);
+        const std::string content = withoutComment(line);
+        if (content.empty())
+        {
+            continue;
+        }
+        if (content.front() == '[')
+        {
+            if (content.back() != ']')
+            {
+                throw InputError(where + ": section without closing bracket: " + content);
+            }
+            section = trimmed(content.substr(1, content.size() - 2));
+            if (sectionsOf(table).count(section) == 0)
+            {
+                failUnknownSection(where, section, table);
+            }
+            continue;
+        }
+        const std::size_t equals = content.find('=');
+        if (equals == std::string::npos)
+        {
+            throw InputError(where + ": expected 'key = value', found '" + content + "'");
+        }
+        const std::string key = trimmed(content.substr(0, equals));
+        if (section.empty())
+        {
+            throw InputError(where + ": key '" + key + "' before any [Section]");
+        }
+        const ParameterRef& parameter = find(where, section, key, table);
+        if (!seen.insert(section + "." + key).second)
+        {
+            throw InputError(where + ": key '" + key + "' appears twice in [" + section + "]");
+        }
+        assign(where, parameter, trimmed(content.substr(equals + 1)));
+    }
+}
+
+void loadIni(const std::string& path, const ParameterTable& table)
+{
+    std::error_code error;
+    std::ifstream file(path);
+    if (!file || std::filesystem::is_directory(path, error))
+    {
+        throw InputError(
+            "cannot open configuration " + path + ": " +
+            (error || !file ? std::strerror(errno) : "is a directory"));
+    }
+    const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    parseIni(text, path, table);
+}
+
+void applySetting(const std::string& setting, const ParameterTable& table)
+{
+    const std::string where = "setting '" + setting + "'";
+    const std::size_t equals = setting.find('=');
+    const std::size_t dot = setting.find('.');
+    if (equals == std::string::npos || dot == std::string::npos || dot > equals)
+    {
+        throw InputError(where + ": expected Section.key=value");
+    }
+    const std::string section = trimmed(setting.substr(0, dot));
+    const std::string key = trimmed(setting.substr(dot + 1, equals - dot - 1));
+    assign(where, find(where, section, key, table), trimmed(setting.substr(equals + 1)));
+}
+
+std::string iniText(const ParameterTable& table)
+{
+    std::ostringstream out;
+    out << "# Complete configuration of pointplane-odometry, written by --dump-config.\n"
+           "# A comment after a value starts with //.\n";
+    std::string section;
+    for (const auto& p : table)
+    {
+        if (p.section != section)
+        {
+            section = p.section;
+            out << "\n[" << section << "]\n";
+        }
+        const std::string assignment = p.key + " = " + p.text();
+        constexpr std::size_t kColumn = 36;
+        out << assignment
+            << std::string(assignment.size() < kColumn ? kColumn - assignment.size() : 0, ' ')
+            << " // [" << p.unit << "] " << p.help << "\n";
+    }
+    return out.str();
+}
+
+std::string markdownText(const ParameterTable& table)
+{
+    std::ostringstream out;
+    std::string section;
+    for (const auto& p : table)
+    {
+        if (p.section != section)
+        {
+            out << (section.empty() ? "" : "\n") << "### [" << p.section
+                << "]\n\n| key | default | unit | meaning |\n|---|---|---|---|\n";
+            section = p.section;
+        }
+        out << "| `" << p.key << "` | " << p.text() << " | " << p.unit << " | " << p.help << " |\n";
+    }
+    return out.str();
+}
+
+OdometryParams loadOdometryParams(const std::string& path, const std::vector<std::string>& settings)
+{
+    OdometryParams params;
+    const ParameterTable table = parametersOf(params);
+    if (!path.empty())
+    {
+        loadIni(path, table);
+    }
+    for (const std::string& setting : settings)
+    {
+        applySetting(setting, table);
+    }
+    try
+    {
+        params.check();
+    }
+    catch (const std::invalid_argument& e)
+    {
+        throw InputError((path.empty() ? "configuration" : path) + ": " + e.what());
+    }
+    return params;
+}
+}  // namespace pointplane

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shutterText.h"
+
+#include <pointplane/mrpt_io/ObservationConverter.h>
+#include <pointplane/mrpt_io/errors.h>
+
+#include <cmath>
+#include <sstream>
+
+#include "numbers.h"
+
+namespace pointplane
+{
+namespace
+{
+constexpr const char* kMark = "pointplane-camera";
+
+[[nodiscard]] InputError problem(const std::string& what)
+{
+    return InputError("comment '" + std::string(kMark) + "': " + what);
+}
+}  // namespace
+
+std::optional<LabelledShutter> parseShutterComment(const std::string& text)
+{
+    std::istringstream words(text);
+    std::string word;
+    if (!(words >> word) || word != kMark)
+    {
+        return {};
+    }
+    LabelledShutter out;
+    while (words >> word)
+    {
+        const std::size_t equals = word.find('=');
+        const std::string key = word.substr(0, equals);
+        const std::string value = equals == std::string::npos ? "" : word.substr(equals + 1);
+        if (key == "label")
+        {
+            out.label = value;
+            continue;
+        }
+        double* target = key == "readoutColour"  ? &out.shutter.readoutColour
+                         : key == "readoutDepth" ? &out.shutter.readoutDepth
+                         : key == "depthDelay"   ? &out.shutter.depthDelay
+                                                 : nullptr;
+        if (target == nullptr)
+        {
+            throw problem(
+                "unknown key '" + key +
+                "' (known: label, readoutColour, readoutDepth, depthDelay)");
+        }
+        const auto number = parseNumber<double>(value);
+        if (!number || !std::isfinite(*number))
+        {
+            throw problem("'" + value + "' is not a number of seconds (key " + key + ")");
+        }
+        *target = *number;
+    }
+    if (out.label.empty())
+    {
+        throw problem("key label is missing");
+    }
+    return out;
+}
+
+std::string shutterComment(const std::string& label, const ShutterModel& shutter)
+{
+    std::string out = std::string(kMark) + " label=" + label;
+    const auto append = [&out](const char* key, double value)
+    {
+        if (std::isfinite(value))
+        {
+            out += std::string(" ") + key + "=" + numberText(value);
+        }
+    };
+    append("readoutColour", shutter.readoutColour);
+    append("readoutDepth", shutter.readoutDepth);
+    append("depthDelay", shutter.depthDelay);
+    return out;
+}
+}  // namespace pointplane
