@@ -64,8 +64,14 @@ cv::Mat lateralNoise(
 }  // namespace
 
 DepthSensor::DepthSensor(const SimulationParams& params, const Scene& scene)
-    : params_(params), camera_(params.camera()), pixelScale_(params.width / 640.0)
+    : params_(params),
+      camera_(params.camera()),
+      pixelScale_(params.width / 640.0),
+      step_(params.disparityStepPx / params.disparityPxMetre)
 {
+    // Rounding to multiples of step_ has variance step_^2 / 12; the rest comes from matching.
+    const double total = params.sigmaInverseDepth;
+    matchingSigma_ = std::sqrt(std::max(0.0, total * total - step_ * step_ / 12));
     for (const Surface& surface : scene.surfaces)
     {
         hasDepth_.push_back(surface.hasDepth ? 1 : 0);
@@ -96,26 +102,26 @@ void DepthSensor::dropFlat(const CastImage& cast, int v, uchar* readable) const
     const int other = v > 0 ? v - 1 : v + 1;
     const auto* qOther = cast.inverseDepth.ptr<float>(other);
     const auto* idOther = cast.ids.ptr<std::int32_t>(other);
-    const auto fx = static_cast<float>(camera_.fx), fy = static_cast<float>(camera_.fy);
+    const auto fx = static_cast<float>(camera_.fx), perFx = static_cast<float>(1 / camera_.fx);
+    const auto fyUp = static_cast<float>(camera_.fy / (v - other));
     const auto cx = static_cast<float>(camera_.cx);
     const auto y = static_cast<float>((v - camera_.cy) / camera_.fy);
     const double cosine = std::cos(params_.maxIncidenceDeg * kRadPerDeg);
     const auto minCosineSquared = static_cast<float>(cosine * cosine);
     for (int u = 0; u < camera_.width; ++u)
     {
-        const int left = u > 0 && id[u - 1] == id[u] ? u - 1 : u;
-        const int right = u + 1 < camera_.width && id[u + 1] == id[u] ? u + 1 : u;
-        const float gx = fx * (q[right] - q[left]) / static_cast<float>(std::max(1, right - left));
-        const float gy =
-            idOther[u] == id[u] ? fy * (q[u] - qOther[u]) / static_cast<float>(v - other) : 0.0F;
+        // Differences within the surface only; the steeper one at its border.
+        const int u0 = std::max(u - 1, 0), u1 = std::min(u + 1, camera_.width - 1);
+        const float left = id[u0] == id[u] ? q[u] - q[u0] : 0.0F;
+        const float right = id[u1] == id[u] ? q[u1] - q[u] : 0.0F;
+        const float gx = fx * (left * left > right * right ? left : right);
+        const float gy = idOther[u] == id[u] ? fyUp * (q[u] - qOther[u]) : 0.0F;
         // 1/Z = m . (x, y, 1) on the tangent plane; its normal is m / |m|.
-        const float x = (static_cast<float>(u) - cx) / fx;
+        const float x = (static_cast<float>(u) - cx) * perFx;
         const float gz = q[u] - gx * x - gy * y;
         const float m2 = gx * gx + gy * gy + gz * gz;
-        if (q[u] * q[u] < minCosineSquared * m2 * (x * x + y * y + 1))
-        {
-            readable[u] = 0;
-        }
+        const bool flat = q[u] * q[u] < minCosineSquared * m2 * (x * x + y * y + 1);
+        readable[u] = flat ? 0 : readable[u];
     }
 }
 
@@ -173,49 +179,81 @@ cv::Mat DepthSensor::readable(const CastImage& cast) const
     return out;
 }
 
-cv::Mat DepthSensor::sense(const CastImage& cast, std::uint64_t frameKey) const
+DepthSensor::FrameNoise DepthSensor::frameNoise(std::uint64_t frameKey) const
 {
     const cv::Size size(camera_.width, camera_.height);
-    const cv::Mat ok = readable(cast);
-    const double step = params_.disparityStepPx / params_.disparityPxMetre;
-    // Rounding to multiples of step has variance step^2 / 12; the rest comes from matching.
-    const double matching = std::sqrt(
-        std::max(0.0, params_.sigmaInverseDepth * params_.sigmaInverseDepth - step * step / 12));
-    const int window =
-        std::max(1, static_cast<int>(std::lround(params_.noiseWindowPx * pixelScale_)));
-    cv::Mat noise, dx, dy;
-    if (matching > 0)
+    FrameNoise out;
+    if (matchingSigma_ > 0)
     {
-        noise = windowNoise(size, window, matching, frameKey, 1);
+        const int window =
+            std::max(1, static_cast<int>(std::lround(params_.noiseWindowPx * pixelScale_)));
+        out.matching = windowNoise(size, window, matchingSigma_, frameKey, 1);
     }
-    const double lateral = params_.lateralSigmaPx * pixelScale_;
-    if (lateral > 0)
+    if (params_.lateralSigmaPx > 0)
     {
         const double grid = std::max(2.0, kLateralGridPx * pixelScale_);
-        dx = lateralNoise(size, grid, lateral, frameKey, 2);
-        dy = lateralNoise(size, grid, lateral, frameKey, 3);
+        out.dx = lateralNoise(size, grid, params_.lateralSigmaPx * pixelScale_, frameKey, 2);
+        out.dy = lateralNoise(size, grid, params_.lateralSigmaPx * pixelScale_, frameKey, 3);
     }
-    cv::Mat depth(size, CV_32FC1);
-    const auto stepF = static_cast<float>(step);
-    const float perStep = step > 0 ? 1.0F / stepF : 0.0F;
-    for (int v = 0; v < size.height; ++v)
+    return out;
+}
+
+void DepthSensor::matchRow(
+    const CastImage& cast, const cv::Mat& readable, const FrameNoise& noise, int v, float* q) const
+{
+    const float* truth = cast.inverseDepth.ptr<float>(v);
+    const uchar* ok = readable.ptr<uchar>(v);
+    if (noise.dx.empty())
     {
-        auto* out = depth.ptr<float>(v);
-        for (int u = 0; u < size.width; ++u)
+        for (int u = 0; u < camera_.width; ++u)
         {
-            const int x = dx.empty() ? u : std::clamp(u + dx.ptr<short>(v)[u], 0, size.width - 1);
-            const int y = dy.empty() ? v : std::clamp(v + dy.ptr<short>(v)[u], 0, size.height - 1);
-            float q = cast.inverseDepth.ptr<float>(y)[x];
-            if (!noise.empty())
+            q[u] = ok[u] != 0 ? truth[u] : 0.0F;
+        }
+        return;
+    }
+    const auto* dx = noise.dx.ptr<short>(v);
+    const auto* dy = noise.dy.ptr<short>(v);
+    for (int u = 0; u < camera_.width; ++u)
+    {
+        const int x = std::clamp(u + dx[u], 0, camera_.width - 1);
+        const int y = std::clamp(v + dy[u], 0, camera_.height - 1);
+        const std::ptrdiff_t from = static_cast<std::ptrdiff_t>(y - v) * camera_.width + x;
+        q[u] = ok[from] != 0 ? truth[from] : 0.0F;
+    }
+}
+
+cv::Mat DepthSensor::sense(const CastImage& cast, std::uint64_t frameKey) const
+{
+    const cv::Mat ok = readable(cast);
+    const FrameNoise noise = frameNoise(frameKey);
+    const auto step = static_cast<float>(step_);
+    const float perStep = 1.0F / step;
+    std::vector<float> q(static_cast<std::size_t>(camera_.width));
+    cv::Mat depth(camera_.height, camera_.width, CV_32FC1);
+    for (int v = 0; v < camera_.height; ++v)
+    {
+        matchRow(cast, ok, noise, v, q.data());
+        if (!noise.matching.empty())
+        {
+            const auto* error = noise.matching.ptr<float>(v);
+            for (int u = 0; u < camera_.width; ++u)
             {
-                q += noise.ptr<float>(v)[u];
+                const auto k = static_cast<std::size_t>(u);
+                q[k] = q[k] > 0 ? q[k] + error[u] : 0.0F;
             }
-            if (step > 0)
+        }
+        if (step > 0)
+        {
+            for (float& value : q)
             {
-                q = stepF * static_cast<float>(static_cast<int>(q * perStep + 0.5F));
+                value = step * static_cast<float>(static_cast<int>(value * perStep + 0.5F));
             }
-            const bool good = ok.ptr<uchar>(y)[x] != 0 && q > 0;
-            out[u] = good ? 1.0F / q : std::numeric_limits<float>::quiet_NaN();
+        }
+        auto* out = depth.ptr<float>(v);
+        for (int u = 0; u < camera_.width; ++u)
+        {
+            const float value = q[static_cast<std::size_t>(u)];
+            out[u] = value > 0 ? 1.0F / value : std::numeric_limits<float>::quiet_NaN();
         }
     }
     return depth;

@@ -47,6 +47,23 @@ bool isEdge(
            row[std::min(u + 1, last)] != id;
 }
 
+cv::Vec3i sampleColour(const RowCaster& caster, const Candidates& candidates, double u)
+{
+    double nearest = 0;
+    std::int32_t hit = -1;
+    for (int c = 0; c < candidates.count; ++c)
+    {
+        const std::int32_t id = candidates.ids[static_cast<std::size_t>(c)];
+        const double q = caster.inverseDepthAt(u, id);
+        if (q > nearest)
+        {
+            nearest = q;
+            hit = id;
+        }
+    }
+    return hit < 0 ? cv::Vec3i(0, 0, 0) : cv::Vec3i(caster.colourAt(u, hit, nearest));
+}
+
 void smoothEdges(
     RowCaster& caster, const Eigen::Isometry3d& pose, const cv::Mat& ids, int v, cv::Mat& bgr)
 {
@@ -54,36 +71,27 @@ void smoothEdges(
     const auto* above = ids.ptr<std::int32_t>(std::max(v - 1, 0));
     const auto* below = ids.ptr<std::int32_t>(std::min(v + 1, ids.rows - 1));
     std::vector<int> edges;
+    std::vector<Candidates> candidates;
     for (int u = 0; u < ids.cols; ++u)
     {
         if (isEdge(above, row, below, u, ids.cols - 1))
         {
             edges.push_back(u);
+            candidates.emplace_back(ids, u, v);
         }
     }
-    std::vector<cv::Vec3f> sums(edges.size(), cv::Vec3f(0, 0, 0));
+    std::vector<cv::Vec3i> sums(edges.size(), cv::Vec3i(0, 0, 0));
     for (std::size_t s = 0; s < kSamples && !edges.empty(); ++s)
     {
         caster.setRow(pose, v + kOffsets[s][1]);
         for (std::size_t k = 0; k < edges.size(); ++k)
         {
-            const Candidates candidates(ids, edges[k], v);
-            cv::Vec3f colour(0, 0, 0);
-            double nearest = 0;
-            for (int c = 0; c < candidates.count; ++c)
-            {
-                caster.castPoint(
-                    edges[k] + kOffsets[s][0],
-                    candidates.ids[static_cast<std::size_t>(c)],
-                    nearest,
-                    colour);
-            }
-            sums[k] += colour;
+            sums[k] += sampleColour(caster, candidates[k], edges[k] + kOffsets[s][0]);
         }
     }
     for (std::size_t k = 0; k < edges.size(); ++k)
     {
-        bgr.at<cv::Vec3b>(v, edges[k]) = sums[k] * (1.0F / kSamples);
+        bgr.at<cv::Vec3b>(v, edges[k]) = (sums[k] + cv::Vec3i::all(kSamples / 2)) / kSamples;
     }
 }
 

@@ -9,6 +9,8 @@ namespace pointplane
 namespace
 {
 constexpr double kMinInverseDepth = 0.01;
+/** Stands for a plane's distance / depth in the choice of a level of detail. */
+constexpr double kCylinderSlope = 0.6;
 
 /** log2, continuous and within 0.09: enough to choose a level of detail. */
 float coarseLog2(float x)
@@ -177,7 +179,8 @@ float RowCaster::levelOffset(const Surface& s, double above) const
 {
     // A pixel covers z / f across and z / (f cos) along the slope, 1 / cos = z / above. The mean
     // of both with weight 3/4 on the longer one: log2(z / f) + 3/4 log2(z / above) - log2(texel).
-    return static_cast<float>(-std::log2(camera_.fx * s.texture.texel()) - 0.75 * std::log2(above));
+    return -coarseLog2(static_cast<float>(camera_.fx * s.texture.texel())) -
+           0.75F * coarseLog2(static_cast<float>(above));
 }
 
 void RowCaster::shade(const float* inverseDepth, const std::int32_t* id, cv::Vec3b* bgr) const
@@ -203,7 +206,10 @@ void RowCaster::shade(const float* inverseDepth, const std::int32_t* id, cv::Vec
             }
             else
             {
-                shadeCylinder(s, begin, end, inverseDepth, bgr);
+                for (int u = begin; u < end; ++u)
+                {
+                    bgr[u] = colourAt(u, id[begin], static_cast<double>(inverseDepth[u]));
+                }
             }
         }
         begin = end;
@@ -222,47 +228,46 @@ void RowCaster::shadePlane(
     const auto xa = static_cast<float>(e1.c0 * perTexel), xb = static_cast<float>(e1.c1 * perTexel);
     const auto ya = static_cast<float>(e2.c0 * perTexel), yb = static_cast<float>(e2.c1 * perTexel);
     const float level = levelOffset(s, o.dot(s.e3));
-    for (int u = begin; u < end; ++u)
+    constexpr int kChunk = 64;
+    float x[kChunk], y[kChunk], lod[kChunk];
+    for (int start = begin; start < end; start += kChunk)
     {
-        const float z = 1.0F / q[u];
-        const auto column = static_cast<float>(u);
-        const float lod = level + 1.75F * coarseLog2(z);
-        bgr[u] =
-            toBgr(s.texture.sample(x0 + z * (xa + xb * column), y0 + z * (ya + yb * column), lod));
+        const int count = std::min(kChunk, end - start);
+        for (int i = 0; i < count; ++i)
+        {
+            const float z = 1.0F / q[start + i];
+            const auto column = static_cast<float>(start + i);
+            x[i] = x0 + z * (xa + xb * column);
+            y[i] = y0 + z * (ya + yb * column);
+            lod[i] = level + 1.75F * coarseLog2(z);
+        }
+        for (int i = 0; i < count; ++i)
+        {
+            s.texture.prefetch(x[i], y[i], lod[i]);
+        }
+        for (int i = 0; i < count; ++i)
+        {
+            bgr[start + i] = toBgr(s.texture.sample(x[i], y[i], lod[i]));
+        }
     }
 }
 
-void RowCaster::shadeCylinder(
-    const Surface& s, int begin, int end, const float* q, cv::Vec3b* bgr) const
-{
-    for (int u = begin; u < end; ++u)
-    {
-        const Eigen::Vector3d point = eye_ + (rayOrigin_ + u * rayStep_) / q[u];
-        const Eigen::Vector2d at =
-            s.worldToPicture(point) / s.texture.texel() - Eigen::Vector2d::Constant(0.5);
-        const float lod = levelOffset(s, 0.6) + coarseLog2(1.0F / q[u]);
-        bgr[u] =
-            toBgr(s.texture.sample(static_cast<float>(at.x()), static_cast<float>(at.y()), lod));
-    }
-}
-
-bool RowCaster::castPoint(double u, std::int32_t id, double& inverseDepth, cv::Vec3f& bgr) const
+double RowCaster::inverseDepthAt(double u, std::int32_t id) const
 {
     const Surface& s = scene_.surfaces[static_cast<std::size_t>(id)];
-    const Eigen::Vector3d ray = rayOrigin_ + u * rayStep_;
-    const double q = s.inverseDepth(eye_, ray);
-    if (q <= inverseDepth)
-    {
-        return false;
-    }
-    inverseDepth = q;
+    return s.inverseDepth(eye_, rayOrigin_ + u * rayStep_);
+}
+
+cv::Vec3b RowCaster::colourAt(double u, std::int32_t id, double inverseDepth) const
+{
+    const Surface& s = scene_.surfaces[static_cast<std::size_t>(id)];
+    const Eigen::Vector3d point = eye_ + (rayOrigin_ + u * rayStep_) / inverseDepth;
     const Eigen::Vector2d at =
-        s.worldToPicture(eye_ + ray / q) / s.texture.texel() - Eigen::Vector2d::Constant(0.5);
+        s.worldToPicture(point) / s.texture.texel() - Eigen::Vector2d::Constant(0.5);
     const bool plane = s.isPlane();
-    const double above = plane ? (eye_ - s.origin).dot(s.e3) : 0.6;
-    const float lod =
-        levelOffset(s, above) + (plane ? 1.75F : 1.0F) * coarseLog2(static_cast<float>(1 / q));
-    bgr = toBgr(s.texture.sample(static_cast<float>(at.x()), static_cast<float>(at.y()), lod));
-    return true;
+    const double above = plane ? (eye_ - s.origin).dot(s.e3) : kCylinderSlope;
+    const float lod = levelOffset(s, above) +
+                      (plane ? 1.75F : 1.0F) * coarseLog2(static_cast<float>(1 / inverseDepth));
+    return toBgr(s.texture.sample(static_cast<float>(at.x()), static_cast<float>(at.y()), lod));
 }
 }  // namespace pointplane

@@ -25,6 +25,18 @@ class DepthSensor
     [[nodiscard]] cv::Mat sense(const CastImage& cast, std::uint64_t frameKey) const;
 
  private:
+    struct FrameNoise
+    {
+        cv::Mat matching;  //!< CV_32FC1, of the inverse depth [1/m]
+        cv::Mat dx, dy;    //!< CV_16SC1, which neighbour a pixel shows [px]
+    };
+    [[nodiscard]] FrameNoise frameNoise(std::uint64_t frameKey) const;
+    void matchRow(
+        const CastImage& cast,
+        const cv::Mat& readable,
+        const FrameNoise& noise,
+        int v,
+        float* q) const;
     [[nodiscard]] cv::Mat readable(const CastImage& cast) const;
     void dropShadow(const float* inverseDepth, uchar* readable) const;
     void dropFlat(const CastImage& cast, int v, uchar* readable) const;
@@ -33,6 +45,8 @@ class DepthSensor
     SimulationParams params_;
     PinholeCamera camera_;
     double pixelScale_;           //!< image width / 640
+    double step_;                 //!< of the inverse depth [1/m], 0 = continuous
+    double matchingSigma_{0};     //!< noise before rounding [1/m]
     std::vector<char> hasDepth_;  //!< per surface
 };
 }  // namespace pointplane

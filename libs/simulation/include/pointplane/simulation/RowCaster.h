@@ -29,9 +29,12 @@ class RowCaster
     /** Colours of a cast row. */
     void shade(const float* inverseDepth, const std::int32_t* id, cv::Vec3b* bgr) const;
 
-    /** Colour of one surface along the ray of column u of this row, if it is hit nearer than
-     * 1 / inverseDepth, which is then updated. For sub-pixel samples at edges. */
-    bool castPoint(double u, std::int32_t id, double& inverseDepth, cv::Vec3f& bgr) const;
+    /** Where the ray of column u (may be fractional) of this row hits one surface [1/m]; 0 = it
+     * does not. */
+    [[nodiscard]] double inverseDepthAt(double u, std::int32_t id) const;
+
+    /** Colour of a surface where that ray hits it. */
+    [[nodiscard]] cv::Vec3b colourAt(double u, std::int32_t id, double inverseDepth) const;
 
  private:
     /** c0 + c1 u: scalar product of a world vector with the row's rays. */
@@ -54,7 +57,6 @@ class RowCaster
     [[nodiscard]] bool planeInterval(const Surface& s, Linear& q, Interval& interval) const;
     void castCylinder(const Surface& s, std::int32_t id, float* q, std::int32_t* ids) const;
     void shadePlane(const Surface& s, int begin, int end, const float* q, cv::Vec3b* bgr) const;
-    void shadeCylinder(const Surface& s, int begin, int end, const float* q, cv::Vec3b* bgr) const;
     [[nodiscard]] float levelOffset(const Surface& s, double above) const;
 
     const Scene& scene_;

@@ -26,43 +26,92 @@ class Texture
      * \param lod level of detail: log2 of the footprint in texels \return lanes of 0 .. 255 */
     [[nodiscard]] std::uint64_t sample(float x, float y, float lod) const
     {
-        const float clamped = std::min(std::max(lod, 0.0F), maxLod_);
-        const int level = static_cast<int>(clamped);
-        const auto blend =
-            static_cast<std::uint64_t>((clamped - static_cast<float>(level)) * 256.0F);
-        const std::uint64_t fine = bilinear(levels_[static_cast<std::size_t>(level)], x, y);
-        if (blend == 0)
+        const Blend blend = blendOf(lod);
+        if (blend.coarse == 0)
         {
-            return fine;
+            return bilinear(levels_[blend.level], x, y);
         }
-        const std::uint64_t coarse = bilinear(levels_[static_cast<std::size_t>(level) + 1], x, y);
-        return ((fine * (256 - blend) + coarse * blend + kHalf) >> 8) & kLanes;
+        if (blend.coarse == 256)
+        {
+            return bilinear(levels_[blend.level + 1], x, y);
+        }
+        const std::uint64_t fine = bilinear(levels_[blend.level], x, y);
+        const std::uint64_t coarse = bilinear(levels_[blend.level + 1], x, y);
+        return ((fine * (256 - blend.coarse) + coarse * blend.coarse + kHalf) >> 8) & kLanes;
+    }
+
+    /** Asks for the memory that sample() with the same arguments will read: a slanted walk over a
+     * picture of many megabytes otherwise waits at every step. */
+    void prefetch(float x, float y, float lod) const
+    {
+        const Blend blend = blendOf(lod);
+        if (blend.coarse < 256)
+        {
+            prefetch(levels_[blend.level], x, y);
+        }
+        if (blend.coarse > 0)
+        {
+            prefetch(levels_[blend.level + 1], x, y);
+        }
     }
 
  private:
     struct Level
     {
+        /** Bounded 24.8 fixed point coordinates. \param x, y texels of level 0 */
+        [[nodiscard]] int fixedX(float x) const
+        {
+            return std::clamp(static_cast<int>((x + 0.5F) * scale) - 128, 0, width * 256 - 257);
+        }
+        [[nodiscard]] int fixedY(float y) const
+        {
+            return std::clamp(static_cast<int>((y + 0.5F) * scale) - 128, 0, height * 256 - 257);
+        }
+        [[nodiscard]] const std::uint64_t* at(int xi, int yi) const
+        {
+            return texels.data() + static_cast<std::ptrdiff_t>(yi >> 8) * width + (xi >> 8);
+        }
+
         int width{0}, height{0};
         float scale{1};  //!< 256 * 2^-level: texels of level 0 to 24.8 fixed point
         std::vector<std::uint64_t> texels;
     };
+    /** A level and the weight of the next coarser one, of 256. */
+    struct Blend
+    {
+        std::size_t level;
+        std::uint64_t coarse;
+    };
+    /** Blends over the middle half of the way between two levels: elsewhere one is enough. */
+    [[nodiscard]] Blend blendOf(float lod) const
+    {
+        const float clamped = std::min(std::max(lod, 0.0F), maxLod_);
+        const int level = static_cast<int>(clamped);
+        const float way = 2.0F * (clamped - static_cast<float>(level)) - 0.5F;
+        const float coarse = std::min(std::max(way, 0.0F), 1.0F) * 256.0F;
+        return {static_cast<std::size_t>(level), static_cast<std::uint64_t>(coarse)};
+    }
+
     static constexpr std::uint64_t kLanes = 0x00ff00ff00ff00ffULL;
     static constexpr std::uint64_t kHalf = 0x0080008000800080ULL;
 
     [[nodiscard]] static std::uint64_t bilinear(const Level& level, float x, float y)
     {
-        const int xi = std::clamp(
-            static_cast<int>((x + 0.5F) * level.scale) - 128, 0, (level.width - 1) * 256 - 1);
-        const int yi = std::clamp(
-            static_cast<int>((y + 0.5F) * level.scale) - 128, 0, (level.height - 1) * 256 - 1);
+        const int xi = level.fixedX(x), yi = level.fixedY(y);
         const auto fx = static_cast<std::uint64_t>(xi & 255);
         const auto fy = static_cast<std::uint64_t>(yi & 255);
-        const std::uint64_t* p =
-            level.texels.data() + static_cast<std::ptrdiff_t>(yi >> 8) * level.width + (xi >> 8);
+        const std::uint64_t* p = level.at(xi, yi);
         const std::uint64_t w11 = (fx * fy) >> 8;
         const std::uint64_t sum = p[0] * (256 - fx - fy + w11) + p[1] * (fx - w11) +
                                   p[level.width] * (fy - w11) + p[level.width + 1] * w11;
         return ((sum + kHalf) >> 8) & kLanes;
+    }
+
+    static void prefetch(const Level& level, float x, float y)
+    {
+        const std::uint64_t* p = level.at(level.fixedX(x), level.fixedY(y));
+        __builtin_prefetch(p);
+        __builtin_prefetch(p + level.width);
     }
 
     double texel_{1};
