@@ -30,6 +30,7 @@ int runEval(const std::vector<std::string>& args, std::ostream& out, std::ostrea
     app.require_subcommand(1);
     addRpeCommand(app, context);
     addAteCommand(app, context);
+    addNeesCommand(app, context);
 
     std::vector<std::string> reversed;
     std::transform(args.rbegin(), args.rend(), std::back_inserter(reversed), withHyphens);
@@ -42,14 +43,14 @@ int runEval(const std::vector<std::string>& args, std::ostream& out, std::ostrea
     {
         return app.exit(e, out, err) == 0 ? kExitOk : kExitBadInput;
     }
-    catch (const OutputError& e)
+    catch (const EnvironmentError& e)
     {
         err << "pointplane-eval: " << e.what() << "\n";
         return kExitEnvironment;
     }
     catch (const std::exception& e)
     {
-        err << "pointplane-eval: " << e.what() << "\n";
+        err << "pointplane-eval: " << oneLine(e) << "\n";
         return kExitBadInput;
     }
 }

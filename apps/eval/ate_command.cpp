@@ -6,7 +6,7 @@
 #include <ostream>
 
 #include "command.h"
-#include "load_trajectory.h"
+#include "input_options.h"
 #include "result_output.h"
 
 namespace pointplane
@@ -17,6 +17,7 @@ struct AteCommand
 {
     std::string groundTruth, estimate;
     AteOptions options;
+    InputOptions input;
     OutputFiles files;
     bool verbose{false};
     double maxRmse{-1};
@@ -50,6 +51,7 @@ void AteCommand::addTo(CLI::App& command)
         ->group("Gate");
     command.add_flag("--verbose", verbose, "Print the lines of evaluate_ate.py --verbose instead")
         ->group("Output");
+    input.addTo(command);
     files.addTo(command);
 }
 
@@ -67,8 +69,8 @@ void printScriptLines(const Statistics& s, std::ostream& out)
 
 void AteCommand::run(CommandContext& context) const
 {
-    const Trajectory truth = loadTrajectory(groundTruth, context.err);
-    const Trajectory estimated = loadTrajectory(estimate, context.err);
+    const Trajectory truth = input.loadTruth(groundTruth, context);
+    const Trajectory estimated = input.loadEstimate(estimate, context);
     const AteResult result = absoluteTrajectoryError(truth, estimated, options);
 
     ScoredResult scored;

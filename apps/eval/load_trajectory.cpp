@@ -5,14 +5,47 @@
 
 #include <ostream>
 
+#include "command.h"
+#include "mrpt_trajectories.h"
+
 namespace pointplane
 {
-Trajectory loadTrajectory(const std::string& path, std::ostream& err)
+namespace
 {
-    Trajectory trajectory = readTrajectoryText(path);
+bool endsWith(const std::string& text, const std::string& ending)
+{
+    return text.size() >= ending.size() &&
+           text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
+}
+
+Trajectory readByEnding(const std::string& path, const std::string& sensorLabel)
+{
+    for (const char* compression : {"", ".gz"})
+    {
+        if (endsWith(path, std::string(".rawlog") + compression))
+        {
+            return readRawlogTrajectory(path, sensorLabel);
+        }
+        if (endsWith(path, std::string(".simplemap") + compression))
+        {
+            return readSimplemapTrajectory(path);
+        }
+    }
+    return readTrajectoryText(path);
+}
+}  // namespace
+
+Trajectory loadTrajectory(
+    const std::string& path, const std::string& sensorLabel, CommandContext& context)
+{
+    Trajectory trajectory = readByEnding(path, sensorLabel);
     for (const std::string& warning : trajectory.warnings)
     {
-        err << "warning: " << warning << "\n";
+        context.err << "pointplane-eval: warning: " << warning << "\n";
+    }
+    if (trajectory.incomplete)
+    {
+        context.exitCode = kExitIncomplete;
     }
     return trajectory;
 }

@@ -3,12 +3,16 @@
 
 #include <pointplane/evaluation/Trajectory.h>
 
-#include <iosfwd>
 #include <string>
 
 namespace pointplane
 {
-/** Reads any supported trajectory file, by its name's ending, and prints its warnings.
- * Throws std::runtime_error that names the file (and line) when it cannot be read. */
-[[nodiscard]] Trajectory loadTrajectory(const std::string& path, std::ostream& err);
+struct CommandContext;
+
+/** Reads any supported trajectory file, told apart by the name's ending: .rawlog, .simplemap (both
+ * also .gz), anything else is text. Prints its warnings; a damaged file sets exit code 1.
+ * \param sensorLabel of the poses in a rawlog; empty: the only one there is
+ * \throws std::runtime_error that names the file (and line) when it cannot be read */
+[[nodiscard]] Trajectory loadTrajectory(
+    const std::string& path, const std::string& sensorLabel, CommandContext& context);
 }  // namespace pointplane

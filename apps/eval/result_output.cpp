@@ -129,7 +129,7 @@ void writeText(const std::string& text, const std::string& path, std::ostream& o
     file.close();
     if (!file)
     {
-        throw OutputError("cannot write '" + path + "'");
+        throw EnvironmentError("cannot write '" + path + "'");
     }
 }
 
@@ -162,7 +162,7 @@ void checkThreshold(
             row.unit.c_str(),
             threshold,
             row.unit.c_str());
-        context.exitCode = kExitThresholdExceeded;
+        context.exitCode = kExitIncomplete;
     }
 }
 }  // namespace pointplane

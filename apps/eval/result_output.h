@@ -44,7 +44,7 @@ void printTable(const ScoredResult& result, std::ostream& out);
 [[nodiscard]] nlohmann::ordered_json toJson(const ScoredResult& result);
 [[nodiscard]] std::string toCsv(const ScoredResult& result);
 
-/** Writes table (if wanted), JSON and CSV as asked for; throws OutputError naming a file that
+/** Writes table (if wanted), JSON and CSV as asked for; throws EnvironmentError naming a file that
  * cannot be written. */
 void writeResult(
     const ScoredResult& result, const OutputFiles& files, std::ostream& out, bool table = true);
@@ -54,7 +54,7 @@ void writeResult(
 void checkThreshold(
     const std::string& name, const StatisticsRow& row, double threshold, CommandContext& context);
 
-/** Writes `text` to `path`, or to `out` for "-"; throws OutputError naming the file. */
+/** Writes `text` to `path`, or to `out` for "-"; throws EnvironmentError naming the file. */
 void writeText(const std::string& text, const std::string& path, std::ostream& out);
 
 /** Field of a CSV file, quoted where needed. */

@@ -3,7 +3,7 @@
 #include <ostream>
 
 #include "command.h"
-#include "load_trajectory.h"
+#include "input_options.h"
 #include "result_output.h"
 #include "rpe_options.h"
 
@@ -18,6 +18,7 @@ struct RpeCommand
 {
     std::string groundTruth, estimate;
     RpeCommandOptions options;
+    InputOptions input;
     OutputFiles files;
     bool verbose{false};
     double maxRmse{-1};
@@ -43,6 +44,7 @@ void RpeCommand::addTo(CLI::App& command)
         ->group("Gate");
     command.add_flag("--verbose", verbose, "Print the lines of evaluate_rpe.py --verbose instead")
         ->group("Output");
+    input.addTo(command);
     files.addTo(command);
 }
 
@@ -67,7 +69,7 @@ void RpeCommand::run(CommandContext& context) const
 {
     const RpeOptions rpe = options.resolved();
     const RpeResult result = relativePoseError(
-        loadTrajectory(groundTruth, context.err), loadTrajectory(estimate, context.err), rpe);
+        input.loadTruth(groundTruth, context), input.loadEstimate(estimate, context), rpe);
 
     ScoredResult scored;
     scored.title = "Relative pose error";

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pointplane/core/PoseGaussian.h>
-#include <pointplane/core/covariance.h>
 #include <pointplane/evaluation/nees.h>
 
 #include <cmath>
@@ -15,42 +13,6 @@ using testing::HasSubstr;
 
 namespace
 {
-/** Covariance of one frame's increment: 2 mm and 0.1 deg, correlated and unequal. */
-Matrix6d incrementCov()
-{
-    Vector6d sigma;
-    sigma << 0.002, 0.001, 0.004, 0.002, 0.001, 0.003;
-    Matrix6d cov = sigma.cwiseAbs2().asDiagonal();
-    cov(0, 4) = cov(4, 0) = 0.5 * sigma[0] * sigma[4];
-    return cov;
-}
-
-/** Odometry along `truth` whose increments err by N(0, incrementCov()) and which states
- * stated = incrementCov() / optimism^2. */
-Trajectory odometry(
-    const Trajectory& truth,
-    unsigned seed,
-    double optimism = 1,
-    const Vector6d& bias = Vector6d::Zero())
-{
-    test::GaussianSampler random(seed);
-    const Matrix6d cov = incrementCov();
-    PoseGaussian pose;
-    Trajectory out = truth;
-    out.name = "odometry";
-    out.poses[0] = pose.mean;
-    out.covs = {pose.cov};
-    for (std::size_t k = 1; k < truth.size(); ++k)
-    {
-        const Vector6d error = bias + random.sample(cov);
-        const Eigen::Isometry3d step = truth.poses[k - 1].inverse() * truth.poses[k];
-        pose = compose(pose, {se3Exp(error) * step, cov / (optimism * optimism)});
-        out.poses[k] = pose.mean;
-        out.covs.push_back(pose.cov);
-    }
-    return out;
-}
-
 NeesResult neesOf(
     const Trajectory& truth,
     const Trajectory& estimate,

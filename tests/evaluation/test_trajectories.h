@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pointplane/core/PoseGaussian.h>
 #include <pointplane/core/se3.h>
 #include <pointplane/evaluation/Trajectory.h>
 
@@ -36,6 +37,42 @@ inline Trajectory perturbed(Trajectory trajectory, double sigma, unsigned seed)
         T = orthonormalised(se3Exp(sigma * random.vector<6>()) * T);
     }
     return trajectory;
+}
+
+/** Covariance of one frame's increment: 2 mm and 0.1 deg, correlated and unequal. */
+inline Matrix6d incrementCov()
+{
+    Vector6d sigma;
+    sigma << 0.002, 0.001, 0.004, 0.002, 0.001, 0.003;
+    Matrix6d cov = sigma.cwiseAbs2().asDiagonal();
+    cov(0, 4) = cov(4, 0) = 0.5 * sigma[0] * sigma[4];
+    return cov;
+}
+
+/** Odometry along `truth` whose increments err by N(0, incrementCov()) and which states
+ * stated = incrementCov() / optimism^2. */
+inline Trajectory odometry(
+    const Trajectory& truth,
+    unsigned seed,
+    double optimism = 1,
+    const Vector6d& bias = Vector6d::Zero())
+{
+    test::GaussianSampler random(seed);
+    const Matrix6d cov = incrementCov();
+    PoseGaussian pose;
+    Trajectory out = truth;
+    out.name = "odometry";
+    out.poses[0] = pose.mean;
+    out.covs = {pose.cov};
+    for (std::size_t k = 1; k < truth.size(); ++k)
+    {
+        const Vector6d error = bias + random.sample(cov);
+        const Eigen::Isometry3d step = truth.poses[k - 1].inverse() * truth.poses[k];
+        pose = compose(pose, {se3Exp(error) * step, cov / (optimism * optimism)});
+        out.poses[k] = pose.mean;
+        out.covs.push_back(pose.cov);
+    }
+    return out;
 }
 
 /** Writes a text file into `dir` and returns its path. */

@@ -27,6 +27,7 @@ struct Trajectory
      * tangent order [translation; rotation], units m and rad, as in PoseGaussian. */
     std::vector<Matrix6d> covs;
     std::vector<std::string> warnings;  //!< what the reader left out, for the user
+    bool incomplete{false};             //!< the file is damaged; these are the poses before
 
     [[nodiscard]] std::size_t size() const { return stamps.size(); }
     [[nodiscard]] bool empty() const { return stamps.empty(); }

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "input_options.h"
+
+#include <pointplane/evaluation/nees.h>
+
+#include <array>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+#include "load_trajectory.h"
+
+namespace pointplane
+{
+void InputOptions::addTo(CLI::App& command)
+{
+    command
+        .add_option(
+            "--body-from-gt",
+            bodyFromTruth,
+            "Pose of the ground truth's body in the estimate's: x,y,z,yaw,pitch,roll [m, deg], or "
+            "'optical' for TUM's camera axes and an estimate in MRPT's")
+        ->group("Input");
+    command
+        .add_option(
+            "--sensor-label", sensorLabel, "Which CObservationRobotPose of a rawlog [the only one]")
+        ->group("Input");
+}
+
+Eigen::Isometry3d poseFromOption(const std::string& text)
+{
+    if (text == "optical")
+    {
+        return poseFromOption("0,0,0,-90,0,-90");
+    }
+    std::array<double, 6> v{};
+    std::istringstream in(text);
+    in.imbue(std::locale::classic());
+    for (std::size_t k = 0; k < v.size(); ++k)
+    {
+        char comma = ',';
+        in >> v[k];
+        if (k + 1 < v.size())
+        {
+            in >> comma;
+        }
+        if (!in || comma != ',')
+        {
+            throw std::invalid_argument(
+                "'" + text + "' is not a pose: give x,y,z,yaw,pitch,roll in m and deg, or optical");
+        }
+    }
+    if (in.peek() != std::istringstream::traits_type::eof())
+    {
+        throw std::invalid_argument("'" + text + "' has more than six numbers for a pose");
+    }
+    constexpr double kRadians = 3.14159265358979323846 / 180;
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    pose.linear() = (Eigen::AngleAxisd(v[3] * kRadians, Eigen::Vector3d::UnitZ()) *
+                     Eigen::AngleAxisd(v[4] * kRadians, Eigen::Vector3d::UnitY()) *
+                     Eigen::AngleAxisd(v[5] * kRadians, Eigen::Vector3d::UnitX()))
+                        .toRotationMatrix();
+    pose.translation() << v[0], v[1], v[2];
+    return pose;
+}
+
+Eigen::Isometry3d InputOptions::T_truth_body() const
+{
+    return bodyFromTruth.empty() ? Eigen::Isometry3d::Identity()
+                                 : poseFromOption(bodyFromTruth).inverse();
+}
+
+Trajectory InputOptions::loadTruth(const std::string& path, CommandContext& context) const
+{
+    return withBody(loadTrajectory(path, "", context), T_truth_body());
+}
+
+Trajectory InputOptions::loadEstimate(const std::string& path, CommandContext& context) const
+{
+    return loadTrajectory(path, sensorLabel, context);
+}
+}  // namespace pointplane

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pointplane/evaluation/Trajectory.h>
+
+#include <Eigen/Geometry>
+
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+namespace pointplane
+{
+struct CommandContext;
+
+/** Options that say how trajectories are read; all commands share them. */
+struct InputOptions
+{
+    std::string bodyFromTruth;  //!< "", "optical" or "x,y,z,yaw,pitch,roll" [m, deg]
+    std::string sensorLabel;    //!< of the poses in a rawlog; empty: the only one there is
+
+    void addTo(CLI::App& command);
+
+    /** The estimate's body in the ground truth's body frame; throws std::invalid_argument. */
+    [[nodiscard]] Eigen::Isometry3d T_truth_body() const;
+
+    /** Ground truth of the estimate's body. Prints the reader's warnings. */
+    [[nodiscard]] Trajectory loadTruth(const std::string& path, CommandContext& context) const;
+    [[nodiscard]] Trajectory loadEstimate(const std::string& path, CommandContext& context) const;
+};
+
+/** Pose from "x,y,z,yaw,pitch,roll" [m, deg], in MRPT's order and convention, or from "optical":
+ * optical axes (x right, y down, z forward) in a body with x forward, y left, z up. */
+[[nodiscard]] Eigen::Isometry3d poseFromOption(const std::string& text);
+}  // namespace pointplane

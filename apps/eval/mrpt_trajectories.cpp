@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mrpt_trajectories.h"
+
+#include <pointplane/core/PoseGaussian.h>
+#include <pointplane/mrpt_io/RawlogReader.h>
+#include <pointplane/mrpt_io/errors.h>
+#include <pointplane/mrpt_io/mrpt_poses.h>
+
+#include <mrpt/maps/CSimpleMap.h>
+#include <mrpt/obs/CActionCollection.h>
+#include <mrpt/obs/CActionRobotMovement3D.h>
+#include <mrpt/obs/CObservationRobotPose.h>
+#include <mrpt/obs/CSensoryFrame.h>
+#include <mrpt/poses/CPose3DPDF.h>
+
+#include <filesystem>
+#include <map>
+
+namespace pointplane
+{
+namespace
+{
+StampedPose stamped(double stamp, const PoseGaussian& pose) { return {stamp, pose.mean, pose.cov}; }
+
+/** Collects poses from the objects of a rawlog. */
+class PoseCollector
+{
+ public:
+    void add(const mrpt::serialization::CSerializable::Ptr& object)
+    {
+        if (const auto observation = std::dynamic_pointer_cast<mrpt::obs::CObservation>(object))
+        {
+            addObservation(*observation);
+        }
+        else if (const auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(object))
+        {
+            addFrame(*frame);
+        }
+        else if (
+            const auto actions = std::dynamic_pointer_cast<mrpt::obs::CActionCollection>(object))
+        {
+            addActions(*actions);
+        }
+    }
+
+    [[nodiscard]] std::vector<StampedPose> result(
+        const std::string& path, const std::string& label) const;
+
+ private:
+    void addObservation(const mrpt::obs::CObservation& observation)
+    {
+        if (const auto* pose = dynamic_cast<const mrpt::obs::CObservationRobotPose*>(&observation))
+        {
+            byLabel_[pose->sensorLabel].push_back(
+                stamped(toSeconds(pose->timestamp), fromMrpt(pose->pose)));
+        }
+    }
+
+    void addFrame(const mrpt::obs::CSensoryFrame& frame)
+    {
+        for (const auto& observation : frame)
+        {
+            addObservation(*observation);
+        }
+        if (frame.size() > 0 && hasMovement_)
+        {
+            composed_.push_back(stamped(toSeconds((*frame.begin())->timestamp), accumulated_));
+        }
+    }
+
+    void addActions(const mrpt::obs::CActionCollection& actions)
+    {
+        if (const auto movement = actions.getActionByClass<mrpt::obs::CActionRobotMovement3D>())
+        {
+            hasMovement_ = true;
+            accumulated_ = compose(accumulated_, fromMrpt(movement->poseChange));
+        }
+    }
+
+    std::map<std::string, std::vector<StampedPose>> byLabel_;
+    std::vector<StampedPose> composed_;  //!< format 1's movements
+    PoseGaussian accumulated_;
+    bool hasMovement_{false};
+};
+
+std::vector<StampedPose> PoseCollector::result(
+    const std::string& path, const std::string& label) const
+{
+    std::string labels;
+    for (const auto& [name, poses] : byLabel_)
+    {
+        labels += (labels.empty() ? "'" : ", '") + name + "'";
+    }
+    if (byLabel_.empty())
+    {
+        if (composed_.empty())
+        {
+            throw InputError(
+                "'" + path +
+                "' holds no poses: neither CObservationRobotPose nor CActionRobotMovement3D");
+        }
+        return composed_;
+    }
+    if (label.empty() && byLabel_.size() > 1)
+    {
+        throw InputError(
+            "'" + path + "' holds poses of several sensors (" + labels +
+            "); choose one by --sensor-label");
+    }
+    const auto found = label.empty() ? byLabel_.begin() : byLabel_.find(label);
+    if (found == byLabel_.end())
+    {
+        throw InputError(
+            "'" + path + "' holds no poses with sensor label '" + label + "', only " + labels);
+    }
+    return found->second;
+}
+}  // namespace
+
+Trajectory readRawlogTrajectory(const std::string& path, const std::string& sensorLabel)
+{
+    RawlogReader reader(path);
+    PoseCollector collector;
+    while (const auto object = reader.next())
+    {
+        collector.add(object);
+    }
+    const bool damaged = reader.ending().kind != RawlogEnd::Clean;
+    if (damaged && reader.numObjects() == 0)
+    {
+        throw InputError(reader.ending().message);
+    }
+    Trajectory trajectory = makeTrajectory(path, collector.result(path, sensorLabel));
+    if (damaged)
+    {
+        trajectory.incomplete = true;
+        trajectory.warnings.push_back(
+            reader.ending().message + "; only what comes before is evaluated");
+    }
+    return trajectory;
+}
+
+Trajectory readSimplemapTrajectory(const std::string& path)
+{
+    mrpt::maps::CSimpleMap map;
+    if (!std::filesystem::is_regular_file(path))
+    {
+        throw InputError("cannot read trajectory '" + path + "'");
+    }
+    if (!map.loadFromFile(path))
+    {
+        throw InputError("'" + path + "' is not a complete .simplemap");
+    }
+    std::vector<StampedPose> poses;
+    for (std::size_t k = 0; k < map.size(); ++k)
+    {
+        mrpt::poses::CPose3DPDF::Ptr pdf;
+        mrpt::obs::CSensoryFrame::Ptr frame;
+        map.get(k, pdf, frame);
+        if (!pdf || !frame || frame->empty())
+        {
+            throw InputError(
+                "'" + path + "': key frame " + std::to_string(k) + " has no observation, " +
+                "hence no time stamp");
+        }
+        mrpt::poses::CPose3DPDFGaussian gaussian;
+        gaussian.copyFrom(*pdf);
+        poses.push_back(stamped(toSeconds((*frame->begin())->timestamp), fromMrpt(gaussian)));
+    }
+    if (poses.empty())
+    {
+        throw InputError("'" + path + "' holds no key frames");
+    }
+    return makeTrajectory(path, std::move(poses));
+}
+}  // namespace pointplane

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/evaluation/nees.h>
+
+#include <memory>
+#include <ostream>
+
+#include "command.h"
+#include "input_options.h"
+#include "nees_output.h"
+#include "result_output.h"
+
+namespace pointplane
+{
+namespace
+{
+constexpr double kRadians = 3.14159265358979323846 / 180;
+
+struct NeesCommand
+{
+    std::vector<std::string> files;
+    std::vector<std::string> intervals{"1f", "10f", "1s"};
+    InputOptions input;
+    NeesOptions options;
+    double sigmaRotationDeg{0};
+    bool nearest{false};
+    double minNees{-1};
+    double maxNees{-1};
+    OutputFiles output;
+
+    void addTo(CLI::App& command);
+    void run(CommandContext& context) const;
+};
+
+void NeesCommand::addTo(CLI::App& command)
+{
+    command
+        .add_option(
+            "trajectories",
+            files,
+            "Ground truth and estimate; of several runs: ground truth and estimate in turns")
+        ->required()
+        ->expected(2, -1);
+    command.add_option("--interval", intervals, "Lengths of the increments: frames or seconds")
+        ->delimiter(',')
+        ->capture_default_str()
+        ->group("Protocol");
+    command
+        .add_option(
+            "--gt-sigma-trans",
+            options.truthSigmaTranslation,
+            "Standard deviation of each ground-truth position, per axis [m]")
+        ->capture_default_str()
+        ->check(CLI::NonNegativeNumber)
+        ->group("Protocol");
+    command
+        .add_option(
+            "--gt-sigma-rot-deg",
+            sigmaRotationDeg,
+            "Standard deviation of each ground-truth rotation, per axis [deg]")
+        ->capture_default_str()
+        ->check(CLI::NonNegativeNumber)
+        ->group("Protocol");
+    command.add_option("--offset", options.offset, "Added to the estimate's stamps [s]")
+        ->capture_default_str()
+        ->group("Protocol");
+    command.add_flag("--nearest", nearest, "Ground truth at the nearest stamp, not interpolated")
+        ->group("Protocol");
+    command.add_option("--min-nees", minNees, "Exit with 1 if a joint NEES per dof is below this")
+        ->group("Gate");
+    command.add_option("--max-nees", maxNees, "Exit with 1 if a joint NEES per dof is above this")
+        ->group("Gate");
+    input.addTo(command);
+    output.addTo(command);
+}
+
+void NeesCommand::run(CommandContext& context) const
+{
+    if (files.size() % 2 != 0)
+    {
+        throw std::invalid_argument(
+            "nees needs a ground truth for each estimate: GT EST [GT EST]...");
+    }
+    NeesOptions resolved = options;
+    resolved.truthSigmaRotation = sigmaRotationDeg * kRadians;
+    resolved.truthAt = nearest ? TruthAt::NearestStamp : TruthAt::Interpolated;
+    resolved.T_truth_body = input.T_truth_body();
+
+    std::vector<NeesInterval> lengths;
+    for (const std::string& name : intervals)
+    {
+        lengths.push_back(neesIntervalFromName(name));
+    }
+    std::vector<std::vector<NeesIncrement>> pooled(lengths.size());
+    std::vector<std::size_t> independent(lengths.size(), 0);
+    for (std::size_t k = 0; k < files.size(); k += 2)
+    {
+        // loadTruth() would change the truth's body frame; here its noise has to go along.
+        InputOptions asWritten = input;
+        asWritten.bodyFromTruth.clear();
+        const Trajectory truth = asWritten.loadTruth(files[k], context);
+        const Trajectory estimate = input.loadEstimate(files[k + 1], context);
+        for (std::size_t m = 0; m < lengths.size(); ++m)
+        {
+            const auto increments = neesIncrements(truth, estimate, lengths[m], resolved);
+            independent[m] += countIndependent(increments);
+            pooled[m].insert(pooled[m].end(), increments.begin(), increments.end());
+        }
+    }
+    NeesReport report;
+    report.files = files;
+    report.options = resolved;
+    for (std::size_t m = 0; m < lengths.size(); ++m)
+    {
+        report.results.push_back(consistencyOf(pooled[m], independent[m], lengths[m]));
+    }
+    writeReport(report, output, context.out);
+    for (const NeesResult& result : report.results)
+    {
+        const double nees = result.joint.nees;
+        if ((maxNees >= 0 && nees > maxNees) || (minNees >= 0 && nees < minNees))
+        {
+            context.err << format(
+                "pointplane-eval: NEES per dof %.3f at %s is outside the stated range\n",
+                nees,
+                nameOf(result.interval).c_str());
+            context.exitCode = kExitIncomplete;
+        }
+    }
+}
+}  // namespace
+
+void addNeesCommand(CLI::App& app, CommandContext& context)
+{
+    CLI::App& command = *app.add_subcommand(
+        "nees", "Are the covariances honest? Normalised estimation error squared of increments");
+    const auto options = std::make_shared<NeesCommand>();
+    options->addTo(command);
+    command.callback([options, &context] { options->run(context); });
+}
+}  // namespace pointplane

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nees_output.h"
+
+#include <array>
+#include <cmath>
+#include <ostream>
+
+namespace pointplane
+{
+namespace
+{
+constexpr double kDegrees = 180 / 3.14159265358979323846;
+constexpr std::array<const char*, 6> kAxes{"x", "y", "z", "rx", "ry", "rz"};
+
+/** Shown in mm or deg. */
+double shown(double value, std::size_t axis) { return value * (axis < 3 ? 1000 : kDegrees); }
+
+std::string word(const ConsistencyTest& test)
+{
+    return test.isOptimistic()     ? "optimistic"
+           : test.isConservative() ? "conservative"
+                                   : "consistent";
+}
+
+std::string testColumns(const ConsistencyTest& test)
+{
+    return format(
+        "%10.3f   [%.3f, %.3f]  %s\n", test.nees, test.lower, test.upper, word(test).c_str());
+}
+
+/** The most optimistic direction in its larger components. */
+std::string direction(const Vector6d& v)
+{
+    std::string out;
+    for (std::size_t k = 0; k < kAxes.size(); ++k)
+    {
+        const double component = v[static_cast<Eigen::Index>(k)];
+        if (std::abs(component) > 0.3)
+        {
+            out += format("%s%+.2f %s", out.empty() ? "" : ", ", component, kAxes[k]);
+        }
+    }
+    return out;
+}
+
+nlohmann::ordered_json testJson(const ConsistencyTest& test)
+{
+    return {
+        {"neesPerDof", test.nees},
+        {"lower95", test.lower},
+        {"upper95", test.upper},
+        {"verdict", word(test)}};
+}
+
+void printInterval(const NeesResult& r, std::ostream& out)
+{
+    out << format(
+        "\nincrements of %s: %zu, of which %zu one after the other\n%-14s%12s%12s%12s%10s   %s\n",
+        nameOf(r.interval).c_str(),
+        r.increments,
+        r.independent,
+        "",
+        "mean error",
+        "rms error",
+        "sigma",
+        "NEES/dof",
+        "95 % bounds");
+    for (std::size_t k = 0; k < kAxes.size(); ++k)
+    {
+        const AxisConsistency& a = r.axes[k];
+        out << format(
+                   "%-14s%12.4f%12.4f%12.4f",
+                   (std::string(kAxes[k]) + (k < 3 ? " [mm]" : " [deg]")).c_str(),
+                   shown(a.meanError, k),
+                   shown(a.rmsError, k),
+                   shown(a.rmsSigma, k))
+            << testColumns(a.test);
+    }
+    out << format("%-50s", "translation") << testColumns(r.translation)  //
+        << format("%-50s", "rotation") << testColumns(r.rotation)        //
+        << format("%-50s", "joint") << testColumns(r.joint)
+        << format(
+               "anisotropy: from %.3f to %.3f along the worst direction (%s, whitened)\n",
+               r.whitenedEigenvalues[0],
+               r.whitenedEigenvalues[5],
+               direction(r.mostOptimistic).c_str())
+        << "verdict: " << verdict(r.joint) << "\n";
+}
+}  // namespace
+
+std::string describe(const NeesReport& report)
+{
+    return format(
+        "normalised estimation error squared of increments, %zu run(s), ground truth %s with "
+        "sigma %g m and %g deg per axis and pose",
+        report.files.size() / 2,
+        report.options.truthAt == TruthAt::Interpolated ? "interpolated" : "at the nearest stamp",
+        report.options.truthSigmaTranslation,
+        report.options.truthSigmaRotation * kDegrees);
+}
+
+void printTable(const NeesReport& report, std::ostream& out)
+{
+    out << "Covariance consistency: " << describe(report) << "\n";
+    for (std::size_t k = 0; k + 1 < report.files.size(); k += 2)
+    {
+        out << "ground truth " << report.files[k] << ", estimate " << report.files[k + 1] << "\n";
+    }
+    for (const NeesResult& result : report.results)
+    {
+        printInterval(result, out);
+    }
+}
+
+nlohmann::ordered_json toJson(const NeesReport& report)
+{
+    nlohmann::ordered_json json;
+    json["title"] = "Covariance consistency";
+    json["protocol"] = describe(report);
+    json["files"] = report.files;
+    json["intervals"] = nlohmann::ordered_json::array();
+    for (const NeesResult& r : report.results)
+    {
+        nlohmann::ordered_json item;
+        item["interval"] = nameOf(r.interval);
+        item["increments"] = r.increments;
+        item["independent"] = r.independent;
+        item["joint"] = testJson(r.joint);
+        item["translation"] = testJson(r.translation);
+        item["rotation"] = testJson(r.rotation);
+        for (std::size_t k = 0; k < kAxes.size(); ++k)
+        {
+            nlohmann::ordered_json axis = testJson(r.axes[k].test);
+            axis["meanError"] = r.axes[k].meanError;
+            axis["rmsError"] = r.axes[k].rmsError;
+            axis["rmsSigma"] = r.axes[k].rmsSigma;
+            item["axes"][kAxes[k]] = axis;
+        }
+        item["whitenedEigenvalues"] =
+            std::vector<double>(r.whitenedEigenvalues.data(), r.whitenedEigenvalues.data() + 6);
+        item["verdict"] = verdict(r.joint);
+        json["intervals"].push_back(item);
+    }
+    return json;
+}
+
+std::string toCsv(const NeesReport& report)
+{
+    std::string out =
+        "interval,increments,independent,quantity,nees_per_dof,lower95,upper95,mean_error,"
+        "rms_error,rms_sigma\n";
+    for (const NeesResult& r : report.results)
+    {
+        const auto row = [&](const std::string& quantity, const ConsistencyTest& test)
+        {
+            return nameOf(r.interval) +
+                   format(",%zu,%zu,%s", r.increments, r.independent, quantity.c_str()) +
+                   format(",%.9g,%.9g,%.9g,", test.nees, test.lower, test.upper);
+        };
+        out += row("joint", r.joint) + ",,\n" + row("translation", r.translation) + ",,\n" +
+               row("rotation", r.rotation) + ",,\n";
+        for (std::size_t k = 0; k < kAxes.size(); ++k)
+        {
+            const AxisConsistency& a = r.axes[k];
+            out += row(kAxes[k], a.test) +
+                   format("%.9g,%.9g,%.9g\n", a.meanError, a.rmsError, a.rmsSigma);
+        }
+    }
+    return out;
+}
+
+void writeReport(const NeesReport& report, const OutputFiles& files, std::ostream& out)
+{
+    if (!files.replaceTable())
+    {
+        printTable(report, out);
+    }
+    if (!files.json.empty())
+    {
+        writeText(toJson(report).dump(2) + "\n", files.json, out);
+    }
+    if (!files.csv.empty())
+    {
+        writeText(toCsv(report), files.csv, out);
+    }
+}
+}  // namespace pointplane

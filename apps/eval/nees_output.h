@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pointplane/evaluation/nees.h>
+
+#include "result_output.h"
+
+namespace pointplane
+{
+/** What `nees` found, with all that is needed to repeat it. */
+struct NeesReport
+{
+    std::vector<std::string> files;  //!< ground truth and estimate in turns
+    NeesOptions options;
+    std::vector<NeesResult> results;  //!< one per interval
+};
+
+[[nodiscard]] std::string describe(const NeesReport& report);
+void printTable(const NeesReport& report, std::ostream& out);
+[[nodiscard]] nlohmann::ordered_json toJson(const NeesReport& report);
+[[nodiscard]] std::string toCsv(const NeesReport& report);
+
+/** Writes table, JSON and CSV as asked for; throws EnvironmentError. */
+void writeReport(const NeesReport& report, const OutputFiles& files, std::ostream& out);
+}  // namespace pointplane

@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/mrpt_io/RawlogWriter.h>
+#include <pointplane/mrpt_io/errors.h>
+#include <pointplane/mrpt_io/mrpt_poses.h>
+
+#include <mrpt/maps/CSimpleMap.h>
+#include <mrpt/obs/CActionCollection.h>
+#include <mrpt/obs/CActionRobotMovement3D.h>
+#include <mrpt/obs/CObservationComment.h>
+#include <mrpt/obs/CObservationRobotPose.h>
+#include <mrpt/obs/CSensoryFrame.h>
+#include <mrpt/poses/CPose3DInterpolator.h>
+
+#include <filesystem>
+#include <sstream>
+
+#include "EvalApp.h"
+#include "matchers.h"
+#include "mrpt_trajectories.h"
+#include "test_trajectories.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+using namespace pointplane;
+using testing::HasSubstr;
+
+namespace
+{
+const Trajectory& truth()
+{
+    static const Trajectory trajectory = randomTrajectory(40, 1);
+    return trajectory;
+}
+const Trajectory& estimate()
+{
+    static const Trajectory trajectory = odometry(truth(), 2);
+    return trajectory;
+}
+
+PoseGaussian gaussianAt(std::size_t k) { return {estimate().poses[k], estimate().covs[k]}; }
+
+mrpt::obs::CObservationRobotPose observationOf(std::size_t k, const std::string& label)
+{
+    mrpt::obs::CObservationRobotPose observation;
+    observation.sensorLabel = label;
+    observation.timestamp = fromSeconds(estimate().stamps[k]);
+    observation.pose = toMrpt(gaussianAt(k));
+    return observation;
+}
+
+void writeFormat2(const std::string& path, const std::vector<std::string>& labels)
+{
+    RawlogWriter writer(path);
+    for (std::size_t k = 0; k < estimate().size(); ++k)
+    {
+        for (const std::string& label : labels)
+        {
+            writer.write(observationOf(k, label));
+        }
+    }
+    writer.close();
+}
+
+mrpt::obs::CSensoryFrame frameAt(std::size_t k)
+{
+    const auto comment = mrpt::obs::CObservationComment::Create();
+    comment->timestamp = fromSeconds(estimate().stamps[k]);
+    mrpt::obs::CSensoryFrame frame;
+    frame.insert(comment);
+    return frame;
+}
+
+void expectEstimate(const Trajectory& read)
+{
+    ASSERT_EQ(read.size(), estimate().size());
+    ASSERT_EQ(read.covs.size(), estimate().size());
+    for (std::size_t k = 0; k < read.size(); ++k)
+    {
+        EXPECT_NEAR(read.stamps[k], estimate().stamps[k], 2e-7);
+        EXPECT_THAT(read.poses[k], test::IsNearPose(estimate().poses[k], 1e-9, 1e-9));
+        const double scale = 1e-9 + 1e-6 * estimate().covs[k].norm();
+        EXPECT_THAT(read.covs[k], test::IsMatrixNear(estimate().covs[k], scale)) << k;
+    }
+}
+
+template <class F>
+std::string messageOf(F&& f)
+{
+    try
+    {
+        (void)f();
+    }
+    catch (const std::exception& e)
+    {
+        return e.what();
+    }
+    return "no exception";
+}
+
+struct CommandRun
+{
+    int code{0};
+    std::string out, err;
+};
+CommandRun run(const std::vector<std::string>& args)
+{
+    std::ostringstream out;
+    std::ostringstream err;
+    const int code = runEval(args, out, err);
+    return {code, out.str(), err.str()};
+}
+
+std::string writeTruth(const test::TempDir& dir)
+{
+    std::ostringstream text;
+    text.precision(15);
+    for (std::size_t k = 0; k < truth().size(); ++k)
+    {
+        const Eigen::Quaterniond q(truth().poses[k].linear());
+        text << truth().stamps[k] << " " << truth().poses[k].translation().transpose() << " "
+             << q.coeffs().transpose() << "\n";
+    }
+    return writeFile(dir, "truth.txt", text.str());
+}
+}  // namespace
+
+TEST(MrptTrajectories, rawlogOfRobotPosesWithTheirCovariances)
+{
+    test::TempDir dir;
+    writeFormat2(dir / "a.rawlog", {"VO"});
+    expectEstimate(readRawlogTrajectory(dir / "a.rawlog", ""));
+    expectEstimate(readRawlogTrajectory(dir / "a.rawlog", "VO"));
+}
+
+TEST(MrptTrajectories, rawlogOfActionsAndFramesIsComposed)
+{
+    test::TempDir dir;
+    {
+        RawlogWriter writer(dir / "a.rawlog");
+        for (std::size_t k = 0; k < estimate().size(); ++k)
+        {
+            mrpt::obs::CActionRobotMovement3D movement;
+            PoseGaussian step;
+            if (k > 0)
+            {
+                step = {estimate().poses[k - 1].inverse() * estimate().poses[k], incrementCov()};
+            }
+            movement.poseChange = toMrpt(step);
+            mrpt::obs::CActionCollection actions;
+            actions.insert(movement);
+            writer.write(actions);
+            writer.write(frameAt(k));
+        }
+        writer.close();
+    }
+    expectEstimate(readRawlogTrajectory(dir / "a.rawlog", ""));
+}
+
+TEST(MrptTrajectories, simplemap)
+{
+    test::TempDir dir;
+    mrpt::maps::CSimpleMap map;
+    for (std::size_t k = 0; k < estimate().size(); ++k)
+    {
+        map.insert(
+            mrpt::poses::CPose3DPDFGaussian::Create(toMrpt(gaussianAt(k))),
+            mrpt::obs::CSensoryFrame::Create(frameAt(k)));
+    }
+    ASSERT_TRUE(map.saveToFile(dir / "a.simplemap"));
+    expectEstimate(readSimplemapTrajectory(dir / "a.simplemap"));
+
+    std::filesystem::resize_file(
+        dir / "a.simplemap", std::filesystem::file_size(dir / "a.simplemap") / 2);
+    EXPECT_THAT(
+        messageOf([&] { return readSimplemapTrajectory(dir / "a.simplemap"); }),
+        HasSubstr("a.simplemap' is not a complete .simplemap"));
+    EXPECT_THAT(
+        messageOf([&] { return readSimplemapTrajectory(dir / "none.simplemap"); }),
+        HasSubstr("cannot read"));
+}
+
+TEST(MrptTrajectories, interpolatorTextAsMrptWritesIt)
+{
+    test::TempDir dir;
+    mrpt::poses::CPose3DInterpolator path;
+    for (std::size_t k = 0; k < truth().size(); ++k)
+    {
+        path.insert(fromSeconds(truth().stamps[k]), toMrpt(truth().poses[k]));
+    }
+    ASSERT_TRUE(path.saveToTextFile(dir / "path.txt"));
+    const CommandRun r =
+        run({"rpe", writeTruth(dir), dir / "path.txt", "--fixed-delta", "--csv", "-"});
+    EXPECT_EQ(r.code, 0) << r.err;
+    EXPECT_THAT(r.out, HasSubstr("translation,m,29,"));
+    const CommandRun gate =
+        run({"rpe", dir / "path.txt", writeTruth(dir), "--fixed-delta", "--max-rmse", "1e-5"});
+    EXPECT_EQ(gate.code, 0) << gate.out;
+}
+
+TEST(MrptTrajectories, labelsHaveToBeClear)
+{
+    test::TempDir dir;
+    writeFormat2(dir / "a.rawlog", {"VO", "WHEELS"});
+    expectEstimate(readRawlogTrajectory(dir / "a.rawlog", "VO"));
+    EXPECT_THAT(
+        messageOf([&] { return readRawlogTrajectory(dir / "a.rawlog", ""); }),
+        testing::AllOf(HasSubstr("'VO', 'WHEELS'"), HasSubstr("--sensor-label")));
+    EXPECT_THAT(
+        messageOf([&] { return readRawlogTrajectory(dir / "a.rawlog", "X"); }),
+        HasSubstr("no poses with sensor label 'X', only 'VO', 'WHEELS'"));
+    {
+        RawlogWriter writer(dir / "empty.rawlog");
+        writer.write(frameAt(0));
+        writer.close();
+    }
+    EXPECT_THAT(
+        messageOf([&] { return readRawlogTrajectory(dir / "empty.rawlog", ""); }),
+        HasSubstr("holds no poses"));
+}
+
+TEST(MrptTrajectories, aDamagedRawlogIsScoredUpToTheDamageAndSaysSo)
+{
+    test::TempDir dir;
+    writeFormat2(dir / "a.rawlog", {"VO"});
+    std::filesystem::resize_file(
+        dir / "a.rawlog", std::filesystem::file_size(dir / "a.rawlog") * 3 / 4);
+    const CommandRun r = run({"rpe", writeTruth(dir), dir / "a.rawlog", "--fixed-delta"});
+    EXPECT_EQ(r.code, 1);
+    EXPECT_THAT(r.err, testing::AllOf(HasSubstr("a.rawlog"), HasSubstr("only what comes before")));
+    EXPECT_THAT(r.out, HasSubstr("translation"));
+}
+
+TEST(MrptTrajectories, neesEndToEnd)
+{
+    test::TempDir dir;
+    writeFormat2(dir / "a.rawlog", {"VO"});
+    const std::string truthFile = writeTruth(dir);
+    const CommandRun r =
+        run({"nees", truthFile, dir / "a.rawlog", "--interval", "1f,5f", "--max-nees", "1.5"});
+    EXPECT_EQ(r.code, 0) << r.err;
+    EXPECT_THAT(r.out, HasSubstr("increments of 5f: 35, of which 7 one after the other"));
+    EXPECT_THAT(r.out, HasSubstr("verdict: consistent"));
+    EXPECT_EQ(run({"nees", truthFile, dir / "a.rawlog", "--min-nees", "5"}).code, 1);
+
+    const CommandRun pooled = run(
+        {"nees",
+         truthFile,
+         dir / "a.rawlog",
+         truthFile,
+         dir / "a.rawlog",
+         "--interval",
+         "1f",
+         "--csv",
+         "-"});
+    EXPECT_THAT(pooled.out, HasSubstr("\n1f,78,78,joint,"));
+    EXPECT_EQ(run({"nees", truthFile, truthFile}).code, 2);  // no covariances
+    EXPECT_EQ(run({"nees", truthFile, dir / "a.rawlog", truthFile}).code, 2);
+    EXPECT_EQ(run({"nees", truthFile, dir / "a.rawlog", "--interval", "3m"}).code, 2);
+}
+
+TEST(MrptTrajectories, opticalGroundTruthOfAnEstimateInMrptAxes)
+{
+    test::TempDir dir;
+    writeFormat2(dir / "a.rawlog", {"VO"});
+    std::ostringstream text;
+    text.precision(15);
+    for (std::size_t k = 0; k < truth().size(); ++k)
+    {
+        const Eigen::Isometry3d T = truth().poses[k] * opticalInBody();
+        text << truth().stamps[k] << " " << T.translation().transpose() << " "
+             << Eigen::Quaterniond(T.linear()).coeffs().transpose() << "\n";
+    }
+    const std::string optical = writeFile(dir, "optical.txt", text.str());
+    const auto rmse = [&](const std::string& gt, const std::vector<std::string>& more)
+    {
+        std::vector<std::string> args{"rpe", gt, dir / "a.rawlog", "--fixed-delta", "--verbose"};
+        args.insert(args.end(), more.begin(), more.end());
+        return run(args).out;
+    };
+    EXPECT_EQ(rmse(optical, {"--body-from-gt", "optical"}), rmse(writeTruth(dir), {}));
+    EXPECT_EQ(rmse(optical, {"--body-from-gt=0,0,0,-90,0,-90"}), rmse(writeTruth(dir), {}));
+    EXPECT_NE(rmse(optical, {}), rmse(writeTruth(dir), {}));
+    EXPECT_EQ(
+        run({"rpe", optical, dir / "a.rawlog", "--body-from-gt", "0,0,0,1"}).code, kExitBadInput);
+}
