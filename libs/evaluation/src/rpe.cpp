@@ -2,6 +2,7 @@
 #include <pointplane/evaluation/rpe.h>
 
 #include <cstdio>
+#include <future>
 #include <numeric>
 #include <random>
 #include <stdexcept>
@@ -158,10 +159,15 @@ void evaluateAll(const SampledTruth& truth, const PairError& error, RpeResult& r
         forEachPair([&](double value) { accumulator.addAgain(value); });
         return accumulator.result();
     };
+    auto rotation = std::async(
+        std::launch::async,
+        [&] {
+            return statisticsOfAll([&](std::size_t i, std::size_t j)
+                                   { return error.rotation(i, j); });
+        });
     result.translation =
         statisticsOfAll([&](std::size_t i, std::size_t j) { return error.translation(i, j); });
-    result.rotation =
-        statisticsOfAll([&](std::size_t i, std::size_t j) { return error.rotation(i, j); });
+    result.rotation = rotation.get();
 }
 }  // namespace
 
