@@ -58,8 +58,10 @@ Scene makeNoTexture(std::uint64_t /*seed*/)
         builder.addWall(left, right, 1.7, blank(210));
         left = right;
     }
-    builder.addWall({3, 5, 0}, {3, -5, 0}, 3, blank(150));
-    builder.addRectangle({-4, -5, 0}, {7, 0, 0}, {0, 10, 0}, blank(120));
+    builder.addWall({-4, 6, 0}, {3, 6, 0}, 6, blank(155));
+    builder.addWall({3, 6, 0}, {3, -6, 0}, 6, blank(150));
+    builder.addWall({3, -6, 0}, {-4, -6, 0}, 6, blank(145));
+    builder.addRectangle({-4, -6, 0}, {7, 0, 0}, {0, 12, 0}, blank(120));
     CameraMotion& motion = builder.scene().motion;
     motion.eye = {-2.0, 0, 1.2};
     motion.target = {0.2, 0, 0.7};

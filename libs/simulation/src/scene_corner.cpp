@@ -30,7 +30,7 @@ Scene makeCorner(std::uint64_t seed)
 
     CameraMotion& motion = builder.scene().motion;
     motion.eye = {-1.35, -1.2, 1.35};
-    motion.target = {-0.1, -0.1, 0.6};
+    motion.target = {-0.1, -0.1, 0.35};
     motion.handSpeed = 0.25;
     motion.handTurnRate = 0.26;
     Lamp lamp;

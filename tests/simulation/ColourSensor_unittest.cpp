@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/simulation/ColourSensor.h>
+
+#include <opencv2/core.hpp>
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace pointplane
+{
+namespace
+{
+cv::Mat grey(int level) { return {480, 640, CV_8UC3, cv::Scalar::all(level)}; }
+}  // namespace
+
+TEST(ColourSensor, idealPictureIsUnchanged)
+{
+    const cv::Mat out = ColourSensor(SimulationParams::ideal(), 1).sense({grey(90)}, 0, 1);
+    EXPECT_EQ(cv::norm(out, grey(90), cv::NORM_INF), 0);
+}
+
+TEST(ColourSensor, noiseHasTheSigmaAskedForAndGrowsWithBrightness)
+{
+    SimulationParams params = SimulationParams::ideal();
+    params.imageNoise = 4;
+    const ColourSensor sensor(params, 1);
+    double previous = 0;
+    for (const int level : {40, 128, 200})
+    {
+        cv::Scalar mean, sigma;
+        cv::meanStdDev(sensor.sense({grey(level)}, 0, 7), mean, sigma);
+        EXPECT_NEAR(mean[0], level, 0.1);
+        EXPECT_GT(sigma[1], previous);
+        previous = sigma[1];
+        if (level == 128)
+        {
+            // Rounding to integers adds 1/12.
+            EXPECT_NEAR(sigma[2], std::sqrt(16 + 1.0 / 12), 0.05);
+        }
+    }
+}
+
+TEST(ColourSensor, vignettingDarkensCorners)
+{
+    SimulationParams params = SimulationParams::ideal();
+    params.vignetting = 0.2;
+    const cv::Mat out = ColourSensor(params, 1).sense({grey(200)}, 0, 1);
+    EXPECT_NEAR(out.at<cv::Vec3b>(240, 320)[0], 200, 1);
+    EXPECT_NEAR(out.at<cv::Vec3b>(0, 0)[0], 160, 1);
+}
+
+TEST(ColourSensor, exposuresAreAveraged)
+{
+    const cv::Mat out =
+        ColourSensor(SimulationParams::ideal(), 1).sense({grey(10), grey(50), grey(90)}, 0, 1);
+    EXPECT_EQ(cv::norm(out, grey(50), cv::NORM_INF), 0);
+}
+
+TEST(ColourSensor, exposureSwingChangesBrightnessOverTimeWithinItsAmplitude)
+{
+    SimulationParams params = SimulationParams::ideal();
+    params.exposureSwing = 0.3;
+    const ColourSensor sensor(params, 1);
+    double low = 255, high = 0;
+    for (double t = 0; t < 20; t += 0.5)
+    {
+        const double level = cv::mean(sensor.sense({grey(100)}, t, 1))[0];
+        low = std::min(low, level);
+        high = std::max(high, level);
+    }
+    EXPECT_GE(low, 69);
+    EXPECT_LE(high, 131);
+    EXPECT_GT(high - low, 30);
+}
+}  // namespace pointplane
