@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/mrpt_io/ObservationConverter.h>
 #include <pointplane/mrpt_io/errors.h>
+#include <pointplane/mrpt_io/external_range.h>
 #include <pointplane/mrpt_io/mrpt_poses.h>
 
 #include <mrpt/img/CImage.h>
@@ -13,7 +14,7 @@
 #include <optional>
 
 #include "DepthRegistration.h"
-#include "externalFiles.h"
+#include "external_image.h"
 #include "shutterText.h"
 
 namespace pointplane

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "externalFiles.h"
-
 #include <pointplane/mrpt_io/errors.h>
+#include <pointplane/mrpt_io/external_range.h>
 
 #include <opencv2/imgcodecs.hpp>
 
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include "GzInput.h"
+#include "external_image.h"
 
 namespace pointplane
 {
@@ -56,6 +56,27 @@ mrpt::math::CMatrix_u16 readExternalRange(const std::string& path)
     mrpt::math::CMatrix_u16 out(static_cast<int>(size[0]), static_cast<int>(size[1]));
     std::memcpy(out.data(), readings.data(), readings.size() * sizeof(std::uint16_t));
     return out;
+}
+
+void moveRangeToFile(
+    mrpt::obs::CObservation3DRangeScan& scan, const std::string& directory, const std::string& name)
+{
+    const std::string path = directory + "/" + name;
+    const mrpt::math::CMatrix_u16 readings = scan.rangeImage;
+    scan.rangeImage_convertToExternalStorage(name, directory + "/");
+    bool same = false;
+    try
+    {
+        same = readExternalRange(path) == readings;
+    }
+    catch (const InputError&)
+    {
+    }
+    if (!same)
+    {
+        throw EnvironmentError("cannot write " + path + ": disk full or not writable");
+    }
+    scan.rangeImage = readings;
 }
 
 cv::Mat readExternalImage(const std::string& path)

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ProgressBar.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <ostream>
+#include <utility>
+
+#include <unistd.h>
+
+namespace pointplane
+{
+ProgressBar::ProgressBar(std::ostream& out, bool isTerminal, std::string what)
+    : out_(out), isTerminal_(isTerminal), what_(std::move(what))
+{
+}
+
+ProgressBar::~ProgressBar()
+{
+    if (lineOpen_)
+    {
+        out_ << "\n";
+    }
+}
+
+void ProgressBar::update(double fraction, std::size_t frames)
+{
+    const auto now = Clock::now();
+    const std::chrono::duration<double> sinceDrawn = now - drawn_;
+    if (sinceDrawn.count() < (isTerminal_ ? 0.2 : 10.0))
+    {
+        return;
+    }
+    drawn_ = now;
+    draw(std::clamp(fraction, 0.0, 1.0), frames, now);
+}
+
+void ProgressBar::draw(double fraction, std::size_t frames, Clock::time_point now)
+{
+    const double elapsed = std::chrono::duration<double>(now - start_).count();
+    const double rate = static_cast<double>(frames) / elapsed;
+    std::string text = what_ + ": ";
+    constexpr int kWidth = 24;
+    if (isTerminal_)
+    {
+        const int filled = static_cast<int>(std::lround(fraction * kWidth));
+        text += "[" + std::string(static_cast<std::size_t>(filled), '#') +
+                std::string(static_cast<std::size_t>(kWidth - filled), '.') + "] ";
+    }
+    char numbers[96];
+    std::snprintf(
+        numbers, sizeof(numbers), "%3.0f %%  %zu frames  %.1f fps", 100 * fraction, frames, rate);
+    text += numbers;
+    if (fraction > 0.01)
+    {
+        text += "  " + durationText(elapsed / fraction - elapsed) + " left";
+    }
+    if (isTerminal_)
+    {
+        out_ << "\r" << text << "\x1b[K" << std::flush;
+        lineOpen_ = true;
+    }
+    else
+    {
+        out_ << text << "\n" << std::flush;
+    }
+}
+
+void ProgressBar::message(const std::string& line)
+{
+    if (lineOpen_)
+    {
+        out_ << "\r\x1b[K";
+        lineOpen_ = false;
+    }
+    out_ << line << "\n" << std::flush;
+}
+
+bool standardErrorIsTerminal() { return ::isatty(STDERR_FILENO) == 1; }
+
+std::string durationText(double seconds)
+{
+    const auto total = static_cast<long>(std::max(0.0, std::round(seconds)));
+    char text[48];
+    if (total >= 3600)
+    {
+        std::snprintf(
+            text, sizeof(text), "%ld:%02ld:%02ld", total / 3600, total / 60 % 60, total % 60);
+    }
+    else
+    {
+        std::snprintf(text, sizeof(text), "%ld:%02ld", total / 60, total % 60);
+    }
+    return text;
+}
+}  // namespace pointplane

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tum_camera.h"
+
+#include <pointplane/mrpt_io/errors.h>
+
+#include <mrpt/config/CConfigFile.h>
+#include <mrpt/img/TCamera.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <sstream>
+#include <vector>
+
+namespace pointplane
+{
+namespace
+{
+struct Preset
+{
+    const char* name;
+    const char* longName;
+    std::array<double, 4> intrinsics;  //!< fx fy cx cy [px]
+    std::array<double, 5> distortion;  //!< k1 k2 p1 p2 k3
+    ShutterModel shutter;
+};
+
+/** The colour cameras of the TUM RGB-D benchmark, as published with it. */
+const std::array<Preset, 3> kPresets{{
+    {"fr1",
+     "freiburg1",
+     {{517.306408, 516.469215, 318.643040, 255.313989}},
+     {{0.262383, -0.953104, -0.005358, 0.002628, 1.163314}},
+     {}},
+    {"fr2",
+     "freiburg2",
+     {{520.908620, 521.007327, 325.141442, 249.701764}},
+     {{0.231222, -0.784899, -0.003257, -0.000105, 0.917205}},
+     {}},
+    {"fr3", "freiburg3", {{535.4, 539.2, 320.1, 247.6}}, {{0, 0, 0, 0, 0}}, {}},
+}};
+
+[[nodiscard]] TumCamera fromPreset(const Preset& preset)
+{
+    TumCamera out;
+    out.camera.fx = preset.intrinsics[0];
+    out.camera.fy = preset.intrinsics[1];
+    out.camera.cx = preset.intrinsics[2];
+    out.camera.cy = preset.intrinsics[3];
+    out.camera.distortion = preset.distortion;
+    out.shutter = preset.shutter;
+    return out;
+}
+
+/** One line: fx fy cx cy k1 k2 p1 p2 k3 width height unitsPerMetre. Nothing if it is not that. */
+[[nodiscard]] std::optional<TumCamera> fromLine(const std::string& path)
+{
+    std::ifstream file(path);
+    std::vector<double> numbers;
+    std::string line;
+    while (std::getline(file, line))
+    {
+        std::istringstream words(line);
+        std::string word;
+        while (words >> word && word[0] != '#')
+        {
+            std::istringstream text(word);
+            text.imbue(std::locale::classic());
+            double value = 0;
+            if (!(text >> value) || text.peek() != std::istringstream::traits_type::eof())
+            {
+                return {};
+            }
+            numbers.push_back(value);
+        }
+    }
+    if (numbers.size() != 12)
+    {
+        return {};
+    }
+    TumCamera out;
+    out.camera.fx = numbers[0];
+    out.camera.fy = numbers[1];
+    out.camera.cx = numbers[2];
+    out.camera.cy = numbers[3];
+    std::copy_n(numbers.begin() + 4, 5, out.camera.distortion.begin());
+    out.camera.width = static_cast<int>(numbers[9]);
+    out.camera.height = static_cast<int>(numbers[10]);
+    out.unitsPerMetre = numbers[11];
+    return out;
+}
+
+/** The section of an MRPT ini that describes the colour camera: the only camera, or the right one
+ * of a pair (MRPT's RGB-D sensors call depth left and colour right). */
+[[nodiscard]] std::string cameraSection(
+    const mrpt::config::CConfigFile& ini, const std::string& path)
+{
+    std::vector<std::string> sections, cameras, right;
+    ini.getAllSections(sections);
+    for (const std::string& section : sections)
+    {
+        if (ini.keyExists(section, "fx"))
+        {
+            cameras.push_back(section);
+            const std::string suffix = "_RIGHT";
+            if (section.size() >= suffix.size() &&
+                section.compare(section.size() - suffix.size(), suffix.size(), suffix) == 0)
+            {
+                right.push_back(section);
+            }
+        }
+    }
+    if (cameras.size() == 1)
+    {
+        return cameras.front();
+    }
+    if (right.size() == 1)
+    {
+        return right.front();
+    }
+    throw InputError(
+        path + ": is neither one line of 12 numbers nor an MRPT camera ini (" +
+        std::to_string(cameras.size()) + " sections with fx)");
+}
+
+[[nodiscard]] TumCamera fromIni(const std::string& path)
+{
+    const mrpt::config::CConfigFile ini(path);
+    mrpt::img::TCamera from;
+    const std::string section = cameraSection(ini, path);
+    try
+    {
+        from.loadFromConfigFile(section, ini);
+    }
+    catch (const std::exception& e)
+    {
+        throw InputError(path + ": [" + section + "]: " + oneLine(e));
+    }
+    if (from.distortion == mrpt::img::DistortionModel::kannala_brandt)
+    {
+        throw InputError(path + ": [" + section + "]: fisheye distortion is not supported");
+    }
+    TumCamera out;
+    out.camera.width = static_cast<int>(from.ncols);
+    out.camera.height = static_cast<int>(from.nrows);
+    out.camera.fx = from.fx();
+    out.camera.fy = from.fy();
+    out.camera.cx = from.cx();
+    out.camera.cy = from.cy();
+    if (from.distortion == mrpt::img::DistortionModel::plumb_bob)
+    {
+        std::copy_n(from.dist.begin(), 5, out.camera.distortion.begin());
+    }
+    return out;
+}
+
+[[nodiscard]] TumCamera fromFile(const std::string& path)
+{
+    if (!std::filesystem::is_regular_file(path))
+    {
+        throw InputError("--camera " + path + ": neither fr1, fr2, fr3 nor a file");
+    }
+    auto out = fromLine(path);
+    TumCamera camera = out ? *out : fromIni(path);
+    const std::string problem = camera.camera.problem();
+    if (!problem.empty() || !(camera.unitsPerMetre > 0))
+    {
+        throw InputError(
+            path + ": " + (problem.empty() ? "depth units are not positive" : problem));
+    }
+    return camera;
+}
+}  // namespace
+
+TumCamera loadTumCamera(const std::string& camera, const std::string& folder)
+{
+    const std::string local = folder + "/camera.txt";
+    if (camera.empty() && std::filesystem::exists(local))
+    {
+        return fromFile(local);
+    }
+    const std::string name = std::filesystem::path(folder).lexically_normal().string();
+    for (const Preset& preset : kPresets)
+    {
+        const bool guessed = camera.empty() && (name.find(preset.longName) != std::string::npos ||
+                                                name.find(preset.name) != std::string::npos);
+        if (guessed || camera == preset.name)
+        {
+            return fromPreset(preset);
+        }
+    }
+    if (camera.empty())
+    {
+        throw InputError(
+            folder + ": no camera.txt in it; say --camera fr1, fr2, fr3 or a calibration file");
+    }
+    return fromFile(camera);
+}
+}  // namespace pointplane

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pointplane/mrpt_io/RobotTrajectory.h>
+#include <pointplane/odometry/OdometryResult.h>
+
+#include <optional>
+
+#include "FrameSource.h"
+
+namespace pointplane
+{
+/** What the odometry made of one frame. */
+struct FrameRecord
+{
+    OdometryResult result;   //!< of the camera, optical axes
+    RobotMotion motion;      //!< of the robot, MRPT axes
+    FrameFeatures features;  //!< only if a sink asked for them
+};
+
+/** One observation of the input on its way out. */
+struct OutputItem
+{
+    SourceItem source;
+    std::optional<FrameRecord> frame;  //!< if the observation is of the camera
+};
+
+/** Where results go. Called for every observation in order, from one thread. */
+class Sink
+{
+ public:
+    Sink() = default;
+    virtual ~Sink() = default;
+    Sink(const Sink&) = delete;
+    Sink& operator=(const Sink&) = delete;
+
+    /** \throws EnvironmentError */
+    virtual void add(const OutputItem& item) = 0;
+    /** Completes what was written. \throws EnvironmentError */
+    virtual void close() = 0;
+    /** What is there now, for the summary: "out.rawlog: poses and observations". */
+    [[nodiscard]] virtual std::string description() const = 0;
+    [[nodiscard]] virtual bool needsFeatures() const { return false; }
+};
+}  // namespace pointplane

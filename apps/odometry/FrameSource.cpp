@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FrameSource.h"
+
+#include <pointplane/mrpt_io/errors.h>
+
+#include <mrpt/obs/CSensoryFrame.h>
+
+#include <utility>
+
+namespace pointplane
+{
+using mrpt::obs::CObservation3DRangeScan;
+using mrpt::obs::CObservationComment;
+
+FrameSource::FrameSource(const OdometryOptions& options)
+    : options_(options), label_(options.sensorLabel)
+{
+    openNext();
+}
+
+void FrameSource::openNext()
+{
+    reader_ = std::make_unique<RawlogReader>(options_.inputs.at(nextInput_));
+    converter_.setExternalsDirectory(reader_->externalsDirectory());
+    ++nextInput_;
+}
+
+bool FrameSource::refill()
+{
+    while (pending_.empty())
+    {
+        const auto object = reader_->next();
+        if (!object)
+        {
+            damage_ = reader_->ending().message;
+            if (!damage_.empty() || nextInput_ == options_.inputs.size())
+            {
+                return false;
+            }
+            openNext();
+            continue;
+        }
+        if (auto observation = std::dynamic_pointer_cast<mrpt::obs::CObservation>(object))
+        {
+            pending_.push_back(observation);
+        }
+        else if (auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(object))
+        {
+            pending_.insert(pending_.end(), frame->begin(), frame->end());
+        }
+        // Actions are the odometry of somebody else.
+    }
+    return true;
+}
+
+SourceItem FrameSource::item(const mrpt::obs::CObservation::Ptr& observation)
+{
+    SourceItem out;
+    out.observation = observation;
+    out.progress = (static_cast<double>(nextInput_ - 1) + reader_->progress()) /
+                   static_cast<double>(options_.inputs.size());
+    if (const auto comment = std::dynamic_pointer_cast<CObservationComment>(observation))
+    {
+        try
+        {
+            converter_.readComment(*comment);
+        }
+        catch (const InputError& e)
+        {
+            throw InputError(reader_->path() + ": " + e.what());
+        }
+        return out;
+    }
+    const auto scan = std::dynamic_pointer_cast<CObservation3DRangeScan>(observation);
+    if (!scan)
+    {
+        return out;
+    }
+    labelsSeen_.insert(scan->sensorLabel);
+    if (label_.empty() && numFrames_ == 0)
+    {
+        label_ = scan->sensorLabel;
+    }
+    if (scan->sensorLabel == label_)
+    {
+        out.frameIndex = numFrames_++;
+        if (out.frameIndex >= options_.first)
+        {
+            out.converted = converter_.convert(*scan);
+        }
+    }
+    return out;
+}
+
+std::optional<SourceItem> FrameSource::next()
+{
+    while (refill())
+    {
+        if (numFrames_ >= options_.first && numFrames_ - options_.first >= options_.count)
+        {
+            return {};
+        }
+        const auto observation = pending_.front();
+        pending_.pop_front();
+        SourceItem out = item(observation);
+        if (numFrames_ > options_.first || options_.first == 0)
+        {
+            return out;
+        }
+    }
+    return {};
+}
+}  // namespace pointplane

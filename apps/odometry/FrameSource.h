@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pointplane/mrpt_io/ObservationConverter.h>
+#include <pointplane/mrpt_io/RawlogReader.h>
+
+#include <mrpt/obs/CObservation3DRangeScan.h>
+
+#include <cstddef>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "OdometryOptions.h"
+
+namespace pointplane
+{
+/** One observation of the input; with a frame if it is of the camera in question. */
+struct SourceItem
+{
+    mrpt::obs::CObservation::Ptr observation;
+    std::optional<ConvertedFrame> converted;
+    std::size_t frameIndex{0};  //!< in the input, counted over RGB-D frames of the camera
+    double progress{0};         //!< fraction of the input read, 0 to 1
+};
+
+/** Observation after observation of the input rawlogs, formats 1 and 2, as one sequence; those of
+ * the camera are converted. Observations before the first frame wanted are left out. */
+class FrameSource
+{
+ public:
+    /** \throws InputError if the first rawlog cannot be read */
+    explicit FrameSource(const OdometryOptions& options);
+
+    /** Nothing at the end: of the input, of the frames wanted, or at damage (see damage()).
+     * \throws InputError if a further rawlog cannot be opened or a camera comment understood */
+    [[nodiscard]] std::optional<SourceItem> next();
+
+    /** One line; empty if the input was read to its end. */
+    [[nodiscard]] const std::string& damage() const { return damage_; }
+    [[nodiscard]] const std::string& label() const { return label_; }
+    /** Labels of RGB-D cameras in what was read. */
+    [[nodiscard]] const std::set<std::string>& labelsSeen() const { return labelsSeen_; }
+
+ private:
+    void openNext();
+    bool refill();
+    [[nodiscard]] SourceItem item(const mrpt::obs::CObservation::Ptr& observation);
+
+    const OdometryOptions& options_;
+    std::size_t nextInput_{0};
+    std::unique_ptr<RawlogReader> reader_;
+    ObservationConverter converter_;
+    std::deque<mrpt::obs::CObservation::Ptr> pending_;
+    std::string label_;
+    std::set<std::string> labelsSeen_;
+    std::size_t numFrames_{0};
+    std::string damage_;
+};
+}  // namespace pointplane

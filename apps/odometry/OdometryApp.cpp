@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "OdometryApp.h"
+
+#include <pointplane/mrpt_io/errors.h>
+#include <pointplane/mrpt_io/params_ini.h>
+
+#include <filesystem>
+#include <ostream>
+
+#include "OdometryOptions.h"
+#include "OdometryRun.h"
+#include <CLI/CLI.hpp>
+
+namespace pointplane
+{
+namespace
+{
+void addOptions(CLI::App& app, OdometryOptions& o, bool& dumpConfig)
+{
+    app.add_option("rawlogs", o.inputs, "Input rawlogs, taken as one sequence");
+    app.add_option("-c,--config", o.config, "Configuration (default: built in, see --dump-config)");
+    app.add_option("--set", o.settings, "Override one key: Section.key=value; repeatable")
+        ->type_size(1)
+        ->allow_extra_args(false);
+    app.add_option(
+        "--sensor-label", o.sensorLabel, "Which camera (default: that of the first RGB-D frame)");
+    app.add_flag(
+        "--dump-config", dumpConfig, "Print the complete configuration in effect and exit");
+
+    app.add_option("-o,--output", o.output, "Rawlog with a pose PDF per frame")->group("Output");
+    app.add_flag("--only-poses", o.onlyPoses, "Leave the observations out of it")->group("Output");
+    app.add_flag(
+           "--format1", o.format1, "Actions (CActionRobotMovement3D) and sensory frames in it")
+        ->group("Output");
+    app.add_option("--trajectory", o.trajectory, "Poses as TUM text")->group("Output");
+    app.add_option("--trajectory-frame", o.trajectoryFrame, "Whose: optical (camera) or robot")
+        ->check(CLI::IsMember({"optical", "robot"}))
+        ->capture_default_str()
+        ->group("Output");
+    app.add_option("--diagnostics", o.diagnostics, "Table with a line per frame (CSV)")
+        ->group("Output");
+    app.add_option("--overlay", o.overlay, "Folder for pictures of points and planes")
+        ->group("Output");
+
+    app.add_option("--first", o.first, "Leave out so many frames")->group("Run");
+    app.add_option("--count", o.count, "Stop after so many frames")->group("Run");
+    app.add_option("--jobs", o.jobs, "1: one thread; more: read, estimate, write in parallel")
+        ->check(CLI::Range(1, 64))
+        ->capture_default_str()
+        ->group("Run");
+    app.add_flag("--profile", o.profile, "Mean time per stage")->group("Run");
+    app.add_flag("--quiet", o.quiet, "No progress")->group("Run");
+}
+
+void checkPaths(const OdometryOptions& o)
+{
+    if (o.inputs.empty())
+    {
+        throw InputError("no input rawlog given (see --help)");
+    }
+    for (const std::string& input : o.inputs)
+    {
+        std::error_code ignored;
+        if (std::filesystem::equivalent(input, o.output, ignored))
+        {
+            throw InputError(o.output + ": is an input; the output needs another name");
+        }
+    }
+}
+
+int run(const OdometryOptions& options, std::ostream& out, std::ostream& err)
+{
+    const OdometryParams params = loadOdometryParams(options.config, options.settings);
+    checkPaths(options);
+    const RunSummary summary = runOdometry(options, params, err);
+    summary.print(out, options.profile);
+    if (summary.numUnusable > 0)
+    {
+        err << "pointplane-odometry: " << summary.numUnusable << " frames could not be used\n";
+    }
+    if (!summary.damage.empty())
+    {
+        err << "pointplane-odometry: " << summary.damage << "\n";
+    }
+    return summary.exitCode();
+}
+}  // namespace
+
+int runOdometry(const std::vector<std::string>& args, std::ostream& out, std::ostream& err)
+{
+    CLI::App app{
+        "Estimates a camera's motion from an RGB-D rawlog, with covariances.",
+        "pointplane-odometry"};
+    app.set_version_flag("--version", POINTPLANE_VERSION);
+    OdometryOptions options;
+    bool dumpConfig = false;
+    addOptions(app, options, dumpConfig);
+    try
+    {
+        app.parse(std::vector<std::string>(args.rbegin(), args.rend()));  // CLI11: last first
+        if (dumpConfig)
+        {
+            OdometryParams params = loadOdometryParams(options.config, options.settings);
+            out << iniText(parametersOf(params));
+            return kExitOk;
+        }
+        return run(options, out, err);
+    }
+    catch (const CLI::ParseError& e)
+    {
+        return app.exit(e, out, err) == 0 ? kExitOk : kExitBadInput;
+    }
+    catch (const EnvironmentError& e)
+    {
+        err << "pointplane-odometry: " << e.what() << "\n";
+        return kExitEnvironment;
+    }
+    catch (const std::exception& e)
+    {
+        err << "pointplane-odometry: " << oneLine(e) << "\n";
+        return kExitBadInput;
+    }
+}
+}  // namespace pointplane

@@ -1,0 +1,347 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "OdometryRun.h"
+
+#include <pointplane/mrpt_io/errors.h>
+#include <pointplane/odometry/Odometry.h>
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <ostream>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "BoundedQueue.h"
+#include "FrameSource.h"
+#include "ProgressBar.h"
+#include "RawlogSink.h"
+#include "overlay.h"
+#include "text_sinks.h"
+
+namespace pointplane
+{
+namespace
+{
+using Sinks = std::vector<std::unique_ptr<Sink>>;
+
+[[nodiscard]] Sinks openSinks(const OdometryOptions& options)
+{
+    Sinks sinks;
+    if (!options.output.empty())
+    {
+        sinks.push_back(std::make_unique<RawlogSink>(options));
+    }
+    if (!options.trajectory.empty())
+    {
+        sinks.push_back(std::make_unique<TrajectorySink>(
+            options.trajectory, options.trajectoryFrame == "robot"));
+    }
+    if (!options.diagnostics.empty())
+    {
+        sinks.push_back(std::make_unique<DiagnosticsSink>(options.diagnostics));
+    }
+    if (!options.overlay.empty())
+    {
+        sinks.push_back(std::make_unique<OverlaySink>(options.overlay));
+    }
+    return sinks;
+}
+
+/** Frame after frame through the odometry; complaints about single frames. */
+class Estimator
+{
+ public:
+    Estimator(const OdometryParams& params, bool keepFeatures)
+        : odometry_(params), keepFeatures_(keepFeatures)
+    {
+    }
+
+    /** \param problem receives a line about a frame that cannot be used */
+    [[nodiscard]] OutputItem process(
+        SourceItem source, const std::function<void(const std::string&)>& problem)
+    {
+        OutputItem item;
+        if (source.converted)
+        {
+            item.frame.emplace();
+            const ConvertedFrame& converted = *source.converted;
+            FrameRecord& record = *item.frame;
+            const bool usable = converted.problem.empty();
+            record.result = odometry_.process(converted.frame);
+            record.motion = usable ? trajectory_.add(record.result, converted.T_robot_cam)
+                                   : trajectory_.add(record.result);
+            if (!usable)
+            {
+                record.motion.reason = converted.problem;
+                problem(frameName(source) + ": " + converted.problem);
+            }
+            else if (numFrames_ > 0 && converted.frame.stamp <= stamp_)
+            {
+                problem(
+                    frameName(source) + ": its time stamp is not after that of the frame before");
+            }
+            stamp_ = std::max(stamp_, converted.frame.stamp);
+            ++numFrames_;
+            if (keepFeatures_)
+            {
+                record.features = odometry_.features();
+            }
+        }
+        item.source = std::move(source);
+        return item;
+    }
+
+ private:
+    [[nodiscard]] static std::string frameName(const SourceItem& source)
+    {
+        return "frame " + std::to_string(source.frameIndex) + " of " +
+               source.observation->sensorLabel;
+    }
+
+    Odometry odometry_;
+    RobotTrajectory trajectory_;
+    bool keepFeatures_;
+    std::size_t numFrames_{0};
+    double stamp_{0};
+};
+
+/** Runs `work` on a thread of its own and keeps its exception. */
+class Worker
+{
+ public:
+    explicit Worker(std::function<void()> work)
+        : thread_(
+              [this, work = std::move(work)]
+              {
+                  try
+                  {
+                      work();
+                  }
+                  catch (...)
+                  {
+                      error_ = std::current_exception();
+                  }
+              })
+    {
+    }
+    void join()
+    {
+        if (thread_.joinable())
+        {
+            thread_.join();
+        }
+    }
+    /** After join(). */
+    void rethrow() const
+    {
+        if (error_)
+        {
+            std::rethrow_exception(error_);
+        }
+    }
+
+ private:
+    std::exception_ptr error_;
+    std::thread thread_;
+};
+
+/** The run, in one thread or in three. */
+class Run
+{
+ public:
+    Run(const OdometryOptions& options, const OdometryParams& params, std::ostream& err)
+        : options_(options),
+          err_(err),
+          source_(options),
+          sinks_(openSinks(options)),
+          estimator_(
+              params,
+              std::any_of(
+                  sinks_.begin(), sinks_.end(), [](const auto& s) { return s->needsFeatures(); }))
+    {
+        if (!options.quiet)
+        {
+            bar_.emplace(err, standardErrorIsTerminal(), options.inputs.front());
+        }
+    }
+
+    [[nodiscard]] RunSummary run()
+    {
+        const auto start = std::chrono::steady_clock::now();
+        if (options_.jobs > 1)
+        {
+            runThreads();
+        }
+        else
+        {
+            while (auto item = source_.next())
+            {
+                write(estimate(std::move(*item)));
+            }
+        }
+        bar_.reset();
+        finish();
+        summary_.seconds =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        return std::move(summary_);
+    }
+
+ private:
+    void runThreads()
+    {
+        constexpr std::size_t kDepth = 4;  // frames waiting between two threads
+        BoundedQueue<SourceItem> read(kDepth);
+        BoundedQueue<OutputItem> done(kDepth);
+        Worker reader(
+            [&]
+            {
+                const Closer closer{read};
+                while (auto item = source_.next())
+                {
+                    if (!read.push(std::move(*item)))
+                    {
+                        return;
+                    }
+                }
+            });
+        Worker writer(
+            [&]
+            {
+                const Closer closer{done};  // a writer that fails stops the others
+                while (auto item = done.pop())
+                {
+                    write(*item);
+                }
+            });
+        Worker estimatorThread(
+            [&]
+            {
+                const Closer closesOut{done};
+                const Closer closesIn{read};
+                while (auto item = read.pop())
+                {
+                    if (!done.push(estimate(std::move(*item))))
+                    {
+                        return;
+                    }
+                }
+            });
+        estimatorThread.join();
+        reader.join();
+        writer.join();
+        writer.rethrow();
+        estimatorThread.rethrow();
+        reader.rethrow();
+    }
+
+    template <class T>
+    struct Closer
+    {
+        BoundedQueue<T>& queue;
+        ~Closer() { queue.close(); }
+    };
+    template <class T>
+    Closer(BoundedQueue<T>&) -> Closer<T>;
+
+    [[nodiscard]] OutputItem estimate(SourceItem source)
+    {
+        OutputItem item = estimator_.process(
+            std::move(source),
+            [this](const std::string& problem)
+            {
+                constexpr std::size_t kShown = 5;
+                ++summary_.numUnusable;
+                if (summary_.problems.size() < kShown)
+                {
+                    summary_.problems.push_back(problem);
+                    report(problem);
+                }
+            });
+        if (item.frame)
+        {
+            summary_.add(item);
+            if (bar_)
+            {
+                bar_->update(item.source.progress, summary_.numFrames);
+            }
+        }
+        return item;
+    }
+
+    void report(const std::string& problem)
+    {
+        const std::string line = "pointplane-odometry: " + problem;
+        if (bar_)
+        {
+            bar_->message(line);
+        }
+        else
+        {
+            err_ << line << "\n";
+        }
+    }
+
+    void write(const OutputItem& item)
+    {
+        for (const auto& sink : sinks_)
+        {
+            sink->add(item);
+        }
+    }
+
+    void finish()
+    {
+        summary_.label = source_.label();
+        summary_.damage = source_.damage();
+        requireFrames();
+        for (const auto& sink : sinks_)
+        {
+            sink->close();
+            summary_.outputs.push_back(sink->description());
+        }
+    }
+
+    void requireFrames() const
+    {
+        if (summary_.numFrames > 0)
+        {
+            return;
+        }
+        if (!source_.damage().empty())
+        {
+            throw InputError(source_.damage());
+        }
+        std::string labels;
+        for (const std::string& label : source_.labelsSeen())
+        {
+            labels += (labels.empty() ? "'" : ", '") + label + "'";
+        }
+        if (labels.empty())
+        {
+            throw InputError(options_.inputs.front() + ": no CObservation3DRangeScan in it");
+        }
+        throw InputError(
+            options_.inputs.front() + ": no frames with sensor label '" + source_.label() +
+            "' in the range asked for; labels in it: " + labels);
+    }
+
+    const OdometryOptions& options_;
+    std::ostream& err_;
+    FrameSource source_;
+    Sinks sinks_;
+    Estimator estimator_;
+    std::optional<ProgressBar> bar_;
+    RunSummary summary_;
+};
+}  // namespace
+
+RunSummary runOdometry(
+    const OdometryOptions& options, const OdometryParams& params, std::ostream& err)
+{
+    return Run(options, params, err).run();
+}
+}  // namespace pointplane

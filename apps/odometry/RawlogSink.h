@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pointplane/mrpt_io/RawlogWriter.h>
+
+#include <string>
+
+#include "FrameRecord.h"
+
+namespace pointplane
+{
+/** The output rawlog.
+ *
+ * Format 2: every input observation, followed for each frame of the camera by a
+ * CObservationRobotPose with its stamp, and by a CObservationComment if it was not tracked. Format
+ * 1: a CActionCollection with the increment as CActionRobotMovement3D, and a CSensoryFrame, per
+ * frame. */
+class RawlogSink : public Sink
+{
+ public:
+    explicit RawlogSink(const OdometryOptions& options);
+
+    void add(const OutputItem& item) override;
+    void close() override;
+    [[nodiscard]] std::string description() const override;
+
+ private:
+    void addFormat1(const OutputItem& item);
+    void addFormat2(const OutputItem& item);
+
+    RawlogWriter writer_;
+    bool format1_;
+    bool onlyPoses_;
+};
+}  // namespace pointplane

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "text_sinks.h"
+
+#include <pointplane/mrpt_io/mrpt_poses.h>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cstdio>
+#include <iomanip>
+#include <sstream>
+
+namespace pointplane
+{
+TrajectorySink::TrajectorySink(const std::string& path, bool robotFrame)
+    : file_(path), robotFrame_(robotFrame)
+{
+    file_.writeLine(
+        std::string("# timestamp tx ty tz qx qy qz qw; poses of the ") +
+        (robotFrame ? "robot, x forward, y left, z up" : "camera, x right, y down, z forward") +
+        ", in its first frame");
+}
+
+void TrajectorySink::add(const OutputItem& item)
+{
+    if (!item.frame)
+    {
+        return;
+    }
+    const Eigen::Isometry3d T =
+        robotFrame_ ? fromMrpt(item.frame->motion.pose.mean) : item.frame->result.pose.mean;
+    const Eigen::Quaterniond q(T.linear());
+    char numbers[256];
+    std::snprintf(
+        numbers,
+        sizeof(numbers),
+        " %.9f %.9f %.9f %.9f %.9f %.9f %.9f",
+        T.translation().x(),
+        T.translation().y(),
+        T.translation().z(),
+        q.x(),
+        q.y(),
+        q.z(),
+        q.w());
+    file_.writeLine(stampText(item.source.observation->timestamp) + numbers);
+}
+
+std::string TrajectorySink::description() const
+{
+    return file_.path() + ": trajectory of the " + (robotFrame_ ? "robot" : "camera") +
+           ", TUM text";
+}
+
+DiagnosticsSink::DiagnosticsSink(const std::string& path) : file_(path)
+{
+    file_.writeLine(
+        "frame,stamp,status,reason,numPoints,numPlanes,numPointPairs,numPlanePairs,numPointInliers,"
+        "numReferences,iterations,observableDirections,pointChi2PerDof,planeChi2PerDof,"
+        "maxSigmaTranslation,maxSigmaRotation,msPoints,msPlanes,msMatching,msPose,msTotal");
+}
+
+void DiagnosticsSink::add(const OutputItem& item)
+{
+    if (!item.frame)
+    {
+        return;
+    }
+    const RobotMotion& motion = item.frame->motion;
+    const FrameDiagnostics& d = motion.diagnostics;
+    std::string reason = motion.reason;
+    std::replace(reason.begin(), reason.end(), '"', '\'');
+    std::ostringstream out;
+    out << item.source.frameIndex << ',' << stampText(item.source.observation->timestamp) << ','
+        << toString(motion.status) << ",\"" << reason << "\"," << d.numPoints << ',' << d.numPlanes
+        << ',' << d.numPointPairs << ',' << d.numPlanePairs << ',' << d.numPointInliers << ','
+        << d.numReferences << ',' << d.iterations << ',' << d.observableDirections;
+    out << std::setprecision(6) << ',' << d.pointChi2PerDof << ',' << d.planeChi2PerDof << ','
+        << d.maxSigmaTranslation << ',' << d.maxSigmaRotation;
+    out << std::fixed << std::setprecision(3) << ',' << d.msPoints << ',' << d.msPlanes << ','
+        << d.msMatching << ',' << d.msPose << ',' << d.msTotal;
+    file_.writeLine(out.str());
+}
+
+std::string DiagnosticsSink::description() const { return file_.path() + ": one line per frame"; }
+}  // namespace pointplane
