@@ -31,6 +31,7 @@ int runEval(const std::vector<std::string>& args, std::ostream& out, std::ostrea
     addRpeCommand(app, context);
     addAteCommand(app, context);
     addNeesCommand(app, context);
+    addCompareCommand(app, context);
 
     std::vector<std::string> reversed;
     std::transform(args.rbegin(), args.rend(), std::back_inserter(reversed), withHyphens);

@@ -22,5 +22,6 @@ struct CommandContext
 void addRpeCommand(CLI::App& app, CommandContext& context);
 void addAteCommand(CLI::App& app, CommandContext& context);
 void addNeesCommand(CLI::App& app, CommandContext& context);
+void addCompareCommand(CLI::App& app, CommandContext& context);
 /** @} */
 }  // namespace pointplane

@@ -175,13 +175,6 @@ void writeReport(const NeesReport& report, const OutputFiles& files, std::ostrea
     {
         printTable(report, out);
     }
-    if (!files.json.empty())
-    {
-        writeText(toJson(report).dump(2) + "\n", files.json, out);
-    }
-    if (!files.csv.empty())
-    {
-        writeText(toCsv(report), files.csv, out);
-    }
+    files.write(toJson(report), toCsv(report), out);
 }
 }  // namespace pointplane

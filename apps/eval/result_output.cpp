@@ -18,6 +18,19 @@ void OutputFiles::addTo(CLI::App& command)
         ->group("Output");
 }
 
+void OutputFiles::write(
+    const nlohmann::ordered_json& asJson, const std::string& asCsv, std::ostream& out) const
+{
+    if (!json.empty())
+    {
+        writeText(asJson.dump(2) + "\n", json, out);
+    }
+    if (!csv.empty())
+    {
+        writeText(asCsv, csv, out);
+    }
+}
+
 std::string format(const char* text, ...)
 {
     char out[1024];
@@ -140,14 +153,7 @@ void writeResult(
     {
         printTable(result, out);
     }
-    if (!files.json.empty())
-    {
-        writeText(toJson(result).dump(2) + "\n", files.json, out);
-    }
-    if (!files.csv.empty())
-    {
-        writeText(toCsv(result), files.csv, out);
-    }
+    files.write(toJson(result), toCsv(result), out);
 }
 
 void checkThreshold(

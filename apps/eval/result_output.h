@@ -38,6 +38,9 @@ struct OutputFiles
     std::string json, csv;
     void addTo(CLI::App& command);
     [[nodiscard]] bool replaceTable() const { return json == "-" || csv == "-"; }
+    /** Writes what was asked for; throws EnvironmentError naming a file that cannot be written. */
+    void write(
+        const nlohmann::ordered_json& asJson, const std::string& asCsv, std::ostream& out) const;
 };
 
 void printTable(const ScoredResult& result, std::ostream& out);

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/evaluation/compare.h>
+
+#include <memory>
+#include <ostream>
+
+#include "command.h"
+#include "input_options.h"
+#include "result_output.h"
+#include "rpe_options.h"
+
+namespace pointplane
+{
+namespace
+{
+constexpr double kDegrees = 180 / 3.14159265358979323846;
+
+struct CompareCommand
+{
+    std::string groundTruth;
+    std::vector<std::string> estimates;
+    RpeCommandOptions rpe;
+    BootstrapOptions bootstrap;
+    InputOptions input;
+    OutputFiles files;
+
+    void addTo(CLI::App& command);
+    void run(CommandContext& context);
+};
+
+void CompareCommand::addTo(CLI::App& command)
+{
+    command.add_option("groundtruth", groundTruth, "Ground-truth trajectory")->required();
+    command.add_option("estimates", estimates, "Estimated trajectories")
+        ->required()
+        ->expected(1, -1);
+    rpe.addTo(command);
+    command.add_option("--resamples", bootstrap.resamples, "Of the bootstrap")
+        ->capture_default_str()
+        ->check(CLI::Range(100, 1000000))
+        ->group("Protocol");
+    input.addTo(command);
+    files.addTo(command);
+}
+
+std::string behindText(const std::optional<BootstrapInterval>& behind, bool best, double unit)
+{
+    if (best)
+    {
+        return "best";
+    }
+    if (!behind)
+    {
+        return "no common pairs";
+    }
+    return format(
+        "%+.3f [%+.3f, %+.3f]%s",
+        behind->value * unit,
+        behind->lower * unit,
+        behind->upper * unit,
+        behind->excludesZero() ? "" : " ns");
+}
+
+void printTable(const Comparison& c, const std::string& protocol, std::ostream& out)
+{
+    out << "Comparison of " << c.runs.size() << " runs: " << protocol << "\n"
+        << "RPE RMSE, its distance to the best with the bootstrap's 95 % interval (ns: not "
+           "significant), ATE RMSE\n\n"
+        << format(
+               "%-32s%9s  %-27s%9s  %-27s%9s%8s%7s\n",
+               "run",
+               "mm",
+               "behind the best",
+               "deg",
+               "behind the best",
+               "ATE mm",
+               "pairs",
+               "cover");
+    for (std::size_t k = 0; k < c.runs.size(); ++k)
+    {
+        const ComparedRun& r = c.runs[k];
+        const std::string name =
+            r.name.size() <= 30 ? r.name : "..." + r.name.substr(r.name.size() - 27);
+        out << format(
+            "%-32s%9.3f%s %-27s%9.4f%s %-27s%9.3f%s%7zu%6.1f%%\n",
+            name.c_str(),
+            1000 * r.translation.value,
+            k == c.bestTranslation ? "*" : " ",
+            behindText(r.translationBehindBest, k == c.bestTranslation, 1000).c_str(),
+            kDegrees * r.rotation.value,
+            k == c.bestRotation ? "*" : " ",
+            behindText(r.rotationBehindBest, k == c.bestRotation, kDegrees).c_str(),
+            1000 * r.ate.translation.rmse,
+            k == c.bestAte ? "*" : " ",
+            r.rpe.translation.count,
+            100 * r.rpe.coverage);
+    }
+}
+
+nlohmann::ordered_json intervalJson(const BootstrapInterval& interval, double unit)
+{
+    return {
+        {"value", interval.value * unit},
+        {"lower95", interval.lower * unit},
+        {"upper95", interval.upper * unit}};
+}
+
+nlohmann::ordered_json toJson(const Comparison& c, const std::string& protocol)
+{
+    nlohmann::ordered_json json;
+    json["title"] = "Comparison";
+    json["protocol"] = protocol;
+    json["units"] = {{"translation", "m"}, {"rotation", "deg"}};
+    json["bestTranslation"] = c.runs[c.bestTranslation].name;
+    json["bestRotation"] = c.runs[c.bestRotation].name;
+    json["bestAte"] = c.runs[c.bestAte].name;
+    for (const ComparedRun& r : c.runs)
+    {
+        nlohmann::ordered_json run;
+        run["name"] = r.name;
+        run["pairs"] = r.rpe.translation.count;
+        run["coverage"] = r.rpe.coverage;
+        run["rpeTranslation"] = intervalJson(r.translation, 1);
+        run["rpeRotation"] = intervalJson(r.rotation, kDegrees);
+        run["ate"] = r.ate.translation.rmse;
+        if (r.translationBehindBest)
+        {
+            run["translationBehindBest"] = intervalJson(*r.translationBehindBest, 1);
+        }
+        if (r.rotationBehindBest)
+        {
+            run["rotationBehindBest"] = intervalJson(*r.rotationBehindBest, kDegrees);
+        }
+        json["runs"].push_back(run);
+    }
+    return json;
+}
+
+std::string toCsv(const Comparison& c)
+{
+    std::string out =
+        "run,pairs,coverage,rpe_m,rpe_lower95,rpe_upper95,rpe_deg,rpe_deg_lower95,"
+        "rpe_deg_upper95,ate_m\n";
+    for (const ComparedRun& r : c.runs)
+    {
+        out += csvField(r.name) + format(
+                                      ",%zu,%.6g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n",
+                                      r.rpe.translation.count,
+                                      r.rpe.coverage,
+                                      r.translation.value,
+                                      r.translation.lower,
+                                      r.translation.upper,
+                                      r.rotation.value * kDegrees,
+                                      r.rotation.lower * kDegrees,
+                                      r.rotation.upper * kDegrees,
+                                      r.ate.translation.rmse);
+    }
+    return out;
+}
+
+void CompareCommand::run(CommandContext& context)
+{
+    rpe.rpe.fixedDelta = true;  // the bootstrap needs pairs in time order
+    RpeOptions resolved = rpe.resolved();
+    AteOptions ate;
+    ate.offset = resolved.offset;
+    ate.scale = resolved.scale;
+    bootstrap.seed = resolved.seed;
+
+    const Trajectory truth = input.loadTruth(groundTruth, context);
+    std::vector<Trajectory> loaded;
+    for (const std::string& path : estimates)
+    {
+        loaded.push_back(input.loadEstimate(path, context));
+    }
+    const Comparison comparison = compareRuns(truth, loaded, resolved, ate, bootstrap);
+    const std::string protocol = describe(resolved, comparison.runs.front().rpe) +
+                                 format(
+                                     " (of the first), bootstrap of %zu, seed %ju",
+                                     bootstrap.resamples,
+                                     static_cast<std::uintmax_t>(bootstrap.seed));
+    if (!files.replaceTable())
+    {
+        printTable(comparison, protocol, context.out);
+    }
+    files.write(toJson(comparison, protocol), toCsv(comparison), context.out);
+}
+}  // namespace
+
+void addCompareCommand(CLI::App& app, CommandContext& context)
+{
+    CLI::App& command = *app.add_subcommand(
+        "compare", "Several runs side by side, differences with bootstrap confidence intervals");
+    const auto options = std::make_shared<CompareCommand>();
+    options->addTo(command);
+    command.callback([options, &context] { options->run(context); });
+}
+}  // namespace pointplane

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pointplane/evaluation/ate.h>
+#include <pointplane/evaluation/bootstrap.h>
+#include <pointplane/evaluation/rpe.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pointplane
+{
+/** How one run does, alone and beside the best. */
+struct ComparedRun
+{
+    std::string name;
+    RpeResult rpe;
+    AteResult ate;
+    BootstrapInterval translation;  //!< RPE RMSE [m]
+    BootstrapInterval rotation;     //!< RPE RMSE [rad]
+    /** RPE RMSE minus that of the best run, over the pairs both have; none for the best itself and
+     * for runs with fewer than two pairs in common. */
+    std::optional<BootstrapInterval> translationBehindBest, rotationBehindBest;
+    std::size_t pairsInCommon{0};  //!< with the run that is best in translation
+};
+
+struct Comparison
+{
+    std::vector<ComparedRun> runs;                                //!< in the order given
+    std::size_t bestTranslation{0}, bestRotation{0}, bestAte{0};  //!< indices of the smallest RMSE
+};
+
+/** Scores several estimates of the same ground truth. `rpe` must list its pairs (fixed delta), or
+ * std::invalid_argument is thrown. The bootstrap's blocks are as long as a pair: that far, errors
+ * share measurements. \param options its block length is ignored */
+[[nodiscard]] Comparison compareRuns(
+    const Trajectory& groundTruth,
+    const std::vector<Trajectory>& estimates,
+    const RpeOptions& rpe,
+    const AteOptions& ate,
+    BootstrapOptions options);
+}  // namespace pointplane

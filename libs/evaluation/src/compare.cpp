@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/check.h>
+#include <pointplane/evaluation/compare.h>
+
+#include <algorithm>
+#include <map>
+
+namespace pointplane
+{
+namespace
+{
+std::vector<double> errorsOf(const RpeResult& result, double RpePair::*error)
+{
+    std::vector<double> out;
+    for (const RpePair& pair : result.pairs)
+    {
+        out.push_back(pair.*error);
+    }
+    return out;
+}
+
+/** Pairs whose errors are alike because they overlap: as many as start within one of them. */
+std::size_t blockLengthOf(const RpeResult& result)
+{
+    std::vector<double> lengths;
+    for (const RpePair& pair : result.pairs)
+    {
+        lengths.push_back(static_cast<double>(pair.j - std::min(pair.i, pair.j)));
+    }
+    return std::max<std::size_t>(1, static_cast<std::size_t>(statisticsOf(lengths).median));
+}
+
+struct CommonErrors
+{
+    std::vector<double> a, b;
+};
+
+/** Errors of the pairs of stamps that both runs have, in time order. */
+CommonErrors commonErrors(
+    const Trajectory& stampsA,
+    const RpeResult& a,
+    const Trajectory& stampsB,
+    const RpeResult& b,
+    double RpePair::*error)
+{
+    std::map<std::pair<double, double>, double> byStamps;
+    for (const RpePair& pair : b.pairs)
+    {
+        byStamps[{stampsB.stamps[pair.i], stampsB.stamps[pair.j]}] = pair.*error;
+    }
+    CommonErrors out;
+    for (const RpePair& pair : a.pairs)
+    {
+        const auto found = byStamps.find({stampsA.stamps[pair.i], stampsA.stamps[pair.j]});
+        if (found != byStamps.end())
+        {
+            out.a.push_back(pair.*error);
+            out.b.push_back(found->second);
+        }
+    }
+    return out;
+}
+
+template <class Value>
+std::size_t smallest(const std::vector<ComparedRun>& runs, Value value)
+{
+    const auto best = std::min_element(
+        runs.begin(),
+        runs.end(),
+        [&](const ComparedRun& a, const ComparedRun& b) { return value(a) < value(b); });
+    return static_cast<std::size_t>(best - runs.begin());
+}
+}  // namespace
+
+Comparison compareRuns(
+    const Trajectory& groundTruth,
+    const std::vector<Trajectory>& estimates,
+    const RpeOptions& rpe,
+    const AteOptions& ate,
+    BootstrapOptions options)
+{
+    POINTPLANE_CHECK(rpe.fixedDelta, "runs are compared over pairs a fixed delta apart");
+    POINTPLANE_CHECK(!estimates.empty(), "no runs to compare");
+    Comparison out;
+    for (const Trajectory& estimate : estimates)
+    {
+        ComparedRun run;
+        run.name = estimate.name;
+        run.rpe = relativePoseError(groundTruth, estimate, rpe);
+        run.ate = absoluteTrajectoryError(groundTruth, estimate, ate);
+        options.blockLength = blockLengthOf(run.rpe);
+        run.translation = bootstrapRmse(errorsOf(run.rpe, &RpePair::translation), options);
+        run.rotation = bootstrapRmse(errorsOf(run.rpe, &RpePair::rotation), options);
+        out.runs.push_back(std::move(run));
+    }
+    out.bestTranslation = smallest(out.runs, [](const auto& r) { return r.translation.value; });
+    out.bestRotation = smallest(out.runs, [](const auto& r) { return r.rotation.value; });
+    out.bestAte = smallest(out.runs, [](const auto& r) { return r.ate.translation.rmse; });
+
+    const auto behind = [&](std::size_t k, std::size_t best, double RpePair::*error)
+    {
+        ComparedRun& run = out.runs[k];
+        const CommonErrors common =
+            commonErrors(estimates[k], run.rpe, estimates[best], out.runs[best].rpe, error);
+        run.pairsInCommon = common.a.size();
+        options.blockLength = blockLengthOf(run.rpe);
+        return k == best || common.a.size() < 2
+                   ? std::nullopt
+                   : std::optional(bootstrapRmseDifference(common.a, common.b, options));
+    };
+    for (std::size_t k = 0; k < out.runs.size(); ++k)
+    {
+        out.runs[k].rotationBehindBest = behind(k, out.bestRotation, &RpePair::rotation);
+        out.runs[k].translationBehindBest = behind(k, out.bestTranslation, &RpePair::translation);
+    }
+    return out;
+}
+}  // namespace pointplane
