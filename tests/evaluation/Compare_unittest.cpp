@@ -89,18 +89,20 @@ TEST(Compare, findsTheBestAndHowSureThatIs)
 {
     const Trajectory truth = randomTrajectory(400, 1);
     const std::vector<Trajectory> runs{
-        perturbed(truth, 0.02, 2), perturbed(truth, 0.01, 3), perturbed(truth, 0.0101, 4)};
+        perturbed(truth, 0.02, 2), perturbed(truth, 0.01, 3), perturbed(truth, 0.01, 4)};
     const Comparison c = compareRuns(truth, runs, overOneSecond(), {}, {});
-    EXPECT_EQ(c.bestTranslation, 1u);
-    EXPECT_EQ(c.bestAte, 1u);
+    const std::size_t best = c.bestTranslation;
+    const std::size_t equal = best == 1 ? 2 : 1;  // as noisy, with other noise
+    EXPECT_NE(best, 0u);
+    EXPECT_NE(c.bestAte, 0u);
     ASSERT_TRUE(c.runs[0].translationBehindBest.has_value());
     EXPECT_TRUE(c.runs[0].translationBehindBest->excludesZero());
     EXPECT_NEAR(
         c.runs[0].translationBehindBest->value,
-        c.runs[0].translation.value - c.runs[1].translation.value,
+        c.runs[0].translation.value - c.runs[best].translation.value,
         1e-12);
-    EXPECT_FALSE(c.runs[1].translationBehindBest.has_value());
-    EXPECT_FALSE(c.runs[2].translationBehindBest->excludesZero());
+    EXPECT_FALSE(c.runs[best].translationBehindBest.has_value());
+    EXPECT_FALSE(c.runs[equal].translationBehindBest->excludesZero());
     EXPECT_EQ(c.runs[0].pairsInCommon, c.runs[0].rpe.pairs.size());
 }
 
