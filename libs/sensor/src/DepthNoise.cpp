@@ -17,11 +17,20 @@ void DepthNoise::check() const
 PointGaussian backProject(
     const PinholeCamera& camera, const DepthNoise& noise, const Eigen::Vector2d& uv_px, double z)
 {
+    return backProject(camera, noise.sigmaPixelPx, noise.sigmaZ(z), uv_px, z);
+}
+
+PointGaussian backProject(
+    const PinholeCamera& camera,
+    double sigmaPixelPx,
+    double sigmaZ,
+    const Eigen::Vector2d& uv_px,
+    double z)
+{
     Eigen::Matrix2d xyOverPixel;
     const Eigen::Vector2d xy = camera.normalised(uv_px, &xyOverPixel);
     const Eigen::Vector3d ray(xy.x(), xy.y(), 1);
-    const double sigmaZ = noise.sigmaZ(z);
-    const Eigen::Matrix2d lateral = z * noise.sigmaPixelPx * xyOverPixel;
+    const Eigen::Matrix2d lateral = z * sigmaPixelPx * xyOverPixel;
     PointGaussian out;
     out.mean = z * ray;                                 // [P17 Eq. 1]
     out.cov = sigmaZ * sigmaZ * ray * ray.transpose();  // [P17 Eq. 2]

@@ -35,4 +35,12 @@ struct DepthNoise
  * \param uv_px raw pixel \param z [m], > 0 */
 [[nodiscard]] PointGaussian backProject(
     const PinholeCamera& camera, const DepthNoise& noise, const Eigen::Vector2d& uv_px, double z);
+
+/** The same for a depth whose standard deviation is known otherwise. \param sigmaZ [m] */
+[[nodiscard]] PointGaussian backProject(
+    const PinholeCamera& camera,
+    double sigmaPixelPx,
+    double sigmaZ,
+    const Eigen::Vector2d& uv_px,
+    double z);
 }  // namespace pointplane

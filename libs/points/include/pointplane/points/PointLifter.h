@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pointplane/points/PointFeature.h>
+#include <pointplane/sensor/DepthNoise.h>
+#include <pointplane/sensor/RgbdFrame.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pointplane
+{
+/** Key points that have depth. */
+struct LiftedPoints
+{
+    std::vector<PointFeature> points;
+    std::vector<int> index;  //!< of each in the list that was lifted (row of its descriptor)
+};
+
+/** Key point + depth image -> 3-D point with covariance, in the camera frame [P17 Eq. 1, 2].
+ *
+ * The ray is freed from lens distortion, and depth is read where the depth image sees that ray.
+ * Depth comes from the nearest pixel, as in the paper, or from the 3x3 pixels around it as a
+ * mixture of Gaussians (Dryanovski et al. 2013), whose sigma grows at depth edges. */
+class PointLifter
+{
+ public:
+    struct TParams
+    {
+        std::string depthModel{"mixture"};   //!< nearest | mixture
+        double maxEdgeSigmas{0};             //!< 0: keep all
+        int minValidPixels{5};               //!< of 9
+        double minDepth{0.3}, maxDepth{10};  //!< [m]
+
+        template <class V>
+        void visit(V&& v)
+        {
+            v("depthModel", depthModel, "-", "nearest (the paper), or mixture of the 3x3 pixels");
+            v("maxEdgeSigmas",
+              maxEdgeSigmas,
+              "-",
+              "drop points whose 3x3 depths spread more than this many sigma_Z; 0 = never");
+            v("minValidPixels", minValidPixels, "-", "least number of the 3x3 pixels with depth");
+            v("minDepth", minDepth, "m", "nearer readings are not used");
+            v("maxDepth", maxDepth, "m", "farther readings are not used");
+        }
+        /** \throws std::invalid_argument naming the key */
+        void check() const;
+    };
+
+    explicit PointLifter(const DepthNoise& noise) : PointLifter(TParams{}, noise) {}
+    PointLifter(const TParams& params, const DepthNoise& noise);
+
+    /** \param uv_px raw pixel \return nothing without usable depth there */
+    [[nodiscard]] std::optional<PointFeature> lift(
+        const RgbdFrame& frame, const Eigen::Vector2d& uv_px) const;
+
+    [[nodiscard]] LiftedPoints liftAll(
+        const RgbdFrame& frame, const std::vector<Eigen::Vector2d>& uv_px) const;
+
+ private:
+    TParams params_;
+    DepthNoise noise_;
+};
+}  // namespace pointplane

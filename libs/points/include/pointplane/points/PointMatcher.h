@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pointplane/core/types.h>
+
+#include <opencv2/core/mat.hpp>
+
+#include <vector>
+
+namespace pointplane
+{
+/** Indices of a point in the reference frame and the same point in the current one. */
+struct PointMatch
+{
+    int ref{0};
+    int cur{0};
+    float distance{0};  //!< of the descriptors: bits (binary) or L2 norm (float)
+};
+
+/** Which point is which [P17, section Matching]: the nearest descriptor among the current points
+ * inside a circle around the predicted position. Only points of that circle are compared, found
+ * through a grid. */
+class PointMatcher
+{
+ public:
+    struct TParams
+    {
+        double searchRadiusPx{50};  //!< around the predicted position
+        double maxRatio{0.9};       //!< nearest over second nearest distance; 1 = no test
+        bool crossCheck{true};      //!< the reference must be the nearest of the current one too
+
+        template <class V>
+        void visit(V&& v)
+        {
+            v("searchRadiusPx", searchRadiusPx, "px", "circle around the predicted position");
+            v("maxRatio",
+              maxRatio,
+              "-",
+              "of the nearest to the second nearest descriptor; 1 = any");
+            v("crossCheck", crossCheck, "-", "only pairs that are nearest to each other");
+        }
+        /** \throws std::invalid_argument naming the key */
+        void check() const;
+    };
+
+    PointMatcher() : PointMatcher(TParams{}) {}
+    explicit PointMatcher(const TParams& params);
+
+    /** \param predicted_px where the reference points should be in the current image; points with
+     * a position that is not finite are left out
+     * \param refDescriptors, curDescriptors a row a point: CV_8UC1 (Hamming) or CV_32FC1 (L2)
+     * \return at most one match per reference and per current point, sorted by reference index
+     * \throws std::invalid_argument when counts, sizes or types disagree */
+    [[nodiscard]] std::vector<PointMatch> match(
+        const std::vector<Eigen::Vector2d>& predicted_px,
+        const cv::Mat& refDescriptors,
+        const std::vector<Eigen::Vector2d>& cur_px,
+        const cv::Mat& curDescriptors) const;
+
+ private:
+    TParams params_;
+};
+}  // namespace pointplane

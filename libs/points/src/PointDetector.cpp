@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/check.h>
+#include <pointplane/points/PointDetector.h>
+
+#include <opencv2/features2d.hpp>
+#ifdef POINTPLANE_HAVE_XFEATURES2D
+#include <opencv2/xfeatures2d/nonfree.hpp>
+#endif
+
+#include <algorithm>
+#include <cmath>
+
+#include "dlib_surf.h"
+#include "fast_corners.h"
+#include "spread.h"
+
+namespace pointplane
+{
+namespace
+{
+using KeyPoints = std::vector<cv::KeyPoint>;
+
+constexpr int kOrbBorderPx = 31;  // OpenCV's ORB drops points nearer to the border
+
+/** OpenCV's SURF, or null where OpenCV was built without it. */
+cv::Ptr<cv::Feature2D> openCvSurf([[maybe_unused]] const PointDetector::TParams& params)
+{
+#ifdef POINTPLANE_HAVE_XFEATURES2D
+    try
+    {
+        // OpenCV's determinant is normalised by the area: 30 of dlib's are about 400 of its.
+        return cv::xfeatures2d::SURF::create(
+            params.surfThreshold * 400 / 30, 4, 3, false, params.upright);
+    }
+    catch (const cv::Exception&)
+    {
+        return {};  // present, but compiled without the non-free part
+    }
+#else
+    return {};
+#endif
+}
+
+/** OpenCV's extractor that detects and describes in one go, or null. */
+cv::Ptr<cv::Feature2D> makeExtractor(const PointDetector::TParams& params)
+{
+    if (params.detector == "akaze")
+    {
+        return cv::AKAZE::create(
+            cv::AKAZE::DESCRIPTOR_MLDB, 0, 3, static_cast<float>(params.akazeThreshold));
+    }
+    if (params.detector == "sift")
+    {
+        // Twice as many as kept, for an even spread.
+        return cv::SIFT::create(2 * params.maxPoints, 3, params.siftThreshold);
+    }
+    return params.detector == "surf" ? openCvSurf(params) : nullptr;
+}
+
+/** Points on non-zero pixels of the mask. */
+KeyPoints masked(const KeyPoints& points, const cv::Mat& mask)
+{
+    if (mask.empty())
+    {
+        return points;
+    }
+    KeyPoints out;
+    for (const cv::KeyPoint& point : points)
+    {
+        const int u = std::clamp(cvRound(point.pt.x), 0, mask.cols - 1);
+        const int v = std::clamp(cvRound(point.pt.y), 0, mask.rows - 1);
+        if (mask.at<uint8_t>(v, u) != 0)
+        {
+            out.push_back(point);
+        }
+    }
+    return out;
+}
+}  // namespace
+
+struct PointDetector::Impl
+{
+    TParams params;
+    cv::Ptr<cv::Feature2D> extractor;  // akaze, sift, OpenCV's surf
+    cv::Ptr<cv::ORB> orb;              // orb, and the descriptor of fast
+
+    [[nodiscard]] KeyPoints selected(
+        const KeyPoints& points, const cv::Mat& mask, cv::Size size) const
+    {
+        const KeyPoints candidates = masked(points, mask);
+        KeyPoints out;
+        for (const int i : selectSpread(candidates, size, params.gridCellPx, params.maxPoints))
+        {
+            out.push_back(candidates[static_cast<size_t>(i)]);
+        }
+        return out;
+    }
+
+    KeyPoints surf(const cv::Mat& gray, const cv::Mat& mask, cv::Mat& descriptors) const
+    {
+        const DlibSurf surf(gray);
+        KeyPoints points = selected(surf.detect(params.surfThreshold), mask, gray.size());
+        descriptors = surf.describe(points, params.upright);
+        return points;
+    }
+
+    KeyPoints fast(const cv::Mat& gray, const cv::Mat& mask, cv::Mat& descriptors) const
+    {
+        KeyPoints points = selected(
+            fastCorners(gray, params.fastThreshold, params.gridCellPx, kOrbBorderPx),
+            mask,
+            gray.size());
+        refineCorners(gray, points);
+        for (cv::KeyPoint& point : points)
+        {
+            point.angle = 0;  // upright: more distinctive while the camera rolls little
+            point.octave = 0;
+        }
+        orb->compute(gray, points, descriptors);
+        return points;
+    }
+
+    KeyPoints orbPoints(const cv::Mat& gray, const cv::Mat& mask, cv::Mat& descriptors) const
+    {
+        KeyPoints points;
+        orb->detect(gray, points);
+        points = selected(points, mask, gray.size());
+        orb->compute(gray, points, descriptors);
+        return points;
+    }
+
+    KeyPoints extract(const cv::Mat& gray, const cv::Mat& mask, cv::Mat& descriptors) const
+    {
+        KeyPoints all;
+        cv::Mat allDescriptors;
+        extractor->detectAndCompute(gray, {}, all, allDescriptors);
+        for (size_t i = 0; i < all.size(); ++i)
+        {
+            all[i].class_id = static_cast<int>(i);  // finds the descriptor after the selection
+        }
+        const KeyPoints points = selected(all, mask, gray.size());
+        descriptors.create(
+            static_cast<int>(points.size()), allDescriptors.cols, allDescriptors.type());
+        for (size_t i = 0; i < points.size(); ++i)
+        {
+            allDescriptors.row(points[i].class_id).copyTo(descriptors.row(static_cast<int>(i)));
+        }
+        return points;
+    }
+};
+
+void PointDetector::TParams::check() const
+{
+    const std::vector<std::string> known{"surf", "orb", "akaze", "sift", "fast"};
+    POINTPLANE_CHECK(
+        std::find(known.begin(), known.end(), detector) != known.end(),
+        "detector = " << detector << " is not surf, orb, akaze, sift or fast");
+    POINTPLANE_CHECK(maxPoints > 0, "maxPoints = " << maxPoints << " is not positive");
+    POINTPLANE_CHECK(gridCellPx > 0, "gridCellPx = " << gridCellPx << " is not positive");
+    POINTPLANE_CHECK(surfThreshold > 0, "surfThreshold = " << surfThreshold << " is not positive");
+    POINTPLANE_CHECK(
+        fastThreshold > 0 && fastThreshold < 255,
+        "fastThreshold = " << fastThreshold << " is not in (0, 255)");
+    POINTPLANE_CHECK(
+        akazeThreshold > 0, "akazeThreshold = " << akazeThreshold << " is not positive");
+    POINTPLANE_CHECK(siftThreshold > 0, "siftThreshold = " << siftThreshold << " is not positive");
+}
+
+PointDetector::PointDetector(const TParams& params) : impl_(std::make_unique<Impl>())
+{
+    params.check();
+    impl_->params = params;
+    impl_->extractor = makeExtractor(params);
+    // Many more than are kept, for an even spread.
+    impl_->orb = cv::ORB::create(4 * params.maxPoints);
+    impl_->orb->setFastThreshold(params.fastThreshold);
+}
+PointDetector::~PointDetector() = default;
+PointDetector::PointDetector(PointDetector&&) noexcept = default;
+PointDetector& PointDetector::operator=(PointDetector&&) noexcept = default;
+
+const PointDetector::TParams& PointDetector::params() const { return impl_->params; }
+
+DetectedPoints PointDetector::detect(const cv::Mat& gray, const cv::Mat& mask) const
+{
+    DetectedPoints out;
+    if (gray.empty())
+    {
+        return out;
+    }
+    POINTPLANE_CHECK(gray.type() == CV_8UC1, "key points need an 8-bit gray image");
+    POINTPLANE_CHECK(
+        mask.empty() || (mask.type() == CV_8UC1 && mask.size() == gray.size()),
+        "the mask is not an 8-bit image of the same size");
+
+    const std::string& detector = impl_->params.detector;
+    const KeyPoints points = impl_->extractor     ? impl_->extract(gray, mask, out.descriptors)
+                             : detector == "surf" ? impl_->surf(gray, mask, out.descriptors)
+                             : detector == "orb"  ? impl_->orbPoints(gray, mask, out.descriptors)
+                                                  : impl_->fast(gray, mask, out.descriptors);
+    out.uv_px.reserve(points.size());
+    out.responses.reserve(points.size());
+    for (const cv::KeyPoint& point : points)
+    {
+        out.uv_px.emplace_back(point.pt.x, point.pt.y);
+        out.responses.push_back(point.response);
+    }
+    return out;
+}
+}  // namespace pointplane

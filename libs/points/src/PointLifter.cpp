@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/check.h>
+#include <pointplane/points/PointLifter.h>
+
+#include <opencv2/core.hpp>
+
+#include <cmath>
+
+namespace pointplane
+{
+namespace
+{
+/** Depth with its standard deviation [m]; z = 0 without a usable reading. */
+struct DepthReading
+{
+    double z{0}, sigma{0};
+    int numValid{0};
+};
+
+/** Mixture of the Gaussians of the 3x3 readings around a pixel, weights 4 / 2 / 1; the window is
+ * cut off at the border of the image. */
+DepthReading mixture(
+    const cv::Mat& depth, int u, int v, const PointLifter::TParams& params, const DepthNoise& noise)
+{
+    double sumW = 0, sumZ = 0, sumZZ = 0;
+    DepthReading out;
+    for (int dv = -1; dv <= 1; ++dv)
+    {
+        for (int du = -1; du <= 1; ++du)
+        {
+            if (u + du < 0 || v + dv < 0 || u + du >= depth.cols || v + dv >= depth.rows)
+            {
+                continue;
+            }
+            const auto z = static_cast<double>(depth.at<float>(v + dv, u + du));
+            if (!(z >= params.minDepth && z <= params.maxDepth))  // false for NaN
+            {
+                continue;
+            }
+            const double w = (du == 0 ? 2 : 1) * (dv == 0 ? 2 : 1);
+            const double sigma = noise.sigmaZ(z);
+            sumW += w;
+            sumZ += w * z;
+            sumZZ += w * (sigma * sigma + z * z);
+            ++out.numValid;
+        }
+    }
+    if (out.numValid > 0)
+    {
+        out.z = sumZ / sumW;
+        out.sigma = std::sqrt(sumZZ / sumW - out.z * out.z);
+    }
+    return out;
+}
+}  // namespace
+
+void PointLifter::TParams::check() const
+{
+    POINTPLANE_CHECK(
+        depthModel == "nearest" || depthModel == "mixture",
+        "depthModel = " << depthModel << " is not nearest or mixture");
+    POINTPLANE_CHECK(maxEdgeSigmas >= 0, "maxEdgeSigmas = " << maxEdgeSigmas << " is negative");
+    POINTPLANE_CHECK(
+        minValidPixels >= 1 && minValidPixels <= 9,
+        "minValidPixels = " << minValidPixels << " is not in [1, 9]");
+    POINTPLANE_CHECK(minDepth > 0, "minDepth = " << minDepth << " is not positive");
+    POINTPLANE_CHECK(
+        maxDepth > minDepth, "maxDepth = " << maxDepth << " is not above minDepth = " << minDepth);
+}
+
+PointLifter::PointLifter(const TParams& params, const DepthNoise& noise)
+    : params_(params), noise_(noise)
+{
+    params.check();
+    noise.check();
+}
+
+std::optional<PointFeature> PointLifter::lift(
+    const RgbdFrame& frame, const Eigen::Vector2d& uv_px) const
+{
+    const Eigen::Vector2d onDepth = frame.camera.depthPixel(uv_px);
+    if (!(onDepth.x() > -0.5 && onDepth.x() < frame.depth.cols - 0.5 && onDepth.y() > -0.5 &&
+          onDepth.y() < frame.depth.rows - 0.5))
+    {
+        return {};
+    }
+    const auto u = static_cast<int>(std::lround(onDepth.x()));
+    const auto v = static_cast<int>(std::lround(onDepth.y()));
+    DepthReading reading = mixture(frame.depth, u, v, params_, noise_);
+    const bool isEdge = params_.maxEdgeSigmas > 0 &&
+                        reading.sigma > params_.maxEdgeSigmas * noise_.sigmaZ(reading.z);
+    if (reading.numValid < params_.minValidPixels || isEdge)
+    {
+        return {};
+    }
+    if (params_.depthModel == "nearest")
+    {
+        reading.z = static_cast<double>(frame.depth.at<float>(v, u));
+        reading.sigma = noise_.sigmaZ(reading.z);
+        if (!(reading.z >= params_.minDepth && reading.z <= params_.maxDepth))
+        {
+            return {};
+        }
+    }
+    return PointFeature{
+        uv_px, backProject(frame.camera, noise_.sigmaPixelPx, reading.sigma, uv_px, reading.z)};
+}
+
+LiftedPoints PointLifter::liftAll(
+    const RgbdFrame& frame, const std::vector<Eigen::Vector2d>& uv_px) const
+{
+    LiftedPoints out;
+    out.points.reserve(uv_px.size());
+    out.index.reserve(uv_px.size());
+    for (size_t i = 0; i < uv_px.size(); ++i)
+    {
+        if (const auto point = lift(frame, uv_px[i]))
+        {
+            out.points.push_back(*point);
+            out.index.push_back(static_cast<int>(i));
+        }
+    }
+    return out;
+}
+}  // namespace pointplane

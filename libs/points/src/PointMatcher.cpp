@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/check.h>
+#include <pointplane/points/PointMatcher.h>
+
+#include <opencv2/core.hpp>
+#include <opencv2/core/hal/hal.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pointplane
+{
+namespace
+{
+using Positions = std::vector<Eigen::Vector2d>;
+
+/** Points sorted into square cells over their bounding box. */
+class PointGrid
+{
+ public:
+    PointGrid(const Positions& points, double cellPx) : cellPx_(cellPx)
+    {
+        Eigen::Vector2d low = points[0], high = points[0];
+        for (const Eigen::Vector2d& p : points)
+        {
+            low = low.cwiseMin(p);
+            high = high.cwiseMax(p);
+        }
+        low_ = low;
+        cols_ = index(high.x() - low.x()) + 1;
+        rows_ = index(high.y() - low.y()) + 1;
+        begin_.assign(static_cast<size_t>(cols_ * rows_ + 1), 0);
+        for (const Eigen::Vector2d& p : points)
+        {
+            ++begin_[cell(p) + 1];
+        }
+        for (size_t i = 1; i < begin_.size(); ++i)
+        {
+            begin_[i] += begin_[i - 1];
+        }
+        points_.resize(points.size());
+        std::vector<int> next(begin_.begin(), begin_.end() - 1);
+        for (size_t i = 0; i < points.size(); ++i)
+        {
+            points_[static_cast<size_t>(next[cell(points[i])]++)] = static_cast<int>(i);
+        }
+    }
+
+    /** Calls f(index) for all points in the cells that touch the square of half side cellPx. */
+    template <class F>
+    void around(const Eigen::Vector2d& p, const F& f) const
+    {
+        const Eigen::Vector2d from = p - low_;
+        if (!(std::abs(from.x()) < 1e6 && std::abs(from.y()) < 1e6))
+        {
+            return;
+        }
+        const int col = index(from.x()), row = index(from.y());
+        for (int r = std::max(0, row - 1); r <= std::min(rows_ - 1, row + 1); ++r)
+        {
+            for (int c = std::max(0, col - 1); c <= std::min(cols_ - 1, col + 1); ++c)
+            {
+                const auto cell = static_cast<size_t>(r * cols_ + c);
+                for (int i = begin_[cell]; i < begin_[cell + 1]; ++i)
+                {
+                    f(points_[static_cast<size_t>(i)]);
+                }
+            }
+        }
+    }
+
+ private:
+    [[nodiscard]] int index(double offset) const
+    {
+        return static_cast<int>(std::floor(offset / cellPx_));
+    }
+    [[nodiscard]] size_t cell(const Eigen::Vector2d& p) const
+    {
+        return static_cast<size_t>(index(p.y() - low_.y()) * cols_ + index(p.x() - low_.x()));
+    }
+
+    double cellPx_;
+    Eigen::Vector2d low_;
+    int cols_{0}, rows_{0};
+    std::vector<int> begin_, points_;
+};
+
+/** Squared L2 distance; four lanes, so that it is vectorised without reordering sums. */
+float squaredL2(const float* a, const float* b, int size)
+{
+    float sum[4] = {};
+    int i = 0;
+    for (; i + 4 <= size; i += 4)
+    {
+        for (int k = 0; k < 4; ++k)
+        {
+            const float d = a[i + k] - b[i + k];
+            sum[k] += d * d;
+        }
+    }
+    for (; i < size; ++i)
+    {
+        sum[0] += (a[i] - b[i]) * (a[i] - b[i]);
+    }
+    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+}
+
+float descriptorDistance(const cv::Mat& a, int rowA, const cv::Mat& b, int rowB)
+{
+    if (a.type() == CV_8UC1)
+    {
+        return static_cast<float>(
+            cv::hal::normHamming(a.ptr<uint8_t>(rowA), b.ptr<uint8_t>(rowB), a.cols));
+    }
+    return std::sqrt(squaredL2(a.ptr<float>(rowA), b.ptr<float>(rowB), a.cols));
+}
+
+void checkInput(const Positions& points, const cv::Mat& descriptors, const char* name)
+{
+    POINTPLANE_CHECK(
+        static_cast<int>(points.size()) == descriptors.rows,
+        name << ": " << points.size() << " points but " << descriptors.rows << " descriptors");
+}
+}  // namespace
+
+void PointMatcher::TParams::check() const
+{
+    POINTPLANE_CHECK(
+        searchRadiusPx > 0 && searchRadiusPx < 1e5,
+        "searchRadiusPx = " << searchRadiusPx << " is not in (0, 100000)");
+    POINTPLANE_CHECK(
+        maxRatio > 0 && maxRatio <= 1, "maxRatio = " << maxRatio << " is not in (0, 1]");
+}
+
+PointMatcher::PointMatcher(const TParams& params) : params_(params) { params.check(); }
+
+std::vector<PointMatch> PointMatcher::match(
+    const Positions& predicted_px,
+    const cv::Mat& refDescriptors,
+    const Positions& cur_px,
+    const cv::Mat& curDescriptors) const
+{
+    checkInput(predicted_px, refDescriptors, "reference");
+    checkInput(cur_px, curDescriptors, "current");
+    if (predicted_px.empty() || cur_px.empty())
+    {
+        return {};
+    }
+    POINTPLANE_CHECK(
+        refDescriptors.type() == curDescriptors.type() &&
+            refDescriptors.cols == curDescriptors.cols &&
+            (refDescriptors.type() == CV_8UC1 || refDescriptors.type() == CV_32FC1),
+        "descriptors of the two frames are of different or unknown types");
+
+    constexpr float kNone = std::numeric_limits<float>::max();
+    const double radius = params_.searchRadiusPx;
+    const PointGrid grid(cur_px, radius);
+    std::vector<PointMatch> best;                           // per reference point
+    std::vector<float> nearestOfCur(cur_px.size(), kNone);  // over all reference points
+    std::vector<int> refOfCur(cur_px.size(), -1);
+    for (int ref = 0; ref < refDescriptors.rows; ++ref)
+    {
+        const Eigen::Vector2d& centre = predicted_px[static_cast<size_t>(ref)];
+        PointMatch nearest{ref, -1, kNone};
+        float second = kNone;
+        grid.around(
+            centre,
+            [&](int cur)
+            {
+                const auto c = static_cast<size_t>(cur);
+                if ((cur_px[c] - centre).squaredNorm() > radius * radius)
+                {
+                    return;
+                }
+                const float distance = descriptorDistance(refDescriptors, ref, curDescriptors, cur);
+                if (distance < nearest.distance)
+                {
+                    second = nearest.distance;
+                    nearest.cur = cur;
+                    nearest.distance = distance;
+                }
+                else
+                {
+                    second = std::min(second, distance);
+                }
+                if (distance < nearestOfCur[c])
+                {
+                    nearestOfCur[c] = distance;
+                    refOfCur[c] = ref;
+                }
+            });
+        const bool isDistinct =
+            second == kNone || params_.maxRatio == 1 ||
+            static_cast<double>(nearest.distance) < params_.maxRatio * static_cast<double>(second);
+        if (nearest.cur >= 0 && isDistinct)
+        {
+            best.push_back(nearest);
+        }
+    }
+    if (!params_.crossCheck)
+    {
+        // Of several claims on a current point the nearest holds.
+        std::fill(nearestOfCur.begin(), nearestOfCur.end(), kNone);
+        for (const PointMatch& m : best)
+        {
+            const auto c = static_cast<size_t>(m.cur);
+            if (m.distance < nearestOfCur[c])
+            {
+                nearestOfCur[c] = m.distance;
+                refOfCur[c] = m.ref;
+            }
+        }
+    }
+    const auto isBeaten = [&](const PointMatch& m)
+    { return refOfCur[static_cast<size_t>(m.cur)] != m.ref; };
+    best.erase(std::remove_if(best.begin(), best.end(), isBeaten), best.end());
+    return best;
+}
+}  // namespace pointplane
