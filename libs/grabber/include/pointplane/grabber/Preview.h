@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pointplane/grabber/LatestPair.h>
+
+#include <atomic>
+#include <string>
+#include <thread>
+
+namespace pointplane
+{
+/** Colour, and depth in false colours (red near, blue far, black none), side by side; CV_8UC3.
+ * \param maxDepth [m] shown as the deepest blue */
+[[nodiscard]] cv::Mat previewPicture(const ImagePair& pair, double maxDepth = 6.0);
+
+/** Keeps a PNG file of the latest pair fresh, at most once a second, in a thread of low priority.
+ * Viewers never see half a picture. */
+class Preview
+{
+ public:
+    /** \throws EnvironmentError if the file cannot be written */
+    explicit Preview(std::string path);
+    ~Preview();
+    Preview(const Preview&) = delete;
+    Preview& operator=(const Preview&) = delete;
+
+    void show(const ImagePair& pair) { latest_.put(pair); }
+
+ private:
+    void work();
+
+    std::string path_;
+    LatestPair latest_;
+    std::atomic<bool> stop_{false};
+    std::thread thread_;
+};
+}  // namespace pointplane

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "drivers.h"
+
+#include <pointplane/grabber/Capture.h>
+
+namespace pointplane
+{
+namespace
+{
+constexpr std::chrono::milliseconds kPoll{100};  // how late a request to stop is noticed
+
+double maxSkewOf(const CaptureOptions& options, const Camera& camera)
+{
+    return options.maxSkew > 0.0 ? options.maxSkew : 0.5 / camera.facts().mode.fps;
+}
+}  // namespace
+
+Capture::Capture(Camera& camera, const CaptureOptions& options, Consumer consumer)
+    : camera_(camera),
+      options_(options),
+      consumer_(std::move(consumer)),
+      pairer_(maxSkewOf(options, camera), !camera.facts().hasColour),
+      warm_(camera.facts().isFile)
+{
+    stats_.started = warm_;
+}
+
+CaptureEnd Capture::run(const std::atomic<bool>& stop)
+{
+    CaptureEnd end = CaptureEnd::Error;
+    try
+    {
+        camera_.start();
+        end = capture(stop);
+    }
+    catch (const std::exception& e)
+    {
+        problem_ = oneLine(e);
+    }
+    camera_.stop();
+    pairer_.finish();
+    const std::lock_guard<std::mutex> lock(mutex_);
+    stats_.pairing = pairer_.counts();
+    return end;
+}
+
+CaptureEnd Capture::capture(const std::atomic<bool>& stop)
+{
+    lastDepth_ = lastColour_ = warmUpStart_ = hostTime();
+    while (!stop)
+    {
+        CameraImage image;
+        switch (camera_.wait(image, kPoll))
+        {
+            case Delivery::Disconnected: return CaptureEnd::Unplugged;
+            case Delivery::EndOfFile: return CaptureEnd::EndOfFile;
+            case Delivery::Timeout: break;
+            case Delivery::Image:
+                (image.stream == StreamKind::Depth ? lastDepth_ : lastColour_) = image.arrival;
+                if (!warm_)
+                {
+                    warmUp(image);
+                }
+                else if (const auto end = record(std::move(image)))
+                {
+                    return *end;
+                }
+                break;
+        }
+        if (isStalled(hostTime()))
+        {
+            return CaptureEnd::Stalled;
+        }
+    }
+    return CaptureEnd::Stopped;
+}
+
+bool Capture::isStampStream(const CameraImage& image) const
+{
+    return (image.stream == StreamKind::Colour) == camera_.facts().hasColour;
+}
+
+void Capture::warmUp(const CameraImage& image)
+{
+    if (isStampStream(image))
+    {
+        readings_.push_back({image.deviceTime, image.arrival});
+    }
+    // Both streams must run, and the clock must have been seen for a while.
+    const bool bothRun = lastDepth_ > warmUpStart_ &&
+                         (!camera_.facts().hasColour || lastColour_ > warmUpStart_);
+    const bool longEnough =
+        !readings_.empty() &&
+        readings_.back().arrival - readings_.front().arrival >= options_.warmUp;
+    if (bothRun && longEnough)
+    {
+        finishWarmUp();
+    }
+}
+
+void Capture::finishWarmUp()
+{
+    const auto scale = deviceTimeScale(readings_);
+    hostStamps_ = options_.warmUp > 0.0 && !scale;
+    timeScale_ = scale.value_or(1.0);
+    if (hostStamps_)
+    {
+        note("the camera's time stamps follow no clock: times of arrival are used instead");
+    }
+    else if (timeScale_ != 1.0)
+    {
+        note("the driver's time stamps are in a wrong unit: scaled by " +
+             std::to_string(timeScale_));
+    }
+    for (const auto& reading : readings_)
+    {
+        clock_.observe({reading.device * timeScale_, reading.arrival});
+    }
+    clock_.lock();
+    if (options_.lockExposure && !camera_.lockExposure())
+    {
+        note("the camera cannot lock its exposure");
+    }
+    if (options_.lockWhiteBalance && !camera_.lockWhiteBalance())
+    {
+        note("the camera cannot lock its white balance");
+    }
+    warm_ = true;
+    const std::lock_guard<std::mutex> lock(mutex_);
+    stats_.started = true;
+}
+
+double Capture::stampOf(const ImagePair& pair) const
+{
+    const auto& facts = camera_.facts();
+    const double deviceTime =
+        facts.hasColour ? pair.colour.deviceTime : pair.depth.deviceTime;
+    if (facts.isFile)
+    {
+        return facts.startTime + deviceTime;
+    }
+    return hostStamps_ ? deviceTime : clock_.utc(deviceTime);
+}
+
+std::optional<CaptureEnd> Capture::record(CameraImage image)
+{
+    image.deviceTime = hostStamps_ ? image.arrival : image.deviceTime * timeScale_;
+    if (!hostStamps_ && !camera_.facts().isFile && isStampStream(image))
+    {
+        clock_.observe({image.deviceTime, image.arrival});
+    }
+    for (auto& pair : pairer_.add(image))
+    {
+        pair.stamp = stampOf(pair);
+        if (numPairs_ == 0)
+        {
+            firstStamp_ = rateStart_ = pair.stamp;
+        }
+        if (options_.duration > 0.0 && pair.stamp - firstStamp_ >= options_.duration)
+        {
+            return CaptureEnd::Stopped;
+        }
+        if (!consumer_(pair))
+        {
+            return CaptureEnd::SinkFull;
+        }
+        publish(pair.stamp);
+        if (++numPairs_ == options_.maxFrames)
+        {
+            return CaptureEnd::Stopped;
+        }
+    }
+    return std::nullopt;
+}
+
+void Capture::publish(double stamp)
+{
+    const std::lock_guard<std::mutex> lock(mutex_);
+    stats_.pairing = pairer_.counts();
+    stats_.recordedTime = stamp - firstStamp_;
+    stats_.clockJumps = clock_.numJumps();
+    stats_.clockDrift = clock_.drift();
+    ++ratePairs_;
+    if (stamp - rateStart_ >= 1.0)
+    {
+        stats_.frameRate = static_cast<double>(ratePairs_ - 1) / (stamp - rateStart_);
+        rateStart_ = stamp;
+        ratePairs_ = 1;
+    }
+}
+
+bool Capture::isStalled(double now)
+{
+    const auto& facts = camera_.facts();
+    const auto silent = [&](double last, const char* stream) {
+        if (now - last < options_.stallTimeout)
+        {
+            return false;
+        }
+        problem_ = "camera " + facts.device.uri + " sends no " + stream + " images";
+        return true;
+    };
+    if (silent(lastDepth_, "depth"))
+    {
+        const bool both = facts.hasColour && now - lastColour_ >= options_.stallTimeout;
+        problem_ = both ? "camera " + facts.device.uri + " sends no images" : problem_;
+        return true;
+    }
+    return facts.hasColour && silent(lastColour_, "colour");
+}
+
+CaptureStats Capture::stats() const
+{
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return stats_;
+}
+
+std::vector<std::string> Capture::notes() const
+{
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return notes_;
+}
+
+void Capture::note(const std::string& text)
+{
+    const std::lock_guard<std::mutex> lock(mutex_);
+    notes_.push_back(text);
+}
+}  // namespace pointplane

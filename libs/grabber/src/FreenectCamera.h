@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "KinectTimestamp.h"
+
+#include <pointplane/grabber/Camera.h>
+
+#include <libfreenect.h>
+
+#include <deque>
+#include <memory>
+#include <vector>
+
+namespace pointplane
+{
+/** libfreenect's handle on the USB bus; keeps the last error that it logged. */
+class FreenectContext
+{
+ public:
+    FreenectContext();
+    ~FreenectContext();
+    FreenectContext(const FreenectContext&) = delete;
+    FreenectContext& operator=(const FreenectContext&) = delete;
+
+    [[nodiscard]] freenect_context* get() const { return context_; }  //!< nullptr: no USB
+    [[nodiscard]] static std::string lastError();
+
+ private:
+    freenect_context* context_{nullptr};
+};
+
+constexpr const char* kFreenectUriPrefix = "freenect://";
+
+/** A Kinect for Xbox 360. Its two cameras stamp their frames with one 60 MHz clock; there is no
+ * frame index, so lost frames are recognised by the time between stamps. */
+class FreenectCamera : public Camera
+{
+ public:
+    FreenectCamera(
+        std::shared_ptr<FreenectContext> context,
+        const DeviceInfo& device,
+        const CameraSettings& settings);
+    ~FreenectCamera() override;
+    FreenectCamera(const FreenectCamera&) = delete;
+    FreenectCamera& operator=(const FreenectCamera&) = delete;
+
+    [[nodiscard]] const CameraFacts& facts() const override { return facts_; }
+    void start() override;
+    [[nodiscard]] Delivery wait(CameraImage& image, std::chrono::milliseconds timeout) override;
+    bool lockExposure() override;
+    bool lockWhiteBalance() override;
+    void recordTo(const std::string& oniPath) override;
+    void stop() override;
+
+ private:
+    static void onDepth(freenect_device* device, void* data, std::uint32_t stamp);
+    static void onVideo(freenect_device* device, void* data, std::uint32_t stamp);
+    void chooseDepthMode(const CameraSettings& settings);
+    void chooseVideoMode(const CameraSettings& settings);
+    void keep(StreamKind stream, cv::Mat pixels, std::uint32_t stamp);
+    bool lockFlag(freenect_flag flag);
+
+    std::shared_ptr<FreenectContext> context_;
+    freenect_device* device_{nullptr};
+    CameraFacts facts_;
+    freenect_frame_mode depthMode_{}, videoMode_{};
+    std::vector<std::uint16_t> rawToMm_;  // empty when the library converts
+    KinectTimestamp timestamp_;
+    KinectFrameIndex depthIndex_, colourIndex_;
+    std::deque<CameraImage> received_;
+    bool streaming_{false};
+};
+}  // namespace pointplane

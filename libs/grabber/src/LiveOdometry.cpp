@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "lowPriority.h"
+
+#include <pointplane/grabber/LiveOdometry.h>
+#include <pointplane/mrpt_io/errors.h>
+
+#include <mrpt/obs/CObservationRobotPose.h>
+
+#include <cstdio>
+#include <ostream>
+
+namespace pointplane
+{
+namespace
+{
+constexpr int kPoseSize = 6;
+
+std::string lineOf(const RobotMotion& motion, double stamp)
+{
+    std::string line = mrpt::format("%.6f %s", stamp, toString(motion.status));
+    for (int i = 0; i < kPoseSize; ++i)
+    {
+        line += mrpt::format(" %.6f", motion.pose.mean[static_cast<unsigned>(i)]);
+    }
+    for (int row = 0; row < kPoseSize; ++row)
+    {
+        for (int col = row; col < kPoseSize; ++col)
+        {
+            line += mrpt::format(" %.6e", motion.pose.cov(row, col));
+        }
+    }
+    return line;
+}
+}  // namespace
+
+LiveOdometry::LiveOdometry(
+    const LiveOptions& options, const ObservationBuilder& builder, std::ostream& out)
+    : options_(options), builder_(builder), out_(out)
+{
+    if (!options_.config.empty())
+    {
+        odometry_.loadFromConfigFileName(options_.config);
+    }
+    odometry_.setMinLoggingLevel(mrpt::system::LVL_ERROR);  // the lines say what was not tracked
+    if (!options_.poseRawlog.empty())
+    {
+        rawlog_ = std::make_unique<RawlogWriter>(options_.poseRawlog);
+    }
+    out_ << "# stamp status x y z yaw pitch roll [m rad] covariance: 21 upper-triangular elements\n";
+    thread_ = std::thread([this] { work(); });
+}
+
+LiveOdometry::~LiveOdometry()
+{
+    latest_.close();
+    if (thread_.joinable())
+    {
+        thread_.join();
+    }
+}
+
+void LiveOdometry::add(const ImagePair& pair)
+{
+    options_.waits ? latest_.putWhenTaken(pair) : latest_.put(pair);
+}
+
+void LiveOdometry::work()
+{
+    if (!options_.waits)
+    {
+        lowerThreadPriority();
+    }
+    while (const auto pair = latest_.take())
+    {
+        process(*pair);
+    }
+}
+
+void LiveOdometry::process(const ImagePair& pair)
+{
+    mrpt::obs::CObservation3DRangeScan observation;
+    builder_.fill(pair, observation);
+    const RobotMotion motion = odometry_.process(observation);
+    out_ << lineOf(motion, pair.stamp) << std::endl;
+    write(motion, observation.timestamp);
+
+    const bool tracked = motion.status == TrackingStatus::First ||
+                         motion.status == TrackingStatus::Tracked;
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ++stats_.processed;
+    stats_.notTracked += tracked ? 0 : 1;
+}
+
+void LiveOdometry::write(const RobotMotion& motion, mrpt::Clock::time_point stamp)
+{
+    if (!rawlog_)
+    {
+        return;
+    }
+    mrpt::obs::CObservationRobotPose pose;
+    pose.sensorLabel = builder_.calibration().sensorLabel + "_pose";
+    pose.timestamp = stamp;
+    pose.pose = motion.pose;
+    try
+    {
+        rawlog_->write(pose);
+    }
+    catch (const EnvironmentError& e)
+    {
+        // The recording goes on: it has priority.
+        rawlog_.reset();
+        const std::lock_guard<std::mutex> lock(mutex_);
+        stats_.problem = e.what();
+    }
+}
+
+void LiveOdometry::finish()
+{
+    latest_.close();
+    thread_.join();
+    if (rawlog_)
+    {
+        rawlog_->close();
+    }
+}
+
+LiveStats LiveOdometry::stats() const
+{
+    const std::lock_guard<std::mutex> lock(mutex_);
+    LiveStats stats = stats_;
+    stats.skipped = latest_.numReplaced();
+    return stats;
+}
+}  // namespace pointplane

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pointplane/grabber/Camera.h>
+
+#include <OpenNI.h>
+
+#include <atomic>
+#include <string>
+
+namespace pointplane
+{
+[[nodiscard]] VideoMode videoModeOf(const openni::VideoMode& mode);
+
+/** The serial number, or empty. */
+[[nodiscard]] std::string serialOf(openni::Device& device);
+
+/** One line of OpenNI2's last error. */
+[[nodiscard]] std::string openNi2Error();
+
+/** A device or an .oni file through OpenNI2's C++ interface.
+ *
+ * Frames are always awaited with a time limit: at the end of a file, and after a device is unplugged,
+ * a blocking readFrame() never returns. */
+class OpenNi2Camera : public Camera
+{
+ public:
+    OpenNi2Camera(const DeviceInfo& device, const CameraSettings& settings);
+    ~OpenNi2Camera() override;
+    OpenNi2Camera(const OpenNi2Camera&) = delete;
+    OpenNi2Camera& operator=(const OpenNi2Camera&) = delete;
+
+    [[nodiscard]] const CameraFacts& facts() const override { return facts_; }
+    void start() override;
+    [[nodiscard]] Delivery wait(CameraImage& image, std::chrono::milliseconds timeout) override;
+    bool lockExposure() override;
+    bool lockWhiteBalance() override;
+    void recordTo(const std::string& oniPath) override;
+    void stop() override;
+
+ private:
+    class Events;
+
+    void openDevice();
+    void openStreams();
+    void createStream(openni::VideoStream& stream, openni::SensorType type, const char* what);
+    void chooseMode(openni::VideoStream& stream, const char* what);
+    void setUpFile();
+    void setUpDevice();
+    void chooseRegistration();
+    void describeOptics();
+    [[nodiscard]] CameraImage copy(const openni::VideoFrameRef& frame, StreamKind stream) const;
+
+    CameraSettings settings_;
+    CameraFacts facts_;
+    openni::Device device_;
+    openni::VideoStream depth_, colour_;
+    openni::Recorder recorder_;
+    std::unique_ptr<Events> events_;
+    bool streaming_{false};
+};
+}  // namespace pointplane

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/check.h>
+#include <pointplane/grabber/DurableFile.h>
+#include <pointplane/grabber/RecordingWriter.h>
+#include <pointplane/mrpt_io/errors.h>
+
+#include <filesystem>
+
+namespace pointplane
+{
+namespace
+{
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+// Encoded frames that may wait for the writer, besides those in the queue.
+constexpr std::size_t kMaxEncoded = 16;
+}  // namespace
+
+std::string segmentPath(const std::string& path, int segment)
+{
+    std::string number = std::to_string(segment + 1);
+    number.insert(0, number.size() < 3 ? 3 - number.size() : 0, '0');
+    const fs::path p(path);
+    return (p.parent_path() / (p.stem().string() + "_" + number + p.extension().string())).string();
+}
+
+RecordingWriter::RecordingWriter(RecordingOptions options, const ObservationBuilder& builder)
+    : options_(std::move(options)),
+      builder_(builder),
+      queue_(options_.queueFrames),
+      encoded_(kMaxEncoded)
+{
+    POINTPLANE_CHECK(options_.numThreads > 0, "numThreads is " << options_.numThreads);
+    POINTPLANE_CHECK(options_.queueFrames > 0, "queueFrames is " << options_.queueFrames);
+    openSegment(0);
+    workersRunning_ = options_.numThreads;
+    for (int i = 0; i < options_.numThreads; ++i)
+    {
+        threads_.emplace_back([this] {
+            guarded(&RecordingWriter::compressLoop);
+            if (--workersRunning_ == 0)
+            {
+                encoded_.close();
+            }
+        });
+    }
+    threads_.emplace_back([this] { guarded(&RecordingWriter::writeLoop); });
+}
+
+RecordingWriter::~RecordingWriter()
+{
+    try
+    {
+        finish();
+    }
+    catch (const std::exception&)
+    {
+        // finish() is where errors are reported.
+    }
+}
+
+void RecordingWriter::guarded(void (RecordingWriter::*work)())
+{
+    try
+    {
+        (this->*work)();
+    }
+    catch (...)
+    {
+        {
+            const std::lock_guard<std::mutex> lock(mutex_);
+            error_ = error_ ? error_ : std::current_exception();
+        }
+        failed_ = true;
+        queue_.close();
+        encoded_.close();
+    }
+}
+
+std::string RecordingWriter::rawlogPath(int segment) const
+{
+    return options_.splitAfter > 0.0 ? segmentPath(options_.path, segment) : options_.path;
+}
+
+std::string RecordingWriter::imagesFolder(int segment) const
+{
+    const fs::path p(rawlogPath(segment));
+    return (p.parent_path() / (p.stem().string() + "_Images")).string();
+}
+
+RecordingWriter::Job RecordingWriter::makeJob(const ImagePair& pair) const
+{
+    Job job;
+    job.number = numJobs_;
+    job.pair = pair;
+    if (options_.splitAfter > 0.0 && numJobs_ > 0)
+    {
+        job.segment = static_cast<int>((pair.stamp - firstStamp_) / options_.splitAfter);
+    }
+    return job;
+}
+
+void RecordingWriter::accepted(const Job& job)
+{
+    if (numJobs_++ == 0)
+    {
+        firstStamp_ = job.pair.stamp;
+    }
+}
+
+bool RecordingWriter::tryPush(const ImagePair& pair)
+{
+    const Job job = makeJob(pair);
+    const bool taken = queue_.tryPush(job);
+    if (taken)
+    {
+        accepted(job);
+    }
+    return taken;
+}
+
+bool RecordingWriter::push(const ImagePair& pair)
+{
+    const Job job = makeJob(pair);
+    const bool taken = queue_.push(job);
+    if (taken)
+    {
+        accepted(job);
+    }
+    return taken;
+}
+
+void RecordingWriter::openSegment(int segment)
+{
+    const auto path = rawlogPath(segment);
+    file_ = std::make_unique<DurableFile>(path);
+    segment_ = segment;
+    const std::lock_guard<std::mutex> lock(mutex_);
+    paths_.push_back(path);
+}
+
+void RecordingWriter::compressLoop()
+{
+    FrameEncoder encoder(options_.encoding, builder_);
+    while (auto job = queue_.pop())
+    {
+        const auto folder = imagesFolder(job->segment);
+        std::error_code error;
+        if (options_.encoding.storage == ImageStorage::External &&
+            !fs::create_directories(folder, error) && error)
+        {
+            throw EnvironmentError("cannot create '" + folder + "': " + error.message());
+        }
+        Record record;
+        record.segment = job->segment;
+        record.bytes = encoder.encode(job->pair, folder, record.externalBytes);
+        encoded_.put(job->number, std::move(record));
+    }
+}
+
+void RecordingWriter::writeLoop()
+{
+    auto nextSync = Clock::now() + options_.syncInterval;
+    while (!encoded_.isFinished())
+    {
+        auto record = encoded_.takeFor(options_.syncInterval);
+        if (record)
+        {
+            if (record->segment != segment_)
+            {
+                syncSegment();
+                file_->close();
+                openSegment(record->segment);
+            }
+            pending_.push_back(std::move(*record));
+            if (options_.encoding.storage == ImageStorage::Embedded)
+            {
+                appendPending();
+            }
+        }
+        if (Clock::now() >= nextSync)
+        {
+            syncSegment();
+            nextSync = Clock::now() + options_.syncInterval;
+        }
+    }
+    syncSegment();
+    file_->close();
+}
+
+void RecordingWriter::appendPending()
+{
+    for (const auto& record : pending_)
+    {
+        file_->append(record.bytes.data(), record.bytes.size());
+        bytesWritten_ += record.bytes.size() + record.externalBytes;
+        ++framesWritten_;
+    }
+    pending_.clear();
+}
+
+void RecordingWriter::syncSegment()
+{
+    if (options_.encoding.storage == ImageStorage::External && !pending_.empty())
+    {
+        syncFolder(imagesFolder(segment_));
+    }
+    appendPending();
+    file_->sync();
+}
+
+void RecordingWriter::finish()
+{
+    queue_.close();
+    for (auto& thread : threads_)
+    {
+        thread.join();
+    }
+    threads_.clear();
+    if (error_)
+    {
+        std::rethrow_exception(std::exchange(error_, nullptr));
+    }
+}
+
+RecordingStats RecordingWriter::stats() const
+{
+    return {framesWritten_, bytesWritten_, queue_.size()};
+}
+
+std::vector<std::string> RecordingWriter::paths() const
+{
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return paths_;
+}
+}  // namespace pointplane

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/grabber/RgbdCalibration.h>
+
+#include <mrpt/config/CConfigFile.h>
+#include <mrpt/core/bits_math.h>
+#include <mrpt/img/TStereoCamera.h>
+#include <mrpt/poses/CPose3DQuat.h>
+
+#include <cmath>
+#include <filesystem>
+
+namespace pointplane
+{
+namespace
+{
+// Of a Kinect or Xtion, when a driver does not state its field of view.
+constexpr double kTypicalFocalPerWidth = 525.0 / 640.0;
+
+/** Optical axes in CObservation3DRangeScan's depth frame (x forward, y left, z up). */
+mrpt::poses::CPose3D opticalAxes()
+{
+    return {0, 0, 0, mrpt::DEG2RAD(-90.0), 0, mrpt::DEG2RAD(-90.0)};
+}
+
+mrpt::img::TCamera pinhole(const VideoMode& mode, double focal_px)
+{
+    mrpt::img::TCamera camera;
+    camera.ncols = static_cast<std::uint32_t>(mode.width);
+    camera.nrows = static_cast<std::uint32_t>(mode.height);
+    const double f = focal_px > 0.0 ? focal_px : kTypicalFocalPerWidth * mode.width;
+    camera.setIntrinsicParamsFromValues(f, f, 0.5 * (mode.width - 1), 0.5 * (mode.height - 1));
+    return camera;
+}
+
+/** The driver has already moved depth into the colour camera's ideal pinhole. */
+void makeRegistered(RgbdCalibration& calibration)
+{
+    calibration.depth = calibration.colour;
+    calibration.depth.dist.fill(0);
+    calibration.colourWrtDepth = opticalAxes();
+}
+
+void requireKeys(
+    const mrpt::config::CConfigFile& file,
+    const std::string& path,
+    const std::string& section,
+    const std::vector<std::string>& keys)
+{
+    for (const auto& key : keys)
+    {
+        if (!file.sectionExists(section) || !file.keyExists(section, key))
+        {
+            throw InputError(path + ": section [" + section + "] has no key '" + key + "'");
+        }
+    }
+}
+
+/** Checks a camera and brings it to the resolution in use. */
+void fitToMode(
+    mrpt::img::TCamera& camera, const VideoMode& mode, const std::string& where)
+{
+    for (const double value : {camera.fx(), camera.fy(), camera.cx(), camera.cy()})
+    {
+        if (!std::isfinite(value) || value <= 0.0)
+        {
+            throw InputError(where + ": fx, fy, cx and cy must be positive numbers");
+        }
+    }
+    const auto width = static_cast<unsigned>(mode.width);
+    const auto height = static_cast<unsigned>(mode.height);
+    // The Kinect's infrared image has eight lines more than its depth image.
+    constexpr unsigned kInfraredLines = 488;
+    if (camera.ncols == width && camera.nrows == kInfraredLines && height == 480)
+    {
+        camera.nrows = height;
+    }
+    if (camera.ncols * height != camera.nrows * width)
+    {
+        throw InputError(
+            where + ": resolution " + std::to_string(camera.ncols) + "x" +
+            std::to_string(camera.nrows) + " does not fit the camera's " + toString(mode));
+    }
+    camera.scaleToResolution(width, height);
+}
+}  // namespace
+
+RgbdCalibration nominalCalibration(const CameraFacts& facts)
+{
+    RgbdCalibration calibration;
+    calibration.depth = pinhole(facts.mode, facts.depthFocal_px);
+    calibration.colour =
+        pinhole(facts.mode, facts.hasColour ? facts.colourFocal_px : facts.depthFocal_px);
+    calibration.colourWrtDepth =
+        opticalAxes() + mrpt::poses::CPose3D(facts.colourOffset, 0, 0, 0, 0, 0);
+    if (facts.registered || !facts.hasColour)
+    {
+        makeRegistered(calibration);
+    }
+    const double focal_px = facts.registered ? facts.colourFocal_px : facts.depthFocal_px;
+    calibration.source = focal_px > 0.0
+                             ? "the driver's field of view, no distortion"
+                             : "a typical Kinect (the driver states no field of view)";
+    if (!facts.registered && facts.hasColour)
+    {
+        calibration.source += ", colour camera 25 mm right of depth";
+    }
+    return calibration;
+}
+
+RgbdCalibration calibrationFromIni(
+    const std::string& path, const std::string& section, const CameraFacts& facts)
+{
+    // MRPT takes a missing file for an empty one.
+    if (!std::filesystem::is_regular_file(path))
+    {
+        throw InputError("no such calibration file: '" + path + "'");
+    }
+    const mrpt::config::CConfigFile file(path);
+    for (const char* side : {"_LEFT", "_RIGHT"})
+    {
+        requireKeys(file, path, section + side, {"resolution", "fx", "fy", "cx", "cy", "dist"});
+    }
+    requireKeys(file, path, section + "_LEFT2RIGHT_POSE", {"pose_quaternion"});
+
+    mrpt::img::TStereoCamera stereo;
+    try
+    {
+        stereo.loadFromConfigFile(section, file);
+    }
+    catch (const std::exception& e)
+    {
+        throw InputError(path + ": calibration [" + section + "_...]: " + oneLine(e));
+    }
+    fitToMode(stereo.leftCamera, facts.mode, path + ": section [" + section + "_LEFT]");
+    fitToMode(stereo.rightCamera, facts.mode, path + ": section [" + section + "_RIGHT]");
+
+    RgbdCalibration calibration;
+    calibration.depth = stereo.leftCamera;
+    calibration.colour = stereo.rightCamera;
+    calibration.colourWrtDepth = 
+        opticalAxes() + mrpt::poses::CPose3D(mrpt::poses::CPose3DQuat(stereo.rightCameraPose));
+    if (facts.registered)
+    {
+        makeRegistered(calibration);
+    }
+    const auto number = [&](const char* key) { return file.read_double(section, key, 0.0); };
+    calibration.sensorPose = mrpt::poses::CPose3D(
+        number("pose_x"),
+        number("pose_y"),
+        number("pose_z"),
+        mrpt::DEG2RAD(number("pose_yaw")),
+        mrpt::DEG2RAD(number("pose_pitch")),
+        mrpt::DEG2RAD(number("pose_roll")));
+    calibration.sensorLabel =
+        file.read_string(section, "sensorLabel", calibration.sensorLabel);
+    calibration.source = "'" + path + "', sections [" + section + "_LEFT], [" + section +
+                         "_RIGHT], [" + section + "_LEFT2RIGHT_POSE]";
+    return calibration;
+}
+}  // namespace pointplane
