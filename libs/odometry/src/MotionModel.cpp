@@ -47,7 +47,6 @@ PoseGaussian MotionModel::predict(double dt) const
 
 void MotionModel::update(const Eigen::Isometry3d& T_prev_cur, double dt)
 {
-    previousVelocity_ = velocity_;
     velocity_ = se3Log(T_prev_cur) / dt;
     ++measured_;
     coasting_ = 0;
@@ -56,19 +55,12 @@ void MotionModel::update(const Eigen::Isometry3d& T_prev_cur, double dt)
 void MotionModel::coast(double dt)
 {
     velocity_ *= std::pow(params_.decay, dt / kFramePeriod);
-    previousVelocity_ = velocity_;
     coasting_ = std::min(coasting_ + dt, 1.0);
-}
-
-Vector6d MotionModel::endVelocity() const
-{
-    return measured_ < 2 ? velocity_ : Vector6d(1.5 * velocity_ - 0.5 * previousVelocity_);
 }
 
 void MotionModel::reset()
 {
     velocity_.setZero();
-    previousVelocity_.setZero();
     measured_ = 0;
     coasting_ = 0;
 }

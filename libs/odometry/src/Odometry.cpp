@@ -1,159 +1,440 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pointplane/core/check.h>
 #include <pointplane/core/covariance.h>
 #include <pointplane/core/se3.h>
 #include <pointplane/odometry/Odometry.h>
-#include <pointplane/odometry/ShutterCorrection.h>
-#include <pointplane/pose/residuals.h>
+#include <pointplane/odometry/PairBuilder.h>
 
+#include <Eigen/Eigenvalues>
+#include <opencv2/core.hpp>
+
+#include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
-#include <deque>
+#include <future>
+#include <sstream>
 
 namespace pointplane
 {
 namespace
 {
-using Clock = std::chrono::steady_clock;
-double msSince(Clock::time_point start)
+/** First frame's covariance: strictly positive definite, yet nothing. */
+constexpr double kFirstSigma = 1e-6;
+
+/** Fewer matches than this in total cannot fix a pose [P17, section Pose estimation]. */
+constexpr int kMinMatches = 3;
+
+/** Rounds of estimation: the velocity that undoes the rolling shutter is the estimate's own. */
+constexpr int kShutterRounds = 2;
+
+class Stopwatch
 {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+ public:
+    [[nodiscard]] double ms() const
+    {
+        return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_)
+            .count();
+    }
+
+ private:
+    std::chrono::steady_clock::time_point start_{std::chrono::steady_clock::now()};
+};
+
+bool sameCamera(const PinholeCamera& a, const PinholeCamera& b)
+{
+    return a.width == b.width && a.height == b.height && a.fx == b.fx && a.fy == b.fy &&
+           a.cx == b.cx && a.cy == b.cy && a.distortion == b.distortion;
 }
 
-/** A past frame with its features. */
-struct Reference
+/** Why a frame cannot be used, or empty. */
+std::string problemOf(const RgbdFrame& frame)
 {
-    double stamp{0};
-    Eigen::Isometry3d T_world_cam{Eigen::Isometry3d::Identity()};
-    Vector6d velocity{Vector6d::Zero()};  //!< body velocity at stamp
-    PlaneSet planes;
-    int id{0};
-};
+    if (std::string problem = frame.camera.problem(); !problem.empty())
+    {
+        return problem;
+    }
+    const cv::Size size(frame.camera.width, frame.camera.height);
+    std::ostringstream out;
+    if (!std::isfinite(frame.stamp))
+    {
+        out << "the time stamp is not finite";
+    }
+    else if (frame.depth.type() != CV_32FC1 || frame.depth.size() != size)
+    {
+        out << "the depth image (" << frame.depth.cols << "x" << frame.depth.rows
+            << ") does not fit the camera (" << size.width << "x" << size.height << ")";
+    }
+    else if (!frame.gray.empty() && (frame.gray.type() != CV_8UC1 || frame.gray.size() != size))
+    {
+        out << "the intensity image (" << frame.gray.cols << "x" << frame.gray.rows
+            << ") does not fit the camera (" << size.width << "x" << size.height << ")";
+    }
+    return out.str();
+}
+
+ShutterModel completed(const ShutterModel& shutter, const ShutterParams& fallback)
+{
+    const auto known = [](double a, double b) { return std::isfinite(a) ? a : b; };
+    return {
+        known(shutter.readoutColour, fallback.readoutColour),
+        known(shutter.readoutDepth, fallback.readoutDepth),
+        known(shutter.depthDelay, fallback.depthDelay)};
+}
+
+/** How many directions the measurements know better than the motion model does. */
+int observableDirections(const Matrix6d& information, const Matrix6d& priorCovariance)
+{
+    const Matrix6d L = priorCovariance.llt().matrixL();
+    const Eigen::SelfAdjointEigenSolver<Matrix6d> es(L.transpose() * information * L);
+    return static_cast<int>((es.eigenvalues().array() > 1).count());
+}
+
+double maxSigma(const Matrix6d& cov)
+{
+    const Eigen::SelfAdjointEigenSolver<Matrix6d> es(cov);
+    return std::sqrt(std::max(0.0, es.eigenvalues().maxCoeff()));
+}
 }  // namespace
 
 struct Odometry::Impl
 {
-    explicit Impl(const OdometryParams& p)
-        : params(p), extractor(p.planeExtractor, p.depthNoise), matcher(p.planeMatcher), solver(p.poseSolver),
-          motion(p.motionModel)
-    {
-    }
-    OdometryParams params;
-    PlaneExtractor extractor;
-    PlaneMatcher matcher;
-    PoseSolver solver;
-    MotionModel motion;
-
-    FrameFeatures features;
-    PoseGaussian pose;
-    bool hasPrevious{false};
-    Reference previous;
-    std::deque<Reference> keyframes;
-    int frameId{0};
+    explicit Impl(const OdometryParams& p);
 
     OdometryResult process(const RgbdFrame& frame);
+
+    void extract(const RgbdFrame& frame, FrameDiagnostics& diagnostics);
+    [[nodiscard]] OdometryResult start(const RgbdFrame& frame, OdometryResult result);
+    [[nodiscard]] OdometryResult coast(
+        double stamp, const std::string& reason, OdometryResult result);
+    [[nodiscard]] std::vector<Association> associate(
+        const RgbdFrame& frame, const Eigen::Isometry3d& T_prev_cur) const;
+    [[nodiscard]] FrameVelocities velocities(const Eigen::Isometry3d& T_prev_cur, double dt) const;
+    [[nodiscard]] PoseEstimate estimate(
+        const RgbdFrame& frame,
+        const std::vector<Association>& associations,
+        const PoseGaussian& predicted,
+        double dt,
+        FrameDiagnostics& diagnostics);
+    void judge(
+        const PoseEstimate& estimate, const PoseGaussian& predicted, OdometryResult& result) const;
+    void advance(const RgbdFrame& frame, const std::vector<Association>& associations);
+    void finish(const PoseGaussian& T_prev_cur, OdometryResult& result);
+
+    OdometryParams params;
+    PlaneExtractor planeExtractor;
+    PlaneMatcher planeMatcher;
+    PointStage pointStage;
+    PoseSolver solver;
+    MotionModel motion;
+    ReferenceWindow window;
+
+    FrameFeatures features;
+    Reference current;
+    PinholeCamera camera;
+    PoseGaussian measuredPose;  //!< of the window's previous frame
+    PoseGaussian pose;          //!< of the latest frame, measured or predicted
+    double latestStamp{0};
+    bool started{false};
+    int numFrames{0};
 };
 
+Odometry::Impl::Impl(const OdometryParams& p)
+    : params(p),
+      planeExtractor(p.planeExtractor, p.depthNoise),
+      planeMatcher(p.planeMatcher),
+      pointStage(
+          p.points, p.pointTracker, p.pointDetector, p.pointMatcher, p.pointLifter, p.depthNoise),
+      solver(p.poseSolver),
+      motion(p.motionModel),
+      window(p.reference)
+{
+    measuredPose.cov = pose.cov = Matrix6d::Identity() * (kFirstSigma * kFirstSigma);
+}
+
+/** The paper's Fig. 1: extraction, matching, pose estimation, validation. */
 OdometryResult Odometry::Impl::process(const RgbdFrame& frame)
 {
-    const auto start = Clock::now();
-    OdometryResult out;
-    out.stamp = frame.stamp;
-    features.planes = extractor.extract(frame.depth, frame.camera);
-    out.diagnostics.numPlanes = static_cast<int>(features.planes.planes.size());
-    out.diagnostics.msPlanes = msSince(start);
-    ShutterModel sm = frame.shutter;
-    const auto fallback = [](double& v, double f) { if (!std::isfinite(v)) v = f; };
-    fallback(sm.readoutColour, params.shutter.readoutColour);
-    fallback(sm.readoutDepth, params.shutter.readoutDepth);
-    fallback(sm.depthDelay, params.shutter.depthDelay);
-    const ShutterCorrection shutter(sm, frame.camera.height);
+    const Stopwatch total;
+    OdometryResult result;
+    result.stamp = frame.stamp;
+    ++numFrames;
+    features = {};
 
-    Reference current;
-    current.stamp = frame.stamp;
-    current.planes = features.planes;
-    current.id = ++frameId;
-    if (!hasPrevious)
+    // A frame without images or without a time can only be predicted.
+    if (const std::string problem = problemOf(frame); !problem.empty())
     {
-        out.status = TrackingStatus::First;
-        out.increment.cov = Matrix6d::Identity() * 1e-10;
-        hasPrevious = true;
-        pose.cov = Matrix6d::Identity() * 1e-10;
-        out.pose = pose;
-        previous = current;
-        keyframes.push_back(current);
-        return out;
+        return coast(frame.stamp, problem, result);
     }
-    const double dt = frame.stamp - previous.stamp;
-    const PoseGaussian prior = motion.predict(dt);
-    std::vector<const Reference*> refs{&previous};
-    if (params.reference.reference == "keyframes")
-        for (const auto& k : keyframes)
-            if (k.id != previous.id) refs.push_back(&k);
-    Eigen::Isometry3d T = prior.mean;
-    PoseEstimate est;
-    std::vector<std::vector<PlaneMatch>> matches;
-    double overlap = 1;
-    for (int round = 0; round < 2; ++round)
+    if (started && !(frame.stamp > latestStamp))
     {
-        const Vector6d mean = se3Log(T) / dt;
-        Vector6d vCur = motion.velocity().isZero() ? mean : Vector6d(1.5 * mean - 0.5 * motion.velocity());
-        const Vector6d vPrev = motion.velocity().isZero() ? mean : Vector6d(0.5 * (mean + motion.velocity()));
-        current.velocity = vCur;
-        previous.velocity = vPrev;
-        std::vector<PlanePair> pairs;
-        std::vector<PlaneGaussian> cur;
-        for (const auto& p : current.planes.planes) cur.push_back(shutter.plane(p, vCur));
-        for (const Reference* r : refs)
+        return coast(frame.stamp, "its time stamp is not after the previous frame's", result);
+    }
+
+    // 1. Points and planes with their uncertainty.
+    extract(frame, result.diagnostics);
+    if (!started || !sameCamera(camera, frame.camera))
+    {
+        result = start(frame, result);
+        result.diagnostics.msTotal = total.ms();
+        return result;
+    }
+
+    // 2. Predicted motion since the latest measured frame, and matches with the references.
+    const double dt = frame.stamp - window.previous().stamp;
+    if (dt > params.pipeline.maxGap)
+    {
+        motion.reset();
+    }
+    const PoseGaussian predicted = motion.predict(dt);
+    const Stopwatch matching;
+    const std::vector<Association> associations = associate(frame, predicted.mean);
+    result.diagnostics.msMatching = matching.ms();
+
+    // 3. Pose from both, each weighted by its uncertainty, and its validation.
+    const PoseEstimate estimated = estimate(frame, associations, predicted, dt, result.diagnostics);
+    judge(estimated, predicted, result);
+    if (result.status != TrackingStatus::Tracked)
+    {
+        result = coast(frame.stamp, result.reason, result);
+        result.status = TrackingStatus::Predicted;
+        result.diagnostics.msTotal = total.ms();
+        return result;
+    }
+
+    // 4. The frame becomes a reference.
+    finish(estimated.T_base_cur, result);
+    motion.update(estimated.T_base_cur.mean, dt);
+    advance(frame, associations);
+    result.diagnostics.msTotal = total.ms();
+    return result;
+}
+
+void Odometry::Impl::extract(const RgbdFrame& frame, FrameDiagnostics& diagnostics)
+{
+    const auto points = [&]
+    {
+        const Stopwatch watch;
+        if (params.pipeline.usePoints)
         {
-            const Eigen::Isometry3d T_prev_ref = previous.T_world_cam.inverse() * r->T_world_cam;
-            const auto ms = matcher.match(r->planes, current.planes, frame.camera, T.inverse() * T_prev_ref);
-            const Vector6d vRef = r == &previous ? vPrev : (r->id == previous.id ? vPrev : r->velocity);
-            for (const auto& m : ms)
-            {
-                pairs.push_back(
-                    {transformed(T_prev_ref, shutter.plane(r->planes.planes[static_cast<size_t>(m.ref)], vRef)),
-                     cur[static_cast<size_t>(m.cur)]});
-            }
-            if (!keyframes.empty() && r == &keyframes.back())
-                overlap = static_cast<double>(ms.size()) / static_cast<double>(std::max<size_t>(1, r->planes.planes.size()));
+            pointStage.prepare(frame);
         }
-        out.diagnostics.numPlanePairs = static_cast<int>(pairs.size());
-        est = solver.solve({}, pairs, T, prior);
-        T = est.T_base_cur.mean;
-        out.diagnostics.iterations += est.iterations;
-    }
-    for (auto& k : keyframes) if (k.id == previous.id) k.velocity = previous.velocity;
-    out.diagnostics.planeChi2PerDof = est.planeChi2PerDof;
-    out.status = TrackingStatus::Tracked;
-    out.increment = est.T_base_cur;
-    motion.update(T, dt);
-    pose = compose(pose, out.increment);
-    out.pose = pose;
-    current.T_world_cam = pose.mean;
-    const Eigen::Isometry3d d = keyframes.back().T_world_cam.inverse() * current.T_world_cam;
-    previous = current;
-    if (d.translation().norm() > params.reference.keyframeDistance ||
-        so3Log(d.linear()).norm() > params.reference.keyframeAngleDeg * M_PI / 180 ||
-        overlap < params.reference.keyframeMinOverlap)
+        return watch.ms();
+    };
+    std::future<double> pointsMs = std::async(
+        params.pipeline.numThreads > 1 ? std::launch::async : std::launch::deferred, points);
+    const Stopwatch watch;
+    current = {};
+    current.id = numFrames;
+    current.stamp = frame.stamp;
+    current.shutter = completed(frame.shutter, params.shutter);
+    if (params.pipeline.usePlanes)
     {
-        keyframes.push_back(current);
-        if (keyframes.size() > static_cast<size_t>(params.reference.maxKeyframes)) keyframes.pop_front();
+        current.planes = planeExtractor.extract(frame.depth, frame.camera);
     }
-    out.diagnostics.msTotal = msSince(start);
+    diagnostics.msPlanes = watch.ms();
+    diagnostics.msPoints = pointsMs.get();
+    diagnostics.numPlanes = static_cast<int>(current.planes.planes.size());
+    features.planes = current.planes;
+}
+
+OdometryResult Odometry::Impl::start(const RgbdFrame& frame, OdometryResult result)
+{
+    const bool first = !started;
+    if (!first)
+    {
+        // A different camera: nothing of the past can be compared with what it sees.
+        result = coast(frame.stamp, "the camera's size or calibration has changed", result);
+        result.status = TrackingStatus::Predicted;
+    }
+    else
+    {
+        result.status = TrackingStatus::First;
+        result.increment.cov = Matrix6d::Identity() * (kFirstSigma * kFirstSigma);
+        result.pose = pose;
+    }
+    started = true;
+    camera = frame.camera;
+    window.clear();
+    measuredPose = pose;
+    latestStamp = frame.stamp;
+    advance(frame, {});
+    return result;
+}
+
+/** Moves on by the motion model alone. The window's previous frame stays: the next good frame is
+ * aligned with it over the whole gap. */
+OdometryResult Odometry::Impl::coast(double stamp, const std::string& reason, OdometryResult result)
+{
+    result.status = TrackingStatus::Lost;
+    result.reason = reason;
+    const double step = stamp - latestStamp;
+    const double dt = started && step > 0 && std::isfinite(step) ? step : 1e-3;
+    result.increment = motion.predict(dt);
+    motion.coast(dt);
+    pose = compose(pose, result.increment);
+    result.pose = pose;
+    if (std::isfinite(stamp))
+    {
+        latestStamp = started ? std::max(latestStamp, stamp) : latestStamp;
+    }
+    return result;
+}
+
+std::vector<Association> Odometry::Impl::associate(
+    const RgbdFrame& frame, const Eigen::Isometry3d& T_prev_cur) const
+{
+    std::vector<Association> out;
+    const Eigen::Isometry3d T_cur_world =
+        T_prev_cur.inverse() * window.previous().T_world_cam.inverse();
+    for (const Reference* reference : window.active())
+    {
+        Association association;
+        association.reference = reference;
+        const Eigen::Isometry3d T_cur_ref = T_cur_world * reference->T_world_cam;
+        if (params.pipeline.usePlanes)
+        {
+            association.planes =
+                planeMatcher.match(reference->planes, current.planes, frame.camera, T_cur_ref);
+        }
+        if (params.pipeline.usePoints && !reference->points.points.empty())
+        {
+            association.points = pointStage.correspond(reference->points, frame, T_cur_ref);
+        }
+        out.push_back(std::move(association));
+    }
     return out;
 }
 
-void ShutterParams::check() const {}
-void ReferenceParams::check() const {}
-void OdometryParams::check() const
+/** The mean velocity over an increment is that of its middle: extrapolated to the current frame,
+ * interpolated at the previous one. */
+FrameVelocities Odometry::Impl::velocities(const Eigen::Isometry3d& T_prev_cur, double dt) const
 {
-    depthNoise.check();
-    planeExtractor.check();
-    planeMatcher.check();
-    poseSolver.check();
-    motionModel.check();
+    const Vector6d mean = se3Log(T_prev_cur) / dt;
+    if (!motion.hasVelocity())
+    {
+        return {mean, mean};
+    }
+    return {0.5 * (mean + motion.velocity()), 1.5 * mean - 0.5 * motion.velocity()};
+}
+
+PoseEstimate Odometry::Impl::estimate(
+    const RgbdFrame& frame,
+    const std::vector<Association>& associations,
+    const PoseGaussian& predicted,
+    double dt,
+    FrameDiagnostics& diagnostics)
+{
+    const Stopwatch watch;
+    const PairBuilder builder(window.previous(), current, frame.camera.height);
+    const bool fuse = params.pipeline.degeneracy == "fuse";
+    std::vector<PointPair> points;
+    std::vector<PlanePair> planes;
+    PoseEstimate out;
+    out.T_base_cur = predicted;
+    for (int round = 0; round < kShutterRounds; ++round)
+    {
+        const FrameVelocities v = velocities(out.T_base_cur.mean, dt);
+        builder.build(associations, v, points, planes);
+        if (static_cast<int>(points.size() + planes.size()) < (fuse ? 1 : kMinMatches))
+        {
+            break;
+        }
+        out = solver.solve(
+            points,
+            planes,
+            out.T_base_cur.mean,
+            fuse ? std::optional<PoseGaussian>(predicted) : std::nullopt);
+        diagnostics.iterations += out.iterations;
+    }
+    const FrameVelocities v = velocities(out.T_base_cur.mean, dt);
+    window.refinePreviousVelocity(v.previous);
+    current.velocity = v.current;
+    diagnostics.numPointPairs = static_cast<int>(points.size());
+    diagnostics.numPlanePairs = static_cast<int>(planes.size());
+    diagnostics.numPointInliers = out.numPointInliers;
+    diagnostics.pointChi2PerDof = out.pointChi2PerDof;
+    diagnostics.planeChi2PerDof = out.planeChi2PerDof;
+    diagnostics.numReferences = static_cast<int>(associations.size());
+    diagnostics.msPose = watch.ms();
+    return out;
+}
+
+void Odometry::Impl::judge(
+    const PoseEstimate& estimate, const PoseGaussian& predicted, OdometryResult& result) const
+{
+    FrameDiagnostics& d = result.diagnostics;
+    d.observableDirections =
+        observableDirections(estimate.infoPoints + estimate.infoPlanes, predicted.cov);
+    const bool fuse = params.pipeline.degeneracy == "fuse";
+    const int matches = d.numPointPairs + d.numPlanePairs;
+    std::ostringstream reason;
+    if (matches < (fuse ? 1 : kMinMatches))
+    {
+        reason << matches << " point and plane matches";
+    }
+    else if (!fuse && maxSigma(estimate.T_base_cur.cov) > params.pipeline.gateSigma)
+    {
+        reason << "largest standard deviation " << maxSigma(estimate.T_base_cur.cov)
+               << " is above the gate";
+    }
+    else if (d.observableDirections == 0)
+    {
+        reason << "no direction is measured better than it is predicted";
+    }
+    else
+    {
+        result.status = TrackingStatus::Tracked;
+        if (d.observableDirections < 6)
+        {
+            reason << d.observableDirections << " of 6 directions measured, the others predicted";
+        }
+    }
+    result.reason = reason.str();
+}
+
+/** Increment and pose of a measured frame. The pose continues from the latest measured frame; after
+ * a gap the increment leads on from the predicted one. */
+void Odometry::Impl::finish(const PoseGaussian& T_prev_cur, OdometryResult& result)
+{
+    const PoseGaussian predictedPose = pose;
+    pose = compose(measuredPose, T_prev_cur);
+    result.pose = pose;
+    result.increment.mean = predictedPose.mean.inverse() * pose.mean;
+    result.increment.cov = withEigenvalueFloor(T_prev_cur.cov, 1e-14);
+    const Vector6d sigma = result.increment.cov.diagonal().cwiseSqrt();
+    result.diagnostics.maxSigmaTranslation = sigma.head<3>().maxCoeff();
+    result.diagnostics.maxSigmaRotation = sigma.tail<3>().maxCoeff();
+    measuredPose = pose;
+    current.T_world_cam = pose.mean;
+    latestStamp = result.stamp;
+}
+
+void Odometry::Impl::advance(const RgbdFrame& frame, const std::vector<Association>& associations)
+{
+    double overlap = associations.empty() ? 0 : 1;
+    features.points.clear();
+    for (const Association& a : associations)
+    {
+        for (const PointTrack& track : a.points)
+        {
+            features.points.push_back(track.cur);
+        }
+        const auto fraction = [](size_t found, size_t all)
+        { return all > 0 ? static_cast<double>(found) / static_cast<double>(all) : 1.0; };
+        if (window.isNewest(*a.reference))
+        {
+            overlap = std::min(
+                fraction(a.points.size(), a.reference->points.points.size()),
+                fraction(a.planes.size(), a.reference->planes.planes.size()));
+        }
+    }
+    current.T_world_cam = pose.mean;
+    const bool isKeyframe = window.empty() || window.needsKeyframe(pose.mean, overlap);
+    if (isKeyframe && params.pipeline.usePoints)
+    {
+        current.points = pointStage.makeReference(frame);
+        features.points = current.points.points;
+    }
+    window.add(std::move(current), isKeyframe);
 }
 
 const char* toString(TrackingStatus status)
@@ -183,5 +464,5 @@ Odometry& Odometry::operator=(Odometry&&) noexcept = default;
 OdometryResult Odometry::process(const RgbdFrame& frame) { return impl_->process(frame); }
 const FrameFeatures& Odometry::features() const { return impl_->features; }
 const OdometryParams& Odometry::params() const { return impl_->params; }
-void Odometry::reset() { impl_ = std::make_unique<Impl>(impl_->params); }
+void Odometry::reset() { impl_ = std::make_unique<Impl>(OdometryParams(impl_->params)); }
 }  // namespace pointplane

@@ -6,11 +6,11 @@
 
 namespace pointplane
 {
-/** Decaying velocity model (Klein & Murray 2007, quoted in [P17, section Pose estimation]): the camera
- * keeps a fraction of its velocity; the velocity's change is white. */
+/** Decaying velocity model (Klein & Murray 2007, quoted in [P17, section Pose estimation]): the
+ * camera keeps a fraction of its velocity; the velocity's change is white. */
 class MotionModel
 {
-   public:
+ public:
     struct TParams
     {
         double decay{0.9};
@@ -38,20 +38,18 @@ class MotionModel
     /** No measurement over `dt`: the velocity decays, its uncertainty grows. */
     void coast(double dt);
 
-    /** Body velocity [m/s, rad/s] at the end of the latest increment: extrapolated from the mean
-     * velocities of the two latest increments. */
-    [[nodiscard]] Vector6d endVelocity() const;
+    /** An increment has been measured since the start or reset(). */
+    [[nodiscard]] bool hasVelocity() const { return measured_ > 0; }
 
     /** Mean body velocity of the latest increment. */
     [[nodiscard]] const Vector6d& velocity() const { return velocity_; }
 
     void reset();
 
-   private:
+ private:
     TParams params_;
     Vector6d velocity_{Vector6d::Zero()};
-    Vector6d previousVelocity_{Vector6d::Zero()};
-    int measured_{0};       //!< increments in a row
-    double coasting_{0};    //!< time since the latest measurement [s]
+    int measured_{0};     //!< increments in a row
+    double coasting_{0};  //!< time since the latest measurement [s]
 };
 }  // namespace pointplane

@@ -3,12 +3,13 @@
 
 #include <pointplane/core/Parameters.h>
 #include <pointplane/odometry/MotionModel.h>
+#include <pointplane/odometry/PointStage.h>
+#include <pointplane/odometry/Reference.h>
 #include <pointplane/planes/PlaneExtractor.h>
 #include <pointplane/planes/PlaneMatcher.h>
 #include <pointplane/pose/PoseSolver.h>
 #include <pointplane/sensor/DepthNoise.h>
 
-#include <limits>
 #include <string>
 
 namespace pointplane
@@ -23,51 +24,77 @@ struct ShutterParams
     template <class V>
     void visit(V&& v)
     {
-        v("readoutColour", readoutColour, "s", "first to last row of the colour image, when unknown");
-        v("readoutDepth", readoutDepth, "s", "first to last row of the depth image, when unknown");
-        v("depthDelay", depthDelay, "s", "depth exposure after colour's, when unknown");
+        v("readoutColour", readoutColour, "s", "first to last row of the colour image, if unknown");
+        v("readoutDepth", readoutDepth, "s", "first to last row of the depth image, if unknown");
+        v("depthDelay", depthDelay, "s", "depth exposure after colour's, if unknown");
     }
+    /** \throws std::invalid_argument naming the key */
     void check() const;
 };
 
-/** Which frames the current one is aligned with, and when to make a key frame. */
-struct ReferenceParams
+/** The pipeline's own switches. */
+struct PipelineParams
 {
-    std::string reference{"keyframes"};
-    int maxKeyframes{4};
-    double keyframeDistance{0.15};
-    double keyframeAngleDeg{10.0};
-    double keyframeMinOverlap{0.5};
+    bool usePoints{true};
+    bool usePlanes{true};
+    std::string degeneracy{"fuse"};
+    double gateSigma{0.05};
+    double maxGap{1.0};
+    int numThreads{1};
 
     template <class V>
     void visit(V&& v)
     {
-        v("reference", reference, "-", "keyframes (key frames and the previous frame) or previous");
-        v("maxKeyframes", maxKeyframes, "-", "that are kept, the oldest is dropped");
-        v("keyframeDistance", keyframeDistance, "m", "new key frame after this translation");
-        v("keyframeAngleDeg", keyframeAngleDeg, "deg", "or this rotation");
-        v("keyframeMinOverlap", keyframeMinOverlap, "-", "or when fewer features than this are found again");
+        v("usePoints", usePoints, "-", "points contribute");
+        v("usePlanes", usePlanes, "-", "planes contribute");
+        v("degeneracy",
+          degeneracy,
+          "-",
+          "fuse (motion model where the frame does not tell) or gate (the paper's: all or "
+          "nothing)");
+        v("gateSigma",
+          gateSigma,
+          "m, rad",
+          "gate: frames with a larger standard deviation in any direction are predicted instead");
+        v("maxGap",
+          maxGap,
+          "s",
+          "after a longer gap between frames nothing is known of the velocity");
+        v("numThreads", numThreads, "-", "1, or 2: points and planes side by side");
     }
+    /** \throws std::invalid_argument naming the key */
     void check() const;
 };
 
 /** All parameters of the odometry, one ini section a group. */
 struct OdometryParams
 {
+    PipelineParams pipeline;
     DepthNoise depthNoise;
     ShutterParams shutter;
+    PointStage::TParams points;
+    PointTracker::TParams pointTracker;
+    PointDetector::TParams pointDetector;
+    PointMatcher::TParams pointMatcher;
+    PointLifter::TParams pointLifter;
     PlaneExtractor::TParams planeExtractor;
     PlaneMatcher::TParams planeMatcher;
     PoseSolver::TParams poseSolver;
     MotionModel::TParams motionModel;
-    ReferenceParams reference;
+    ReferenceWindow::TParams reference;
 
     /** Calls f(sectionName, group) for each group. */
     template <class F>
     void visitSections(F&& f)
     {
+        f("Pipeline", pipeline);
         f("DepthNoise", depthNoise);
         f("Shutter", shutter);
+        f("Points", points);
+        f("PointTracker", pointTracker);
+        f("PointDetector", pointDetector);
+        f("PointMatcher", pointMatcher);
+        f("PointLifter", pointLifter);
         f("PlaneExtractor", planeExtractor);
         f("PlaneMatcher", planeMatcher);
         f("PoseSolver", poseSolver);

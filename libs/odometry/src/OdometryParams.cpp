@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/check.h>
+#include <pointplane/odometry/OdometryParams.h>
+
+#include <cmath>
+
+namespace pointplane
+{
+void ShutterParams::check() const
+{
+    POINTPLANE_CHECK(
+        std::abs(readoutColour) < 1, "readoutColour = " << readoutColour << " is not within 1 s");
+    POINTPLANE_CHECK(
+        std::abs(readoutDepth) < 1, "readoutDepth = " << readoutDepth << " is not within 1 s");
+    POINTPLANE_CHECK(
+        std::abs(depthDelay) < 1, "depthDelay = " << depthDelay << " is not within 1 s");
+}
+
+void PipelineParams::check() const
+{
+    POINTPLANE_CHECK(usePoints || usePlanes, "usePoints and usePlanes are both off");
+    POINTPLANE_CHECK(
+        degeneracy == "fuse" || degeneracy == "gate",
+        "degeneracy = " << degeneracy << " is neither fuse nor gate");
+    POINTPLANE_CHECK(gateSigma > 0, "gateSigma = " << gateSigma << " is not positive");
+    POINTPLANE_CHECK(maxGap > 0, "maxGap = " << maxGap << " is not positive");
+    POINTPLANE_CHECK(
+        numThreads == 1 || numThreads == 2, "numThreads = " << numThreads << " is not 1 or 2");
+}
+
+void OdometryParams::check() const
+{
+    OdometryParams copy = *this;  // visiting wants mutable members
+    copy.visitSections(
+        [](const char* section, const auto& group)
+        {
+            try
+            {
+                group.check();
+            }
+            catch (const std::invalid_argument& error)
+            {
+                throw std::invalid_argument("[" + std::string(section) + "] " + error.what());
+            }
+        });
+}
+}  // namespace pointplane

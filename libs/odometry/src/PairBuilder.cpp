@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/covariance.h>
+#include <pointplane/odometry/PairBuilder.h>
+#include <pointplane/pose/residuals.h>
+
+namespace pointplane
+{
+void PairBuilder::build(
+    const std::vector<Association>& associations,
+    const FrameVelocities& velocities,
+    std::vector<PointPair>& points,
+    std::vector<PlanePair>& planes) const
+{
+    points.clear();
+    planes.clear();
+    const ShutterCorrection current(current_.shutter, imageHeight_);
+    for (const Association& association : associations)
+    {
+        const Reference& reference = *association.reference;
+        const bool isPrevious = reference.id == previous_.id;
+        const Vector6d& velocity = isPrevious ? velocities.previous : reference.velocity;
+        const ShutterCorrection past(reference.shutter, imageHeight_);
+        const Eigen::Isometry3d T_base_ref =
+            previous_.T_world_cam.inverse() * reference.T_world_cam;
+        for (const PlaneMatch& match : association.planes)
+        {
+            const PlaneFeature& ref = reference.planes.planes[static_cast<size_t>(match.ref)];
+            const PlaneFeature& cur = current_.planes.planes[static_cast<size_t>(match.cur)];
+            planes.push_back(
+                {transformed(T_base_ref, past.plane(ref, velocity)),
+                 current.plane(cur, velocities.current)});
+        }
+        for (const PointTrack& track : association.points)
+        {
+            const PointFeature& ref = reference.points.points[static_cast<size_t>(track.ref)];
+            const PointFeature& cur = track.cur;
+            PointPair pair;
+            pair.base.mean = T_base_ref * past.point(ref.p_cam.mean, ref.uv_px.y(), velocity);
+            pair.base.cov = propagate(T_base_ref.linear(), ref.p_cam.cov);
+            pair.cur.mean = current.point(cur.p_cam.mean, cur.uv_px.y(), velocities.current);
+            pair.cur.cov = cur.p_cam.cov;
+            points.push_back(pair);
+        }
+    }
+}
+}  // namespace pointplane

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pointplane/core/Parameters.h>
+#include <pointplane/points/PointFeature.h>
+#include <pointplane/points/PointLifter.h>
+#include <pointplane/sensor/DepthNoise.h>
+#include <pointplane/sensor/RgbdFrame.h>
+
+#include <opencv2/core/mat.hpp>
+
+#include <vector>
+
+namespace pointplane
+{
+/** The points of a reference frame, ready to be found again. */
+struct PointReference
+{
+    std::vector<PointFeature> points;
+    std::vector<cv::Mat> pyramid;  //!< tracking: of the grey image, with derivatives
+    cv::Mat descriptors;           //!< matching: a row a point
+};
+
+/** A point found again. */
+struct PointTrack
+{
+    int ref{0};        //!< index into PointReference::points
+    PointFeature cur;  //!< where it is in the current frame
+};
+
+/** Corners of a reference image and their sub-pixel positions in later images: pyramidal
+ * Lucas-Kanade (Bouguet 2001) from the predicted position, always against the reference itself, so
+ * that positions do not drift. A track is accepted for what it looks like at the place where the
+ * search ended (correlation), inside a circular neighbourhood of the prediction. */
+class PointTracker
+{
+ public:
+    struct TParams
+    {
+        int maxPoints{200};
+        double minSpacingFraction{0.016};
+        double cornerQuality{0.001};
+        int windowPx{15};
+        int numLevels{4};
+        double searchRadiusFraction{0.04};
+        double minZncc{0.8};
+        double sigmaPx{0.2};
+        double depthVarianceFactor{3.0};
+
+        template <class V>
+        void visit(V&& v)
+        {
+            v("maxPoints", maxPoints, "-", "corners of a reference frame");
+            v("minSpacingFraction", minSpacingFraction, "-", "between corners, of the image width");
+            v("cornerQuality", cornerQuality, "-", "weakest corner relative to the strongest");
+            v("windowPx", windowPx, "px", "side of the patch that is searched for");
+            v("numLevels", numLevels, "-", "pyramid levels");
+            v("searchRadiusFraction",
+              searchRadiusFraction,
+              "-",
+              "around the predicted position, of the image width");
+            v("minZncc", minZncc, "-", "least zero-mean normalised cross-correlation of a match");
+            v("sigmaPx", sigmaPx, "px", "noise of a tracked position");
+            v("depthVarianceFactor",
+              depthVarianceFactor,
+              "-",
+              "variance of a corner's inverse depth over the sensor's: depth is worse at texture");
+        }
+        void check() const;
+    };
+
+    PointTracker(
+        const TParams& params, const PointLifter::TParams& lifter, const DepthNoise& noise);
+
+    /** The image pyramid that makeReference and track need. */
+    [[nodiscard]] std::vector<cv::Mat> pyramid(const cv::Mat& gray) const;
+
+    /** Corners (Shi & Tomasi 1994) with depth. */
+    [[nodiscard]] PointReference makeReference(const RgbdFrame& frame) const;
+
+    /** \param T_cur_ref predicted motion \return in the reference's order */
+    [[nodiscard]] std::vector<PointTrack> track(
+        const PointReference& reference,
+        const RgbdFrame& frame,
+        const std::vector<cv::Mat>& pyramid,
+        const Eigen::Isometry3d& T_cur_ref) const;
+
+ private:
+    TParams params_;
+    PointLifter lifter_;
+};
+}  // namespace pointplane

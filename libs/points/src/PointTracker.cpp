@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/check.h>
+#include <pointplane/points/PointTracker.h>
+
+#include <opencv2/imgproc.hpp>
+#include <opencv2/video/tracking.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pointplane
+{
+namespace
+{
+constexpr int kBorderPx = 8;
+constexpr int kZnccPx = 9;  //!< side of the patches that are compared
+
+bool isInside(const cv::Point2f& p, const cv::Mat& image)
+{
+    return p.x >= kBorderPx && p.y >= kBorderPx &&
+           p.x <= static_cast<float>(image.cols - 1 - kBorderPx) &&
+           p.y <= static_cast<float>(image.rows - 1 - kBorderPx);
+}
+
+/** Samples a patch bilinearly. \pre isInside(centre, image) */
+void samplePatch(const cv::Mat& image, const cv::Point2f& centre, float* out)
+{
+    const float left = centre.x - kZnccPx / 2, top = centre.y - kZnccPx / 2;
+    const int u = static_cast<int>(left), v = static_cast<int>(top);
+    const float a = left - static_cast<float>(u), b = top - static_cast<float>(v);
+    for (int y = 0; y < kZnccPx; ++y)
+    {
+        const uchar* row = image.ptr<uchar>(v + y) + u;
+        const uchar* next = image.ptr<uchar>(v + y + 1) + u;
+        for (int x = 0; x < kZnccPx; ++x)
+        {
+            const float upper =
+                static_cast<float>(row[x]) * (1 - a) + static_cast<float>(row[x + 1]) * a;
+            const float lower =
+                static_cast<float>(next[x]) * (1 - a) + static_cast<float>(next[x + 1]) * a;
+            *out++ = upper * (1 - b) + lower * b;
+        }
+    }
+}
+
+/** Zero-mean normalised cross-correlation, blind to gain and bias; 0 for flat patches. */
+double zncc(
+    const cv::Mat& imageA, const cv::Point2f& a, const cv::Mat& imageB, const cv::Point2f& b)
+{
+    constexpr int n = kZnccPx * kZnccPx;
+    float A[n], B[n];
+    samplePatch(imageA, a, A);
+    samplePatch(imageB, b, B);
+    double sa = 0, sb = 0, saa = 0, sbb = 0, sab = 0;
+    for (int i = 0; i < n; ++i)
+    {
+        const double x = static_cast<double>(A[i]), y = static_cast<double>(B[i]);
+        sa += x;
+        sb += y;
+        saa += x * x;
+        sbb += y * y;
+        sab += x * y;
+    }
+    const double va = saa - sa * sa / n, vb = sbb - sb * sb / n;
+    return va > 1 && vb > 1 ? (sab - sa * sb / n) / std::sqrt(va * vb) : 0;
+}
+}  // namespace
+
+void PointTracker::TParams::check() const
+{
+    POINTPLANE_CHECK(
+        maxPoints >= 1 && maxPoints <= 100000,
+        "maxPoints = " << maxPoints << " is not in 1..100000");
+    POINTPLANE_CHECK(
+        minSpacingFraction > 0 && minSpacingFraction < 1,
+        "minSpacingFraction = " << minSpacingFraction << " is not in (0, 1)");
+    POINTPLANE_CHECK(
+        cornerQuality > 0 && cornerQuality < 1,
+        "cornerQuality = " << cornerQuality << " is not in (0, 1)");
+    POINTPLANE_CHECK(
+        windowPx >= 5 && windowPx <= 63, "windowPx = " << windowPx << " is not in 5..63");
+    POINTPLANE_CHECK(
+        numLevels >= 1 && numLevels <= 8, "numLevels = " << numLevels << " is not in 1..8");
+    POINTPLANE_CHECK(
+        searchRadiusFraction > 0,
+        "searchRadiusFraction = " << searchRadiusFraction << " is not positive");
+    POINTPLANE_CHECK(minZncc >= 0 && minZncc < 1, "minZncc = " << minZncc << " is not in [0, 1)");
+    POINTPLANE_CHECK(sigmaPx > 0, "sigmaPx = " << sigmaPx << " is not positive");
+    POINTPLANE_CHECK(
+        depthVarianceFactor > 0,
+        "depthVarianceFactor = " << depthVarianceFactor << " is not positive");
+}
+
+PointTracker::PointTracker(
+    const TParams& params, const PointLifter::TParams& lifter, const DepthNoise& noise)
+    : params_(params),
+      lifter_(
+          lifter, {noise.sigmaInverseDepth * std::sqrt(params.depthVarianceFactor), params.sigmaPx})
+{
+    params_.check();
+}
+
+std::vector<cv::Mat> PointTracker::pyramid(const cv::Mat& gray) const
+{
+    std::vector<cv::Mat> out;
+    if (!gray.empty())
+    {
+        cv::buildOpticalFlowPyramid(
+            gray, out, {params_.windowPx, params_.windowPx}, params_.numLevels - 1, false);
+    }
+    return out;
+}
+
+PointReference PointTracker::makeReference(const RgbdFrame& frame) const
+{
+    PointReference out;
+    if (frame.gray.empty())
+    {
+        return out;
+    }
+    cv::buildOpticalFlowPyramid(
+        frame.gray, out.pyramid, {params_.windowPx, params_.windowPx}, params_.numLevels - 1, true);
+    std::vector<cv::Point2f> corners;
+    cv::goodFeaturesToTrack(
+        frame.gray,
+        corners,
+        2 * params_.maxPoints,
+        params_.cornerQuality,
+        params_.minSpacingFraction * frame.gray.cols);
+    for (const cv::Point2f& corner : corners)
+    {
+        const auto feature =
+            lifter_.lift(frame, Eigen::Vector2f(corner.x, corner.y).cast<double>());
+        if (feature && isInside(corner, frame.gray))
+        {
+            out.points.push_back(*feature);
+        }
+        if (out.points.size() >= static_cast<size_t>(params_.maxPoints))
+        {
+            break;
+        }
+    }
+    return out;
+}
+
+std::vector<PointTrack> PointTracker::track(
+    const PointReference& reference,
+    const RgbdFrame& frame,
+    const std::vector<cv::Mat>& pyramid,
+    const Eigen::Isometry3d& T_cur_ref) const
+{
+    std::vector<int> indices;
+    std::vector<cv::Point2f> from, to;
+    for (size_t i = 0; i < reference.points.size(); ++i)
+    {
+        const PointFeature& point = reference.points[i];
+        const Eigen::Vector3d p_cur = T_cur_ref * point.p_cam.mean;
+        if (!(p_cur.z() > 0.1))
+        {
+            continue;
+        }
+        const cv::Point2d predicted(
+            frame.camera.project(p_cur).x(), frame.camera.project(p_cur).y());
+        if (isInside(predicted, frame.gray))
+        {
+            indices.push_back(static_cast<int>(i));
+            from.emplace_back(cv::Point2d(point.uv_px.x(), point.uv_px.y()));
+            to.emplace_back(predicted);
+        }
+    }
+    std::vector<PointTrack> tracks;
+    if (indices.empty() || pyramid.empty())
+    {
+        return tracks;
+    }
+    const std::vector<cv::Point2f> predicted = to;
+    const double radius = params_.searchRadiusFraction * frame.gray.cols;
+    std::vector<uchar> found;
+    cv::calcOpticalFlowPyrLK(
+        reference.pyramid,
+        pyramid,
+        from,
+        to,
+        found,
+        cv::noArray(),
+        {params_.windowPx, params_.windowPx},
+        params_.numLevels - 1,
+        {cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 20, 0.01},
+        cv::OPTFLOW_USE_INITIAL_FLOW);
+    for (size_t k = 0; k < indices.size(); ++k)
+    {
+        if (found[k] == 0 || cv::norm(to[k] - predicted[k]) > radius ||
+            !isInside(to[k], frame.gray) ||
+            zncc(reference.pyramid[0], from[k], pyramid[0], to[k]) < params_.minZncc)
+        {
+            continue;
+        }
+        if (const auto feature =
+                lifter_.lift(frame, Eigen::Vector2f(to[k].x, to[k].y).cast<double>()))
+        {
+            tracks.push_back({indices[k], *feature});
+        }
+    }
+    return tracks;
+}
+}  // namespace pointplane
