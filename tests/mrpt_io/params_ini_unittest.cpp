@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/mrpt_io/LoadableParams.h>
+#include <pointplane/mrpt_io/errors.h>
+#include <pointplane/mrpt_io/params_ini.h>
+
+#include <mrpt/config/CConfigFileMemory.h>
+
+#include <clocale>
+
+#include "TempDir.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace pointplane
+{
+namespace
+{
+using testing::HasSubstr;
+
+struct Alpha
+{
+    int count{3};
+    double gain{0.5};
+    template <class V>
+    void visit(V&& v)
+    {
+        v("count", count, "-", "how many");
+        v("gain", gain, "1/m", "how strong");
+    }
+    void check() const
+    {
+        if (count < 0)
+        {
+            throw std::invalid_argument("[Alpha] count is negative");
+        }
+    }
+};
+struct Beta
+{
+    bool enabled{true};
+    std::string name{"surf"};
+    template <class V>
+    void visit(V&& v)
+    {
+        v("enabled", enabled, "-", "whether");
+        v("name", name, "-", "which");
+    }
+};
+struct Params
+{
+    Alpha alpha;
+    Beta beta;
+    template <class F>
+    void visitSections(F&& f)
+    {
+        f("Alpha", alpha);
+        f("Beta", beta);
+    }
+};
+
+std::string errorOf(const std::string& text)
+{
+    Params params;
+    try
+    {
+        parseIni(text, "x.ini", parametersOf(params));
+    }
+    catch (const InputError& e)
+    {
+        return e.what();
+    }
+    return "no error";
+}
+
+TEST(ParamsIni, readsEveryTypeAndComments)
+{
+    Params params;
+    parseIni(
+        "# whole line\n; also\n// and this\n\n[Alpha]\ncount = -7 // seven\n  gain=2.5e-3\r\n"
+        "[ Beta ]\nenabled = false\nname = orb // not surf\n",
+        "x.ini",
+        parametersOf(params));
+    EXPECT_EQ(params.alpha.count, -7);
+    EXPECT_DOUBLE_EQ(params.alpha.gain, 2.5e-3);
+    EXPECT_FALSE(params.beta.enabled);
+    EXPECT_EQ(params.beta.name, "orb");
+}
+
+TEST(ParamsIni, mistakesAreNamedWithFileLineAndWhatWasMeant)
+{
+    EXPECT_EQ(
+        errorOf("[Alpha]\n\ngian = 1\n"),
+        "x.ini:3: unknown key 'gian' in [Alpha]; did you mean 'gain'?");
+    EXPECT_EQ(
+        errorOf("[Alpha]\nname = orb\n"),
+        "x.ini:2: unknown key 'name' in [Alpha]; it belongs in [Beta]");
+    EXPECT_EQ(errorOf("[Alhpa]\n"), "x.ini:1: unknown section [Alhpa]; did you mean [Alpha]?");
+    EXPECT_EQ(errorOf("[Alpha\n"), "x.ini:1: section without closing bracket: [Alpha");
+    EXPECT_EQ(errorOf("count = 1\n"), "x.ini:1: key 'count' before any [Section]");
+    EXPECT_EQ(errorOf("[Alpha]\ncount\n"), "x.ini:2: expected 'key = value', found 'count'");
+    EXPECT_EQ(
+        errorOf("[Alpha]\ncount = 1\ncount = 2\n"),
+        "x.ini:3: key 'count' appears twice in [Alpha]");
+}
+
+TEST(ParamsIni, valuesMustBeWhatTheKeyTakes)
+{
+    for (const char* bad : {"3.7", "abc", "", "0x1q", "1 2", "99999999999"})
+    {
+        EXPECT_THAT(
+            errorOf(std::string("[Alpha]\ncount = ") + bad),
+            HasSubstr("x.ini:2: [Alpha] count = '" + std::string(bad) + "' is not a whole number"));
+    }
+    for (const char* bad : {"0,25", "abc", "nan", "inf", "1e999", "2.5 m"})
+    {
+        EXPECT_THAT(errorOf(std::string("[Alpha]\ngain = ") + bad), HasSubstr("is not a number"));
+    }
+    EXPECT_THAT(errorOf("[Alpha]\ngain = 2.5 # strong"), HasSubstr("starts with //"));
+    EXPECT_THAT(errorOf("[Beta]\nenabled = maybe"), HasSubstr("is not true or false"));
+}
+
+TEST(ParamsIni, writtenTextReadsBackTheSame)
+{
+    Params params;
+    params.alpha.gain = 1.0 / 3;
+    params.alpha.count = 12;
+    params.beta = {false, "orb"};
+    const std::string text = iniText(parametersOf(params));
+    EXPECT_THAT(text, HasSubstr("// [1/m] how strong"));
+    Params back;
+    parseIni(text, "x.ini", parametersOf(back));
+    EXPECT_EQ(back.alpha.gain, params.alpha.gain);
+    EXPECT_EQ(back.alpha.count, 12);
+    EXPECT_FALSE(back.beta.enabled);
+    EXPECT_EQ(back.beta.name, "orb");
+    EXPECT_EQ(iniText(parametersOf(back)), text);
+}
+
+TEST(ParamsIni, settingsOverrideOneKey)
+{
+    Params params;
+    applySetting("Alpha.gain=7", parametersOf(params));
+    applySetting("Beta.name = akaze", parametersOf(params));
+    EXPECT_EQ(params.alpha.gain, 7.0);
+    EXPECT_EQ(params.beta.name, "akaze");
+    EXPECT_THROW(applySetting("Alpha.gain", parametersOf(params)), InputError);
+    EXPECT_THROW(applySetting("gain=7", parametersOf(params)), InputError);
+    EXPECT_THROW(applySetting("Alpha.gian=7", parametersOf(params)), InputError);
+}
+
+TEST(ParamsIni, missingFileIsAnError)
+{
+    const test::TempDir dir;
+    Params params;
+    for (const std::string& path : {dir / "none.ini", dir / ""})
+    {
+        try
+        {
+            loadIni(path, parametersOf(params));
+            FAIL();
+        }
+        catch (const InputError& e)
+        {
+            EXPECT_THAT(e.what(), HasSubstr("cannot open configuration " + path));
+        }
+    }
+}
+
+TEST(ParamsIni, odometryParametersRoundTripAndAreChecked)
+{
+    OdometryParams params = loadOdometryParams("");
+    const ParameterTable table = parametersOf(params);
+    EXPECT_GT(table.size(), 10U);
+    for (const ParameterRef& p : table)
+    {
+        EXPECT_FALSE(p.help.empty()) << p.section << "." << p.key;
+        EXPECT_FALSE(p.unit.empty()) << p.section << "." << p.key;
+    }
+    const test::TempDir dir;
+    test::writeBytes(dir / "a.ini", iniText(table));
+    OdometryParams back = loadOdometryParams(dir / "a.ini");
+    EXPECT_EQ(iniText(parametersOf(back)), iniText(table));
+    // A value out of range is refused with its name.
+    try
+    {
+        (void)loadOdometryParams("", {"DepthNoise.sigmaInverseDepth=-1"});
+        FAIL();
+    }
+    catch (const InputError& e)
+    {
+        EXPECT_THAT(e.what(), HasSubstr("sigmaInverseDepth"));
+    }
+}
+
+TEST(LoadableParams, worksAsMrptsLoadableOptions)
+{
+    mrpt::config::CConfigFileMemory ini(std::string("[any]\ncount = 9 // nine\ngain=0.25\n"));
+    LoadableParams<Alpha> params;
+    params.loadFromConfigFile(ini, "any");
+    EXPECT_EQ(params.values.count, 9);
+    EXPECT_EQ(params.values.gain, 0.25);
+    mrpt::config::CConfigFileMemory out;
+    params.saveToConfigFile(out, "any");
+    EXPECT_EQ(out.read_int("any", "count", 0), 9);
+    mrpt::config::CConfigFileMemory typo(std::string("[any]\ncuont = 9\n"));
+    EXPECT_THROW(params.loadFromConfigFile(typo, "any"), InputError);
+    mrpt::config::CConfigFileMemory range(std::string("[any]\ncount = -1\n"));
+    EXPECT_THROW(params.loadFromConfigFile(range, "any"), std::invalid_argument);
+}
+}  // namespace
+}  // namespace pointplane
