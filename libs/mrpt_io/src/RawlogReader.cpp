@@ -3,11 +3,11 @@
 #include <pointplane/mrpt_io/errors.h>
 
 #include <mrpt/obs/CObservation3DRangeScan.h>
-#include <mrpt/obs/CRawlog.h>
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/serialization/CArchive.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <vector>
 
 #include "GzInput.h"
@@ -23,6 +23,22 @@ namespace
     ReplayStream stream(bytes, 0, nullptr);
     auto archive = mrpt::serialization::archiveFrom(static_cast<mrpt::io::CStream&>(stream));
     return archive.ReadObject();
+}
+
+/** MRPT's rule. Its own CRawlog::detectImagesDirectory() (2.5.8) drops the slash between folder and
+ * name, and so finds nothing for a path with a folder in it. */
+[[nodiscard]] std::string imagesDirectory(const std::string& rawlog)
+{
+    const std::string stem = std::filesystem::path(rawlog).replace_extension().string();
+    for (const char* suffix : {"_Images", "_images", "_IMAGES"})
+    {
+        std::error_code error;
+        if (std::filesystem::is_directory(stem + suffix, error))
+        {
+            return stem + suffix;
+        }
+    }
+    return (std::filesystem::path(rawlog).parent_path() / "Images").string();
 }
 
 /** Puts the depth cameras' resolutions back, which the scanner had exchanged. */
@@ -119,7 +135,7 @@ void RawlogReader::Impl::readAhead()
 
 RawlogReader::RawlogReader(const std::string& path) : impl_(std::make_unique<Impl>(path))
 {
-    impl_->externals = mrpt::obs::CRawlog::detectImagesDirectory(path);
+    impl_->externals = imagesDirectory(path);
     impl_->readAhead();
     if (!impl_->ahead)
     {

@@ -76,7 +76,6 @@ void moveRangeToFile(
     {
         throw EnvironmentError("cannot write " + path + ": disk full or not writable");
     }
-    scan.rangeImage = readings;
 }
 
 cv::Mat readExternalImage(const std::string& path)

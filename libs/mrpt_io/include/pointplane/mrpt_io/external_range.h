@@ -14,7 +14,8 @@ namespace pointplane
 [[nodiscard]] mrpt::math::CMatrix_u16 readExternalRange(const std::string& path);
 
 /** Moves the range image to a file, as MRPT's rawlog-edit --externalize, and reads it back to be
- * sure that it is there (MRPT does not check). The observation keeps its readings in memory.
+ * sure that it is there (MRPT does not check). The observation's own copy is gone afterwards:
+ * MRPT would write it into the rawlog as well.
  * \param name of the file in the directory, which is the rawlog's
  * RawlogReader::externalsDirectory() \throws EnvironmentError naming the file */
 void moveRangeToFile(
