@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SequenceWriter.h"
+
+#include <pointplane/mrpt_io/ObservationConverter.h>
+#include <pointplane/mrpt_io/mrpt_poses.h>
+
+#include <algorithm>
+#include <deque>
+#include <filesystem>
+#include <future>
+#include <iomanip>
+#include <optional>
+#include <sstream>
+#include <thread>
+
+#include "ProgressBar.h"
+#include "ScanWriter.h"
+#include "TextOutput.h"
+
+namespace pointplane
+{
+namespace
+{
+struct Rendered
+{
+    RgbdFrame frame;
+    cv::Mat colour;
+};
+
+/** Frames in order, rendered ahead by as many threads as there are processors. */
+class Renderers
+{
+ public:
+    explicit Renderers(const SimulatedSequence& sequence) : sequence_(sequence) {}
+
+    [[nodiscard]] Rendered next()
+    {
+        const std::size_t ahead = std::max(1U, std::thread::hardware_concurrency());
+        while (running_.size() < ahead && started_ < sequence_.numFrames())
+        {
+            const int frame = started_++;
+            running_.push_back(std::async(
+                std::launch::async,
+                [this, frame]
+                {
+                    Rendered out;
+                    out.frame = sequence_.frame(frame, &out.colour);
+                    return out;
+                }));
+        }
+        Rendered out = running_.front().get();
+        running_.pop_front();
+        return out;
+    }
+
+ private:
+    const SimulatedSequence& sequence_;
+    std::deque<std::future<Rendered>> running_;
+    int started_{0};
+};
+
+std::string tumLine(double stamp, const Eigen::Isometry3d& T)
+{
+    const Eigen::Quaterniond q(T.linear());
+    std::ostringstream line;
+    line << stampText(fromSeconds(stamp)) << std::fixed << std::setprecision(9);
+    for (const double value :
+         {T.translation().x(),
+          T.translation().y(),
+          T.translation().z(),
+          q.x(),
+          q.y(),
+          q.z(),
+          q.w()})
+    {
+        line << ' ' << value;
+    }
+    return line.str();
+}
+
+void writeGroundTruth(const SimulatedSequence& sequence, const std::string& path)
+{
+    TextOutput file(path);
+    file.writeLine("# pose of the robot, axes of MRPT (x forward, y left, z up), in the world");
+    file.writeLine("# its camera has sensorPose = identity; exact; stamp tx ty tz qx qy qz qw");
+    for (int i = 0; i < sequence.numFrames(); ++i)
+    {
+        const double stamp = sequence.stamp(i);
+        file.writeLine(tumLine(stamp, robotFromCamera(sequence.truth(stamp))));
+    }
+    file.close();
+}
+}  // namespace
+
+std::string groundTruthPath(const std::string& rawlog)
+{
+    return std::filesystem::path(rawlog).replace_extension().string() + ".groundtruth.txt";
+}
+
+Eigen::Isometry3d robotFromCamera(const Eigen::Isometry3d& T_world_cam)
+{
+    return T_world_cam * opticalInBody().inverse();
+}
+
+void writeSequence(
+    const SimulatedSequence& sequence, const SequenceOutput& output, std::ostream& progress)
+{
+    ScanWriter writer(output.path, output.label, output.external);
+    if (!output.hideShutter)
+    {
+        writer.writeComment(
+            sequence.stamp(0), shutterComment(output.label, sequence.params().shutter()));
+    }
+    writer.writeComment(sequence.stamp(0), output.description);
+    std::optional<ProgressBar> bar;
+    if (!output.quiet)
+    {
+        bar.emplace(progress, standardErrorIsTerminal(), output.path);
+    }
+    Renderers renderers(sequence);
+    const int numFrames = sequence.numFrames();
+    for (int i = 0; i < numFrames; ++i)
+    {
+        const Rendered rendered = renderers.next();
+        writer.write(rendered.frame, rendered.colour);
+        if (bar)
+        {
+            bar->update(static_cast<double>(i + 1) / numFrames, static_cast<std::size_t>(i) + 1);
+        }
+    }
+    writeGroundTruth(sequence, groundTruthPath(output.path));
+    writer.close();
+}
+}  // namespace pointplane

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pointplane/simulation/SimulatedSequence.h>
+
+#include <iosfwd>
+#include <string>
+
+namespace pointplane
+{
+struct SequenceOutput
+{
+    std::string path;  //!< of the rawlog
+    std::string label{"RGBD"};
+    bool external{false};
+    bool hideShutter{false};
+    bool quiet{false};
+    std::string description;  //!< goes into a comment at the beginning, to render it again
+};
+
+/** `<path without extension>.groundtruth.txt` */
+[[nodiscard]] std::string groundTruthPath(const std::string& rawlog);
+
+/** Pose of the robot, MRPT axes (x forward, y left, z up), whose camera has sensorPose = identity:
+ * what the odometry reports poses of. */
+[[nodiscard]] Eigen::Isometry3d robotFromCamera(const Eigen::Isometry3d& T_world_cam);
+
+/** Renders all frames into a rawlog and writes the truth beside it, as TUM text. Frames are
+ * rendered by several threads; the bytes do not depend on how many. \throws EnvironmentError */
+void writeSequence(
+    const SimulatedSequence& sequence, const SequenceOutput& output, std::ostream& progress);
+}  // namespace pointplane

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SimulateApp.h"
+
+#include <pointplane/mrpt_io/errors.h>
+#include <pointplane/mrpt_io/params_ini.h>
+#include <pointplane/simulation/scenes.h>
+
+#include <cstdint>
+#include <cstdio>
+#include <optional>
+#include <ostream>
+
+#include "SequenceWriter.h"
+#include <CLI/CLI.hpp>
+
+namespace pointplane
+{
+namespace
+{
+constexpr const char* kSection = "Simulation";
+
+struct Arguments
+{
+    std::string scene;
+    std::uint64_t seed{1};
+    bool ideal{false};
+    std::optional<double> duration, fps;
+    std::string size;
+    std::vector<std::string> settings;
+    SequenceOutput output;
+};
+
+std::string sceneHelp()
+{
+    std::string out = "what is seen:";
+    for (const SceneInfo& info : sceneList())
+    {
+        out += "\n  " + info.name + ": " + info.description;
+    }
+    return out;
+}
+
+/** Prints all settings with their defaults and ends the program, as --help does. */
+void addListSettings(CLI::App& app)
+{
+    app.add_flag_callback(
+        "--list-settings",
+        []
+        {
+            SimulationParams defaults;
+            throw CLI::CallForVersion(iniText(parametersOf(kSection, defaults)), 0);
+        },
+        "print the keys of --set with their defaults");
+}
+
+void addOptions(CLI::App& app, Arguments& args)
+{
+    app.add_option("scene", args.scene, sceneHelp())->required();
+    app.add_option("-o,--output", args.output.path, "rawlog to write")->required();
+    app.add_option("--seed", args.seed, "of motion and noise")->capture_default_str();
+    app.add_option("--duration", args.duration, "[s] (default: 18)");
+    app.add_option("--fps", args.fps, "frames a second (default: 30)");
+    app.add_option("--size", args.size, "of the images, e.g. 320x240 (default: 640x480)");
+    app.add_flag("--ideal", args.ideal, "no noise, gaps, blur or shutter effects");
+    app.add_option("--set", args.settings, "key=value, any number of times (--list-settings)")
+        ->expected(1)
+        ->take_all();
+    app.add_option("--label", args.output.label, "sensor label")->capture_default_str();
+    app.add_flag("--external", args.output.external, "images as files beside the rawlog");
+    app.add_flag(
+        "--hide-shutter", args.output.hideShutter, "do not tell the rows' times in the rawlog");
+    app.add_flag("--quiet", args.output.quiet, "no progress");
+    app.set_version_flag("--version", POINTPLANE_VERSION);
+}
+
+SimulationParams paramsOf(const Arguments& args)
+{
+    SimulationParams params = args.ideal ? SimulationParams::ideal() : SimulationParams();
+    params.duration = args.duration.value_or(params.duration);
+    params.fps = args.fps.value_or(params.fps);
+    if (!args.size.empty())
+    {
+        int length = 0;
+        if (std::sscanf(args.size.c_str(), "%dx%d%n", &params.width, &params.height, &length) !=
+                2 ||
+            static_cast<std::size_t>(length) != args.size.size())
+        {
+            throw InputError("--size " + args.size + ": is not of the form 640x480");
+        }
+    }
+    const ParameterTable table = parametersOf(kSection, params);
+    for (const std::string& setting : args.settings)
+    {
+        applySetting(std::string(kSection) + "." + setting, table);
+    }
+    params.check();
+    return params;
+}
+
+/** What it takes to render the same bytes again. */
+std::string describe(const Arguments& args, SimulationParams params)
+{
+    std::string out = std::string("pointplane-simulate ") + POINTPLANE_VERSION +
+                      " scene=" + args.scene + " seed=" + std::to_string(args.seed);
+    SimulationParams defaults;
+    const ParameterTable standard = parametersOf(kSection, defaults);
+    const ParameterTable table = parametersOf(kSection, params);
+    for (std::size_t i = 0; i < table.size(); ++i)
+    {
+        if (table[i].text() != standard[i].text())
+        {
+            out += " " + table[i].key + "=" + table[i].text();
+        }
+    }
+    return out;
+}
+
+int simulate(Arguments& args, std::ostream& out, std::ostream& err)
+{
+    const SimulationParams params = paramsOf(args);
+    const SimulatedSequence sequence(args.scene, params, args.seed);
+    args.output.description = describe(args, params);
+    writeSequence(sequence, args.output, err);
+    out << args.output.path << ": " << sequence.numFrames() << " frames\n"
+        << groundTruthPath(args.output.path) << ": ground truth\n";
+    return kExitOk;
+}
+}  // namespace
+
+int runSimulate(const std::vector<std::string>& args, std::ostream& out, std::ostream& err)
+{
+    CLI::App app{
+        "Renders RGB-D sequences with exact ground truth and a Kinect's defects.",
+        "pointplane-simulate"};
+    Arguments arguments;
+    addOptions(app, arguments);
+    addListSettings(app);
+    try
+    {
+        app.parse(std::vector<std::string>(args.rbegin(), args.rend()));  // CLI11: last first
+        return simulate(arguments, out, err);
+    }
+    catch (const CLI::ParseError& e)
+    {
+        return app.exit(e, out, err) == 0 ? kExitOk : kExitBadInput;
+    }
+    catch (const EnvironmentError& e)
+    {
+        err << "pointplane-simulate: " << e.what() << "\n";
+        return kExitEnvironment;
+    }
+    catch (const std::exception& e)
+    {
+        err << "pointplane-simulate: " << oneLine(e) << "\n";
+        return kExitBadInput;
+    }
+}
+}  // namespace pointplane

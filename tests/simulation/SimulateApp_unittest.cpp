@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SimulateApp.h"
+
+#include <pointplane/evaluation/trajectory_text.h>
+#include <pointplane/mrpt_io/ObservationConverter.h>
+#include <pointplane/mrpt_io/RawlogReader.h>
+#include <pointplane/mrpt_io/mrpt_poses.h>
+#include <pointplane/simulation/SimulatedSequence.h>
+
+#include <mrpt/obs/CObservation3DRangeScan.h>
+#include <mrpt/obs/CObservationComment.h>
+
+#include <opencv2/core.hpp>
+
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "SequenceWriter.h"
+#include "TempDir.h"
+#include "matchers.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace pointplane
+{
+namespace
+{
+struct Finished
+{
+    int code{-1};
+    std::string out, err;
+};
+
+Finished run(const std::vector<std::string>& args)
+{
+    std::ostringstream out, err;
+    Finished result;
+    result.code = runSimulate(args, out, err);
+    result.out = out.str();
+    result.err = err.str();
+    return result;
+}
+
+/** A rawlog as pointplane-odometry reads it. */
+std::vector<ConvertedFrame> readFrames(const std::string& path)
+{
+    RawlogReader reader(path);
+    ObservationConverter converter;
+    converter.setExternalsDirectory(reader.externalsDirectory());
+    std::vector<ConvertedFrame> out;
+    while (const auto object = reader.next())
+    {
+        if (const auto comment = std::dynamic_pointer_cast<mrpt::obs::CObservationComment>(object))
+        {
+            converter.readComment(*comment);
+        }
+        else if (
+            const auto scan = std::dynamic_pointer_cast<mrpt::obs::CObservation3DRangeScan>(object))
+        {
+            out.push_back(converter.convert(*scan));
+        }
+    }
+    EXPECT_EQ(reader.ending().kind, RawlogEnd::Clean) << reader.ending().message;
+    return out;
+}
+
+SimulationParams smallParams()
+{
+    SimulationParams params;
+    params.width = 320;
+    params.height = 240;
+    params.duration = 0.1;
+    return params;
+}
+
+std::vector<std::string> smallRun(const std::string& path)
+{
+    return {
+        "corner", "-o", path, "--size", "320x240", "--duration", "0.1", "--seed", "9", "--quiet"};
+}
+
+double largestDifference(const cv::Mat& a, const cv::Mat& b)
+{
+    cv::Mat difference = cv::abs(a - b);
+    cv::patchNaNs(difference, 0);
+    return cv::norm(difference, cv::NORM_INF);
+}
+}  // namespace
+
+TEST(SimulateApp, rawlogHoldsTheFramesOfTheSequence)
+{
+    const test::TempDir dir;
+    const Finished result = run(smallRun(dir / "a.rawlog"));
+    ASSERT_EQ(result.code, 0) << result.err;
+    EXPECT_THAT(result.out, testing::HasSubstr("4 frames"));
+    EXPECT_EQ(result.err, "");
+    const std::vector<ConvertedFrame> frames = readFrames(dir / "a.rawlog");
+    const SimulatedSequence sequence("corner", smallParams(), 9);
+    ASSERT_EQ(frames.size(), 4U);
+    for (int i = 0; i < 4; ++i)
+    {
+        const ConvertedFrame& read = frames[static_cast<std::size_t>(i)];
+        const RgbdFrame truth = sequence.frame(i);
+        EXPECT_EQ(read.problem, "");
+        EXPECT_NEAR(read.frame.stamp, truth.stamp, 1e-6);
+        EXPECT_EQ(read.frame.camera.fx, truth.camera.fx);
+        EXPECT_EQ(read.frame.camera.cy, truth.camera.cy);
+        EXPECT_EQ(read.frame.shutter.readoutColour, 0.8 / 30);
+        EXPECT_EQ(read.frame.shutter.readoutDepth, 0.8 / 30);
+        EXPECT_EQ(read.frame.shutter.depthDelay, -0.01);
+        EXPECT_THAT(read.T_robot_cam, test::IsNearPose(opticalInBody(), 1e-9, 1e-9));
+        EXPECT_EQ(cv::countNonZero(read.frame.depth > 0), cv::countNonZero(truth.depth > 0));
+        EXPECT_LE(largestDifference(read.frame.depth, truth.depth), 1.01e-4);
+        cv::Mat gray;
+        cv::absdiff(read.frame.gray, truth.gray, gray);
+        EXPECT_LE(cv::norm(gray, cv::NORM_INF), 1) << "only the conversion to grey may round";
+    }
+}
+
+TEST(SimulateApp, groundTruthIsTheRobotsPose)
+{
+    const test::TempDir dir;
+    ASSERT_EQ(run(smallRun(dir / "a.rawlog")).code, 0);
+    const Trajectory truth = readTrajectoryText(dir / "a.groundtruth.txt");
+    const SimulatedSequence sequence("corner", smallParams(), 9);
+    ASSERT_EQ(truth.size(), 4U);
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+        const double stamp = sequence.stamp(static_cast<int>(i));
+        EXPECT_NEAR(truth.stamps[i], stamp, 1e-6);
+        // The robot looks along its x axis, with y to the left.
+        const Eigen::Isometry3d T_world_cam = sequence.truth(stamp);
+        const Eigen::Matrix3d R = truth.poses[i].linear();
+        EXPECT_THAT(
+            truth.poses[i].translation(), test::IsMatrixNear(T_world_cam.translation(), 1e-8));
+        EXPECT_THAT(R.col(0), test::IsMatrixNear(T_world_cam.linear().col(2), 1e-8));
+        EXPECT_THAT(R.col(1), test::IsMatrixNear(-T_world_cam.linear().col(0), 1e-8));
+    }
+}
+
+TEST(SimulateApp, sameSeedSameBytesOtherSeedOtherBytes)
+{
+    const test::TempDir dir;
+    ASSERT_EQ(run(smallRun(dir / "a.rawlog")).code, 0);
+    ASSERT_EQ(run(smallRun(dir / "b.rawlog")).code, 0);
+    std::vector<std::string> other = smallRun(dir / "c.rawlog");
+    other[8] = "10";
+    ASSERT_EQ(run(other).code, 0);
+    EXPECT_EQ(test::readBytes(dir / "a.rawlog"), test::readBytes(dir / "b.rawlog"));
+    EXPECT_EQ(
+        test::readBytes(dir / "a.groundtruth.txt"), test::readBytes(dir / "b.groundtruth.txt"));
+    EXPECT_NE(
+        test::readBytes(dir / "a.groundtruth.txt"), test::readBytes(dir / "c.groundtruth.txt"));
+}
+
+TEST(SimulateApp, externalImagesAreTheEmbeddedOnes)
+{
+    const test::TempDir dir;
+    ASSERT_EQ(run(smallRun(dir / "in.rawlog")).code, 0);
+    std::vector<std::string> args = smallRun(dir / "ex.rawlog");
+    args.emplace_back("--external");
+    ASSERT_EQ(run(args).code, 0);
+    EXPECT_LT(std::filesystem::file_size(dir / "ex.rawlog"), 5000U) << "images are still inside";
+    const auto embedded = readFrames(dir / "in.rawlog"), external = readFrames(dir / "ex.rawlog");
+    ASSERT_EQ(external.size(), embedded.size());
+    for (std::size_t i = 0; i < external.size(); ++i)
+    {
+        ASSERT_EQ(external[i].problem, "");
+        EXPECT_EQ(largestDifference(external[i].frame.depth, embedded[i].frame.depth), 0);
+        EXPECT_EQ(cv::norm(external[i].frame.gray, embedded[i].frame.gray, cv::NORM_INF), 0);
+    }
+}
+
+TEST(SimulateApp, shutterIsToldUnlessHidden)
+{
+    const test::TempDir dir;
+    std::vector<std::string> args = smallRun(dir / "a.rawlog");
+    args.emplace_back("--hide-shutter");
+    ASSERT_EQ(run(args).code, 0);
+    const auto frames = readFrames(dir / "a.rawlog");
+    ASSERT_FALSE(frames.empty());
+    EXPECT_TRUE(std::isnan(frames[0].frame.shutter.readoutColour));
+    EXPECT_TRUE(std::isnan(frames[0].frame.shutter.depthDelay));
+}
+
+TEST(SimulateApp, idealAndSettingsReachTheCamera)
+{
+    const test::TempDir dir;
+    std::vector<std::string> args = smallRun(dir / "a.rawlog");
+    for (const char* arg : {"--ideal", "--set", "readoutDepth=0.02", "--set", "focalLengthPx=600"})
+    {
+        args.emplace_back(arg);
+    }
+    ASSERT_EQ(run(args).code, 0);
+    const auto frames = readFrames(dir / "a.rawlog");
+    ASSERT_FALSE(frames.empty());
+    EXPECT_EQ(frames[0].frame.shutter.readoutColour, 0);
+    EXPECT_EQ(frames[0].frame.shutter.readoutDepth, 0.02);
+    EXPECT_EQ(frames[0].frame.camera.fx, 300);
+    EXPECT_EQ(cv::countNonZero(frames[0].frame.depth > 0), 320 * 240);
+}
+
+TEST(SimulateApp, badUsageIsNamedAndLeavesNoFile)
+{
+    const test::TempDir dir;
+    const std::string path = dir / "a.rawlog";
+    const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
+        {{"cave", "-o", path}, "cave"},
+        {{"corner", "-o", path, "--set", "fpss=3"}, "fpss"},
+        {{"corner", "-o", path, "--set", "fps=fast"}, "fps"},
+        {{"corner", "-o", path, "--set", "fps=0"}, "fps"},
+        {{"corner", "-o", path, "--size", "640"}, "--size"},
+        {{"corner", "-o", path, "--size", "640x480px"}, "--size"},
+        {{"corner", "-o", path, "--duration", "-1"}, "duration"},
+        {{"corner"}, "--output"}};
+    for (const auto& [args, named] : cases)
+    {
+        const Finished result = run(args);
+        EXPECT_EQ(result.code, 2) << named;
+        EXPECT_THAT(result.err, testing::HasSubstr(named));
+        EXPECT_FALSE(std::filesystem::exists(path));
+    }
+}
+
+TEST(SimulateApp, unwritableOutputIsTheEnvironmentsFault)
+{
+    const Finished result = run({"corner", "-o", "/no/such/dir/a.rawlog", "--duration", "0"});
+    EXPECT_EQ(result.code, 3);
+    EXPECT_THAT(result.err, testing::HasSubstr("/no/such/dir/a.rawlog"));
+}
+
+TEST(SimulateApp, listsItsSettingsAndScenes)
+{
+    const Finished settings = run({"--list-settings"});
+    EXPECT_EQ(settings.code, 0);
+    EXPECT_THAT(settings.out, testing::HasSubstr("depthDelay = -0.01"));
+    const Finished help = run({"--help"});
+    EXPECT_EQ(help.code, 0);
+    EXPECT_THAT(help.out, testing::HasSubstr("notexture: "));
+}
+}  // namespace pointplane
