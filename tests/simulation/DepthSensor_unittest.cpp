@@ -246,4 +246,22 @@ TEST(DepthSensor, raggedEdgesShowEitherSideAndNothingBetween)
     EXPECT_GT(swapped, 2 * kHeight / 10);
     EXPECT_LT(swapped, 2 * kHeight);
 }
+
+TEST(DepthSensor, calibrationErrorIsSmoothAndTheSameInEveryFrame)
+{
+    SimulationParams params = only();
+    params.calibrationSigma = 1e-3;
+    const Scene scene = sceneOf(1);
+    double s2 = 0;
+    for (std::uint64_t camera = 0; camera < 20; ++camera)
+    {
+        const DepthSensor sensor(params, scene, camera);
+        const cv::Mat a = 1.0 / sensor.sense(wall(2), 1), b = 1.0 / sensor.sense(wall(2), 2);
+        EXPECT_EQ(cv::norm(a, b, cv::NORM_INF), 0);
+        EXPECT_LT(cv::norm(a.colRange(1, 640), a.colRange(0, 639), cv::NORM_INF), 1e-4);
+        const cv::Mat error = a - 0.5;
+        s2 += error.dot(error) / (640.0 * 480.0 * 20);
+    }
+    EXPECT_NEAR(std::sqrt(s2), 1e-3, 0.15e-3);
+}
 }  // namespace pointplane

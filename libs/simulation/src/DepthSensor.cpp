@@ -17,6 +17,8 @@ constexpr double kRadPerDeg = 3.14159265358979323846 / 180;
 constexpr double kEdgeDisparityPx = 1.0;
 /** Spacing of the points between which the lateral displacement is interpolated [px]. */
 constexpr double kLateralGridPx = 4.0;
+/** The same of the calibration error [px]. */
+constexpr double kCalibrationGridPx = 100.0;
 
 cv::Mat whiteNoise(int rows, int cols, double sigma, std::uint64_t key, std::uint64_t purpose)
 {
@@ -48,22 +50,22 @@ cv::Mat windowNoise(
     return out(cv::Rect(cv::Point(0, 0), size));
 }
 
-/** Smooth displacement of pixels, rounded. */
-cv::Mat lateralNoise(
+/** Noise that is interpolated between points of a grid. */
+cv::Mat gridNoise(
     cv::Size size, double grid, double sigma, std::uint64_t key, std::uint64_t purpose)
 {
     const int rows = static_cast<int>(std::ceil(size.height / grid)) + 1;
     const int cols = static_cast<int>(std::ceil(size.width / grid)) + 1;
     // Linear interpolation leaves 4/9 of the variance on average in two dimensions.
     const cv::Mat coarse = whiteNoise(rows, cols, 1.5 * sigma, key, purpose);
-    cv::Mat fine, out;
+    cv::Mat fine;
     cv::resize(coarse, fine, {}, grid, grid, cv::INTER_LINEAR);
-    fine(cv::Rect(cv::Point(0, 0), size)).convertTo(out, CV_16S);
-    return out;
+    return fine(cv::Rect(cv::Point(0, 0), size));
 }
 }  // namespace
 
-DepthSensor::DepthSensor(const SimulationParams& params, const Scene& scene)
+DepthSensor::DepthSensor(
+    const SimulationParams& params, const Scene& scene, std::uint64_t cameraKey)
     : params_(params),
       camera_(params.camera()),
       pixelScale_(params.width / 640.0),
@@ -72,6 +74,15 @@ DepthSensor::DepthSensor(const SimulationParams& params, const Scene& scene)
     // Rounding to multiples of step_ has variance step_^2 / 12; the rest comes from matching.
     const double total = params.sigmaInverseDepth;
     matchingSigma_ = std::sqrt(std::max(0.0, total * total - step_ * step_ / 12));
+    if (params.calibrationSigma > 0)
+    {
+        calibrationError_ = gridNoise(
+            {params.width, params.height},
+            kCalibrationGridPx * pixelScale_,
+            params.calibrationSigma,
+            cameraKey,
+            5);
+    }
     for (const Surface& surface : scene.surfaces)
     {
         hasDepth_.push_back(surface.hasDepth ? 1 : 0);
@@ -192,8 +203,13 @@ DepthSensor::FrameNoise DepthSensor::frameNoise(std::uint64_t frameKey) const
     if (params_.lateralSigmaPx > 0)
     {
         const double grid = std::max(2.0, kLateralGridPx * pixelScale_);
-        out.dx = lateralNoise(size, grid, params_.lateralSigmaPx * pixelScale_, frameKey, 2);
-        out.dy = lateralNoise(size, grid, params_.lateralSigmaPx * pixelScale_, frameKey, 3);
+        const double sigma = params_.lateralSigmaPx * pixelScale_;
+        gridNoise(size, grid, sigma, frameKey, 2).convertTo(out.dx, CV_16S);
+        gridNoise(size, grid, sigma, frameKey, 3).convertTo(out.dy, CV_16S);
+    }
+    if (!calibrationError_.empty())
+    {
+        out.matching = out.matching.empty() ? calibrationError_ : out.matching + calibrationError_;
     }
     return out;
 }

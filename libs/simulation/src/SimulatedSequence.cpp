@@ -22,7 +22,7 @@ struct SimulatedSequence::Impl
           seed(aSeed),
           camera(params.camera()),
           path(scene->motion, params.motionScale, seed),
-          depthSensor(params, *scene),
+          depthSensor(params, *scene, seed),
           colourSensor(params, seed)
     {
     }
@@ -52,7 +52,7 @@ struct SimulatedSequence::Impl
         return rowPoses(time(frame) + params.depthDelay, params.readoutDepth);
     }
 
-    /** Enough pictures that none moves by more than a pixel to the next. */
+    /** Enough pictures that the steps between them vanish in the lens's blur. */
     [[nodiscard]] int blurSamples(double t) const
     {
         if (params.exposure == 0)
@@ -61,10 +61,10 @@ struct SimulatedSequence::Impl
         }
         const double half = 0.5 * params.exposure;
         const Vector6d motion = se3Log(path.pose(t - half).inverse() * path.pose(t + half));
-        const double typicalDepth = 1.5;
+        const double typicalDepth = 1.5, step_px = 1.25;
         const double flow_px =
             camera.fx * (motion.head<3>().norm() / typicalDepth + motion.tail<3>().norm());
-        return std::clamp(static_cast<int>(std::ceil(flow_px)), 1, params.maxBlurSamples);
+        return std::clamp(static_cast<int>(std::ceil(flow_px / step_px)), 1, params.maxBlurSamples);
     }
 
     [[nodiscard]] bool oneInstant() const

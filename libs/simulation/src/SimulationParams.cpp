@@ -9,7 +9,7 @@ SimulationParams SimulationParams::ideal()
     SimulationParams p;
     p.readoutColour = p.readoutDepth = p.depthDelay = p.exposure = 0;
     p.lensBlurPx = p.imageNoise = p.vignetting = p.exposureSwing = 0;
-    p.sigmaInverseDepth = p.disparityStepPx = p.lateralSigmaPx = 0;
+    p.sigmaInverseDepth = p.disparityStepPx = p.lateralSigmaPx = p.calibrationSigma = 0;
     p.edgeLossPx = p.shadowBaseline = 0;
     p.maxIncidenceDeg = 90;
     p.minDepth = 0.05;
@@ -46,6 +46,7 @@ void SimulationParams::check() const
     inRange("disparityStepPx", disparityStepPx, 0, 10);
     inRange("disparityPxMetre", disparityPxMetre, 1, 1e4);
     inRange("noiseWindowPx", noiseWindowPx, 1, 64);
+    inRange("calibrationSigma", calibrationSigma, 0, 0.1);
     inRange("lateralSigmaPx", lateralSigmaPx, 0, 5);
     inRange("edgeLossPx", edgeLossPx, 0, 20);
     inRange("shadowBaseline", shadowBaseline, 0, 1);

@@ -18,7 +18,8 @@ namespace pointplane
 class DepthSensor
 {
  public:
-    DepthSensor(const SimulationParams& params, const Scene& scene);
+    /** \param cameraKey seed of what is peculiar to this camera: its calibration error */
+    DepthSensor(const SimulationParams& params, const Scene& scene, std::uint64_t cameraKey = 0);
 
     /** \param cast true picture \param frameKey seed of this frame's noise
      * \return CV_32FC1 [m], NaN = no reading */
@@ -27,7 +28,7 @@ class DepthSensor
  private:
     struct FrameNoise
     {
-        cv::Mat matching;  //!< CV_32FC1, of the inverse depth [1/m]
+        cv::Mat matching;  //!< CV_32FC1, of the inverse depth, calibration included [1/m]
         cv::Mat dx, dy;    //!< CV_16SC1, which neighbour a pixel shows [px]
     };
     [[nodiscard]] FrameNoise frameNoise(std::uint64_t frameKey) const;
@@ -47,6 +48,7 @@ class DepthSensor
     double pixelScale_;           //!< image width / 640
     double step_;                 //!< of the inverse depth [1/m], 0 = continuous
     double matchingSigma_{0};     //!< noise before rounding [1/m]
+    cv::Mat calibrationError_;    //!< CV_32FC1 [1/m]; empty: none
     std::vector<char> hasDepth_;  //!< per surface
 };
 }  // namespace pointplane

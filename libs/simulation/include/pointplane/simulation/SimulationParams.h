@@ -36,6 +36,7 @@ struct SimulationParams
     double disparityStepPx{0.125};
     double disparityPxMetre{43.5};
     double noiseWindowPx{9};
+    double calibrationSigma{0};
     double lateralSigmaPx{0.6};
     double edgeLossPx{1};
     double shadowBaseline{0.075};
@@ -74,6 +75,10 @@ struct SimulationParams
         v("disparityStepPx", disparityStepPx, "px", "disparities are multiples of it; 0 = none");
         v("disparityPxMetre", disparityPxMetre, "px m", "focal length x baseline: disparity x Z");
         v("noiseWindowPx", noiseWindowPx, "px", "window over which disparity noise is correlated");
+        v("calibrationSigma",
+          calibrationSigma,
+          "1/m",
+          "error of 1/Z, smooth over the image and the same in every frame");
         v("lateralSigmaPx", lateralSigmaPx, "px", "from which neighbour a pixel gets its depth");
         v("edgeLossPx", edgeLossPx, "px", "no depth this near to depth edges; 0 = all kept");
         v("shadowBaseline",
