@@ -69,7 +69,7 @@ void printScriptLines(const Statistics& s, std::ostream& out)
 
 void AteCommand::run(CommandContext& context) const
 {
-    const Trajectory truth = input.loadTruth(groundTruth, context);
+    const Trajectory truth = input.loadTruthOfBody(groundTruth, context);
     const Trajectory estimated = input.loadEstimate(estimate, context);
     const AteResult result = absoluteTrajectoryError(truth, estimated, options);
 

@@ -167,7 +167,7 @@ void CompareCommand::run(CommandContext& context)
     ate.scale = resolved.scale;
     bootstrap.seed = resolved.seed;
 
-    const Trajectory truth = input.loadTruth(groundTruth, context);
+    const Trajectory truth = input.loadTruthOfBody(groundTruth, context);
     std::vector<Trajectory> loaded;
     for (const std::string& path : estimates)
     {

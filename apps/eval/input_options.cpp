@@ -72,7 +72,12 @@ Eigen::Isometry3d InputOptions::T_truth_body() const
 
 Trajectory InputOptions::loadTruth(const std::string& path, CommandContext& context) const
 {
-    return withBody(loadTrajectory(path, "", context), T_truth_body());
+    return loadTrajectory(path, "", context);
+}
+
+Trajectory InputOptions::loadTruthOfBody(const std::string& path, CommandContext& context) const
+{
+    return withBody(loadTruth(path, context), T_truth_body());
 }
 
 Trajectory InputOptions::loadEstimate(const std::string& path, CommandContext& context) const

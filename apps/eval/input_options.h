@@ -24,8 +24,11 @@ struct InputOptions
     /** The estimate's body in the ground truth's body frame; throws std::invalid_argument. */
     [[nodiscard]] Eigen::Isometry3d T_truth_body() const;
 
-    /** Ground truth of the estimate's body. Prints the reader's warnings. */
+    /** Ground truth as its file gives it. Prints the reader's warnings. */
     [[nodiscard]] Trajectory loadTruth(const std::string& path, CommandContext& context) const;
+    /** Ground truth of the estimate's body. */
+    [[nodiscard]] Trajectory loadTruthOfBody(
+        const std::string& path, CommandContext& context) const;
     [[nodiscard]] Trajectory loadEstimate(const std::string& path, CommandContext& context) const;
 };
 

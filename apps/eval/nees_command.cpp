@@ -8,6 +8,7 @@
 #include "input_options.h"
 #include "nees_output.h"
 #include "result_output.h"
+#include "trajectory_report.h"
 
 namespace pointplane
 {
@@ -26,6 +27,7 @@ struct NeesCommand
     double minNees{-1};
     double maxNees{-1};
     OutputFiles output;
+    ReportOptions html;
 
     void addTo(CLI::App& command);
     void run(CommandContext& context) const;
@@ -71,6 +73,7 @@ void NeesCommand::addTo(CLI::App& command)
         ->group("Gate");
     input.addTo(command);
     output.addTo(command);
+    html.addTo(command);
 }
 
 void NeesCommand::run(CommandContext& context) const
@@ -79,6 +82,10 @@ void NeesCommand::run(CommandContext& context) const
     {
         throw std::invalid_argument(
             "nees needs a ground truth for each estimate: GT EST [GT EST]...");
+    }
+    if (!html.directory.empty() && files.size() > 2)
+    {
+        throw std::invalid_argument("--report is of one run; give one ground truth and estimate");
     }
     NeesOptions resolved = options;
     resolved.truthSigmaRotation = sigmaRotationDeg * kRadians;
@@ -94,16 +101,18 @@ void NeesCommand::run(CommandContext& context) const
     std::vector<std::size_t> independent(lengths.size(), 0);
     for (std::size_t k = 0; k < files.size(); k += 2)
     {
-        // loadTruth() would change the truth's body frame; here its noise has to go along.
-        InputOptions asWritten = input;
-        asWritten.bodyFromTruth.clear();
-        const Trajectory truth = asWritten.loadTruth(files[k], context);
+        const Trajectory truth = input.loadTruth(files[k], context);
         const Trajectory estimate = input.loadEstimate(files[k + 1], context);
         for (std::size_t m = 0; m < lengths.size(); ++m)
         {
             const auto increments = neesIncrements(truth, estimate, lengths[m], resolved);
             independent[m] += countIndependent(increments);
             pooled[m].insert(pooled[m].end(), increments.begin(), increments.end());
+        }
+        if (!html.directory.empty())
+        {
+            const ReportedRun reported{truth, estimate, RpeOptions(), resolved, lengths};
+            context.err << "report: " << writeTrajectoryReport(reported, html) << "\n";
         }
     }
     NeesReport report;

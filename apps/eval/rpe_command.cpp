@@ -6,6 +6,7 @@
 #include "input_options.h"
 #include "result_output.h"
 #include "rpe_options.h"
+#include "trajectory_report.h"
 
 namespace pointplane
 {
@@ -20,6 +21,7 @@ struct RpeCommand
     RpeCommandOptions options;
     InputOptions input;
     OutputFiles files;
+    ReportOptions report;
     bool verbose{false};
     double maxRmse{-1};
     double maxRmseDeg{-1};
@@ -46,6 +48,7 @@ void RpeCommand::addTo(CLI::App& command)
         ->group("Output");
     input.addTo(command);
     files.addTo(command);
+    report.addTo(command);
 }
 
 /** What evaluate_rpe.py --verbose prints. */
@@ -68,8 +71,15 @@ void printScriptLines(const RpeResult& result, std::ostream& out)
 void RpeCommand::run(CommandContext& context) const
 {
     const RpeOptions rpe = options.resolved();
-    const RpeResult result = relativePoseError(
-        input.loadTruth(groundTruth, context), input.loadEstimate(estimate, context), rpe);
+    ReportedRun run;
+    run.groundTruth = input.loadTruth(groundTruth, context);
+    run.estimate = input.loadEstimate(estimate, context);
+    run.rpe = rpe;
+    run.nees.offset = rpe.offset;
+    run.nees.T_truth_body = input.T_truth_body();
+    run.intervals = {{1, DeltaUnit::Frames}, {1, DeltaUnit::Seconds}};
+    const RpeResult result =
+        relativePoseError(withBody(run.groundTruth, run.nees.T_truth_body), run.estimate, rpe);
 
     ScoredResult scored;
     scored.title = "Relative pose error";
@@ -93,6 +103,10 @@ void RpeCommand::run(CommandContext& context) const
         printScriptLines(result, context.out);
     }
     writeResult(scored, files, context.out, !verbose);
+    if (!report.directory.empty())
+    {
+        context.err << "report: " << writeTrajectoryReport(run, report) << "\n";
+    }
     checkThreshold("translation RMSE", scored.rows[0], maxRmse, context);
     checkThreshold("rotation RMSE", scored.rows[1], maxRmseDeg, context);
 }

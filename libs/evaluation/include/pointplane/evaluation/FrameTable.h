@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace pointplane
+{
+/** The table with one line per frame that pointplane-odometry writes (--diagnostics): named columns
+ * of numbers, and the tracking status. Columns may come and go; only `stamp` has to be there. */
+class FrameTable
+{
+ public:
+    /** Throws std::runtime_error naming the file, and the line where one is malformed. */
+    [[nodiscard]] static FrameTable read(const std::string& path);
+
+    [[nodiscard]] std::size_t size() const { return stamps_.size(); }
+    [[nodiscard]] const std::vector<double>& stamps() const { return stamps_; }  //!< [s]
+    /** first, tracked, predicted or lost; empty when the table has no such column. */
+    [[nodiscard]] const std::vector<std::string>& status() const { return status_; }
+    [[nodiscard]] bool has(const std::string& column) const;
+    /** Numbers of a column; empty when there is none of that name. */
+    [[nodiscard]] std::vector<double> column(const std::string& name) const;
+
+ private:
+    std::vector<std::string> names_;
+    std::vector<std::vector<double>> columns_;  //!< NaN where a field is not a number
+    std::vector<double> stamps_;
+    std::vector<std::string> status_;
+};
+
+/** Fields of one line of CSV; quotes as RFC 4180. */
+[[nodiscard]] std::vector<std::string> splitCsvLine(const std::string& line);
+}  // namespace pointplane

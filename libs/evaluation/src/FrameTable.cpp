@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/evaluation/FrameTable.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <stdexcept>
+
+namespace pointplane
+{
+namespace
+{
+double numberOrNaN(const std::string& text)
+{
+    double value = 0;
+    const char* const end = text.data() + text.size();
+    const auto [parsed, error] = std::from_chars(text.data(), end, value);
+    return error == std::errc() && parsed == end ? value : std::numeric_limits<double>::quiet_NaN();
+}
+}  // namespace
+
+std::vector<std::string> splitCsvLine(const std::string& line)
+{
+    std::vector<std::string> fields(1);
+    bool quoted = false;
+    for (std::size_t k = 0; k < line.size(); ++k)
+    {
+        const char c = line[k];
+        if (c == '"' && quoted && k + 1 < line.size() && line[k + 1] == '"')
+        {
+            fields.back() += line[++k];
+        }
+        else if (c == '"')
+        {
+            quoted = !quoted;
+        }
+        else if (c == ',' && !quoted)
+        {
+            fields.emplace_back();
+        }
+        else if (c != '\r')
+        {
+            fields.back() += c;
+        }
+    }
+    return fields;
+}
+
+FrameTable FrameTable::read(const std::string& path)
+{
+    std::ifstream file(path);
+    std::string line;
+    if (!file || !std::getline(file, line))
+    {
+        throw std::runtime_error("cannot read frame table '" + path + "'");
+    }
+    FrameTable table;
+    table.names_ = splitCsvLine(line);
+    table.columns_.resize(table.names_.size());
+    const auto statusAt = std::find(table.names_.begin(), table.names_.end(), "status");
+    if (!table.has("stamp"))
+    {
+        throw std::runtime_error(path + ":1: no column 'stamp'; is this a table of --diagnostics?");
+    }
+    for (std::size_t number = 2; std::getline(file, line); ++number)
+    {
+        if (line.empty())
+        {
+            continue;
+        }
+        const std::vector<std::string> fields = splitCsvLine(line);
+        if (fields.size() != table.names_.size())
+        {
+            throw std::runtime_error(
+                path + ":" + std::to_string(number) + ": " + std::to_string(fields.size()) +
+                " fields, " + std::to_string(table.names_.size()) + " in the header");
+        }
+        for (std::size_t k = 0; k < fields.size(); ++k)
+        {
+            table.columns_[k].push_back(numberOrNaN(fields[k]));
+        }
+        if (statusAt != table.names_.end())
+        {
+            table.status_.push_back(
+                fields[static_cast<std::size_t>(statusAt - table.names_.begin())]);
+        }
+    }
+    table.stamps_ = table.column("stamp");
+    const auto bad = std::find_if_not(
+        table.stamps_.begin(), table.stamps_.end(), [](double s) { return std::isfinite(s); });
+    if (bad != table.stamps_.end())
+    {
+        throw std::runtime_error(
+            path + ":" + std::to_string(bad - table.stamps_.begin() + 2) +
+            ": the stamp is not a number");
+    }
+    return table;
+}
+
+bool FrameTable::has(const std::string& column) const
+{
+    return std::find(names_.begin(), names_.end(), column) != names_.end();
+}
+
+std::vector<double> FrameTable::column(const std::string& name) const
+{
+    const auto found = std::find(names_.begin(), names_.end(), name);
+    return found == names_.end() ? std::vector<double>()
+                                 : columns_[static_cast<std::size_t>(found - names_.begin())];
+}
+}  // namespace pointplane
