@@ -1,0 +1,94 @@
+# Sourced by ./demo and ./test: Debian packages, build, job count. Needs bash; changes to the clone.
+
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+readonly build_dir=build/release
+
+readonly build_packages=(
+    g++ cmake ninja-build pkgconf
+    libeigen3-dev libopencv-dev libdlib-dev zlib1g-dev libdeflate-dev
+    libmrpt-obs-dev libcli11-dev nlohmann-json3-dev libgtest-dev libgmock-dev
+    libopenni2-dev
+)
+# Not in every release; what they are for is left out of the build, or its tests skipped, without them.
+readonly optional_packages=(libfreenect-dev)
+# MRPT's own programs and data sets, which the tests run on our output.
+readonly test_packages=(mrpt-apps mrpt-common)
+
+say() { printf '\n== %s\n' "$*"; }
+die() {
+    printf 'error: %s\n' "$*" >&2
+    exit 1
+}
+
+is_installed() {
+    [[ "$(dpkg-query --show --showformat='${db:Status-Status}' "$1" 2>/dev/null)" == installed ]]
+}
+
+is_offered() {
+    [[ -n "$(apt-cache madison "$1" 2>/dev/null)" ]]
+}
+
+as_root() {
+    if ((EUID == 0)); then
+        "$@"
+    elif command -v sudo >/dev/null; then
+        sudo "$@"
+    else
+        die "not root and no sudo; as root, run: $*"
+    fi
+}
+
+apt() {
+    as_root env DEBIAN_FRONTEND=noninteractive apt-get -q -o DPkg::Lock::Timeout=600 "$@"
+}
+
+# install_packages NAME...: those that are missing, and the optional ones where they exist.
+install_packages() {
+    command -v apt-get >/dev/null ||
+        die "no apt-get: on another system install the equivalents of $* and run cmake by hand"
+    local package missing=()
+    for package in "$@"; do
+        is_installed "$package" || missing+=("$package")
+    done
+    if ((${#missing[@]})); then
+        say "installing ${missing[*]}"
+        # Another source of the machine may be unreachable; what matters is whether install succeeds.
+        apt update || echo "apt-get update failed; trying with the lists that are there" >&2
+    fi
+    for package in "${optional_packages[@]}"; do
+        if ! is_installed "$package" && is_offered "$package"; then
+            missing+=("$package")
+        fi
+    done
+    if ((${#missing[@]})); then
+        apt install --yes --no-install-recommends "${missing[@]}" ||
+            die "apt-get could not install ${missing[*]} (its own message is above)"
+    fi
+}
+
+# As many as there are cores, but no more than memory allows: the largest sources take 1.2 GB.
+num_jobs() {
+    local cores kib limit
+    cores=$(nproc)
+    kib=$(awk '/^MemAvailable:/ {print $2}' /proc/meminfo)
+    limit=$(cat /sys/fs/cgroup/memory.max 2>/dev/null || echo max)
+    if [[ $limit != max ]] && ((limit / 1024 < kib)); then
+        kib=$((limit / 1024))
+    fi
+    local jobs=$((kib / 1200000))
+    ((jobs >= 1)) || jobs=1
+    echo $((jobs < cores ? jobs : cores))
+}
+
+# build TARGET...
+build() {
+    local jobs
+    jobs=$(num_jobs)
+    say "building in $build_dir with $jobs jobs"
+    if [[ ! -e $build_dir/build.ninja ]]; then
+        cmake -S . -B "$build_dir" -G Ninja -DCMAKE_BUILD_TYPE=Release
+    fi
+    cmake --build "$build_dir" --parallel "$jobs" --target "$@"
+}
