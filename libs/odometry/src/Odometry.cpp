@@ -71,15 +71,6 @@ std::string problemOf(const RgbdFrame& frame)
     return out.str();
 }
 
-ShutterModel completed(const ShutterModel& shutter, const ShutterParams& fallback)
-{
-    const auto known = [](double a, double b) { return std::isfinite(a) ? a : b; };
-    return {
-        known(shutter.readoutColour, fallback.readoutColour),
-        known(shutter.readoutDepth, fallback.readoutDepth),
-        known(shutter.depthDelay, fallback.depthDelay)};
-}
-
 /** How many directions the measurements know better than the motion model does. */
 int observableDirections(const Matrix6d& information, const Matrix6d& priorCovariance)
 {
@@ -125,6 +116,7 @@ struct Odometry::Impl
     PointStage pointStage;
     PoseSolver solver;
     MotionModel motion;
+    ShutterCalibrator shutter;
     ReferenceWindow window;
 
     FrameFeatures features;
@@ -145,6 +137,7 @@ Odometry::Impl::Impl(const OdometryParams& p)
           p.points, p.pointTracker, p.pointDetector, p.pointMatcher, p.pointLifter, p.depthNoise),
       solver(p.poseSolver),
       motion(p.motionModel),
+      shutter(p.shutter),
       window(p.reference)
 {
     measuredPose.cov = pose.cov = Matrix6d::Identity() * (kFirstSigma * kFirstSigma);
@@ -225,7 +218,7 @@ void Odometry::Impl::extract(const RgbdFrame& frame, FrameDiagnostics& diagnosti
     current = {};
     current.id = numFrames;
     current.stamp = frame.stamp;
-    current.shutter = completed(frame.shutter, params.shutter);
+    current.shutter = frame.shutter;
     if (params.pipeline.usePlanes)
     {
         current.planes = planeExtractor.extract(frame.depth, frame.camera);
@@ -333,7 +326,7 @@ PoseEstimate Odometry::Impl::estimate(
     for (int round = 0; round < kShutterRounds; ++round)
     {
         const FrameVelocities v = velocities(out.T_base_cur.mean, dt);
-        builder.build(associations, v, points, planes);
+        builder.build(associations, v, shutter, points, planes);
         if (static_cast<int>(points.size() + planes.size()) < (fuse ? 1 : kMinMatches))
         {
             break;
@@ -348,6 +341,7 @@ PoseEstimate Odometry::Impl::estimate(
     const FrameVelocities v = velocities(out.T_base_cur.mean, dt);
     window.refinePreviousVelocity(v.previous);
     current.velocity = v.current;
+    shutter.update(builder, associations, v, out.T_base_cur.mean);
     diagnostics.numPointPairs = static_cast<int>(points.size());
     diagnostics.numPlanePairs = static_cast<int>(planes.size());
     diagnostics.numPointInliers = out.numPointInliers;

@@ -2,20 +2,11 @@
 #include <pointplane/core/check.h>
 #include <pointplane/odometry/OdometryParams.h>
 
-#include <cmath>
+#include <stdexcept>
+#include <string>
 
 namespace pointplane
 {
-void ShutterParams::check() const
-{
-    POINTPLANE_CHECK(
-        std::abs(readoutColour) < 1, "readoutColour = " << readoutColour << " is not within 1 s");
-    POINTPLANE_CHECK(
-        std::abs(readoutDepth) < 1, "readoutDepth = " << readoutDepth << " is not within 1 s");
-    POINTPLANE_CHECK(
-        std::abs(depthDelay) < 1, "depthDelay = " << depthDelay << " is not within 1 s");
-}
-
 void PipelineParams::check() const
 {
     POINTPLANE_CHECK(usePoints || usePlanes, "usePoints and usePlanes are both off");

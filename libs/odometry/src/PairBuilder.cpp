@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/core/covariance.h>
 #include <pointplane/odometry/PairBuilder.h>
+#include <pointplane/odometry/ShutterCalibrator.h>
 #include <pointplane/pose/residuals.h>
 
 namespace pointplane
@@ -8,18 +9,19 @@ namespace pointplane
 void PairBuilder::build(
     const std::vector<Association>& associations,
     const FrameVelocities& velocities,
+    const ShutterCalibrator& shutter,
     std::vector<PointPair>& points,
     std::vector<PlanePair>& planes) const
 {
     points.clear();
     planes.clear();
-    const ShutterCorrection current(current_.shutter, imageHeight_);
+    const ShutterCorrection current(shutter.complete(current_.shutter), imageHeight_);
     for (const Association& association : associations)
     {
         const Reference& reference = *association.reference;
         const bool isPrevious = reference.id == previous_.id;
         const Vector6d& velocity = isPrevious ? velocities.previous : reference.velocity;
-        const ShutterCorrection past(reference.shutter, imageHeight_);
+        const ShutterCorrection past(shutter.complete(reference.shutter), imageHeight_);
         const Eigen::Isometry3d T_base_ref =
             previous_.T_world_cam.inverse() * reference.T_world_cam;
         for (const PlaneMatch& match : association.planes)

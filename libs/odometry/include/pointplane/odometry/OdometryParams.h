@@ -5,6 +5,7 @@
 #include <pointplane/odometry/MotionModel.h>
 #include <pointplane/odometry/PointStage.h>
 #include <pointplane/odometry/Reference.h>
+#include <pointplane/odometry/ShutterCalibrator.h>
 #include <pointplane/planes/PlaneExtractor.h>
 #include <pointplane/planes/PlaneMatcher.h>
 #include <pointplane/pose/PoseSolver.h>
@@ -14,24 +15,6 @@
 
 namespace pointplane
 {
-/** Fallback for what a source does not know of its shutter (sensor/RgbdFrame.h). */
-struct ShutterParams
-{
-    double readoutColour{0};
-    double readoutDepth{0};
-    double depthDelay{0};
-
-    template <class V>
-    void visit(V&& v)
-    {
-        v("readoutColour", readoutColour, "s", "first to last row of the colour image, if unknown");
-        v("readoutDepth", readoutDepth, "s", "first to last row of the depth image, if unknown");
-        v("depthDelay", depthDelay, "s", "depth exposure after colour's, if unknown");
-    }
-    /** \throws std::invalid_argument naming the key */
-    void check() const;
-};
-
 /** The pipeline's own switches. */
 struct PipelineParams
 {
@@ -71,7 +54,7 @@ struct OdometryParams
 {
     PipelineParams pipeline;
     DepthNoise depthNoise;
-    ShutterParams shutter;
+    ShutterCalibrator::TParams shutter;
     PointStage::TParams points;
     PointTracker::TParams pointTracker;
     PointDetector::TParams pointDetector;

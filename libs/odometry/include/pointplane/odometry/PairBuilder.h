@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pointplane/odometry/OdometryParams.h>
 #include <pointplane/odometry/Reference.h>
+#include <pointplane/planes/PlaneMatcher.h>
+#include <pointplane/pose/pairs.h>
 #include <pointplane/sensor/RgbdFrame.h>
 
 #include <vector>
 
 namespace pointplane
 {
+class ShutterCalibrator;
+
 /** What one reference and the current frame have in common. */
 struct Association
 {
@@ -37,6 +40,7 @@ class PairBuilder
     void build(
         const std::vector<Association>& associations,
         const FrameVelocities& velocities,
+        const ShutterCalibrator& shutter,
         std::vector<PointPair>& points,
         std::vector<PlanePair>& planes) const;
 

@@ -19,7 +19,7 @@ struct Reference
     double stamp{0};  //!< [s]
     Eigen::Isometry3d T_world_cam{Eigen::Isometry3d::Identity()};
     Vector6d velocity{Vector6d::Zero()};  //!< body velocity at stamp [m/s, rad/s]
-    ShutterModel shutter;
+    ShutterModel shutter;                 //!< as far as the source knows it
     PlaneSet planes;
     PointReference points;  //!< empty for a frame that is not a key frame
 };

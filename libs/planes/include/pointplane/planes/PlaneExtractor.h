@@ -27,7 +27,7 @@ class PlaneExtractor
         bool mergeCoplanarPlanes{true};
         bool ransac{false};
         std::string fitWeights{"inverseDepth"};
-        double correlatedPixels{1.0};
+        double correlatedPixels{100.0};
 
         template <class V>
         void visit(V&& v)

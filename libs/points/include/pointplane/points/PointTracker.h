@@ -42,7 +42,7 @@ class PointTracker
         double cornerQuality{0.001};
         int windowPx{15};
         int numLevels{4};
-        double searchRadiusFraction{0.04};
+        double searchRadiusFraction{0.02};
         double minZncc{0.8};
         double sigmaPx{0.2};
         double depthVarianceFactor{3.0};

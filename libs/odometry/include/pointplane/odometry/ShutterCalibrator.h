@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pointplane/core/Parameters.h>
+#include <pointplane/odometry/PairBuilder.h>
+#include <pointplane/sensor/RgbdFrame.h>
+
+#include <vector>
+
+namespace pointplane
+{
+/** The shutter of a camera that nobody has calibrated, from its own motion.
+ *
+ * Residuals that remain at the estimated pose depend on the readout times and on the delay of the
+ * depth image through the velocity, which differs between frames. Their information on the shutter,
+ * with the pose eliminated (Schur complement), is summed over frames. */
+class ShutterCalibrator
+{
+ public:
+    struct TParams
+    {
+        double readoutColour{0};
+        double readoutDepth{0};
+        double depthDelay{0};
+        bool selfCalibrate{true};
+        double sigmaPrior{0.01};
+        double informationGain{0.1};
+
+        template <class V>
+        void visit(V&& v)
+        {
+            v("readoutColour",
+              readoutColour,
+              "s",
+              "first to last row of the colour image, where the source does not say");
+            v("readoutDepth", readoutDepth, "s", "first to last row of the depth image, likewise");
+            v("depthDelay",
+              depthDelay,
+              "s",
+              "depth exposure after colour's, in addition to what the source's time stamps say");
+            v("selfCalibrate",
+              selfCalibrate,
+              "-",
+              "refine what the source does not say from the camera's own motion");
+            v("sigmaPrior",
+              sigmaPrior,
+              "s",
+              "trust in the three values above when self-calibrating");
+            v("informationGain",
+              informationGain,
+              "-",
+              "weight of a frame's information: its residuals are correlated");
+        }
+        /** \throws std::invalid_argument naming the key */
+        void check() const;
+    };
+
+    explicit ShutterCalibrator(const TParams& params);
+
+    /** The source's values, completed by the present estimate; to its delay, which comes from time
+     * stamps, the estimate is added. */
+    [[nodiscard]] ShutterModel complete(const ShutterModel& source) const;
+
+    /** Takes in the residuals of a measured frame. */
+    void update(
+        const PairBuilder& builder,
+        const std::vector<Association>& associations,
+        const FrameVelocities& velocities,
+        const Eigen::Isometry3d& T_base_cur);
+
+    /** readoutColour, readoutDepth, depthDelay [s]. */
+    [[nodiscard]] const Eigen::Vector3d& estimate() const { return estimate_; }
+
+ private:
+    TParams params_;
+    Eigen::Vector3d estimate_;
+    Eigen::Matrix3d information_;
+    Eigen::Vector3d informationVector_;
+};
+}  // namespace pointplane

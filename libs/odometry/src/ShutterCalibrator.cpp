@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/check.h>
+#include <pointplane/odometry/ShutterCalibrator.h>
+#include <pointplane/pose/residuals.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pointplane
+{
+namespace
+{
+constexpr double kStep = 1e-3;     //!< of the numeric derivative [s]
+constexpr double kMaxTime = 0.05;  //!< no camera is slower [s]
+constexpr double kStudentDof = 3;  //!< residuals have outliers
+
+using Matrix63d = Eigen::Matrix<double, 6, 3>;
+
+/** Normal equations of pose and shutter. */
+struct JointNormal
+{
+    Matrix6d Hxx{Matrix6d::Identity() * 1e-3};
+    Matrix63d Hxs{Matrix63d::Zero()};
+    Eigen::Matrix3d Hss{Eigen::Matrix3d::Zero()};
+    Vector6d gx{Vector6d::Zero()};
+    Eigen::Vector3d gs{Eigen::Vector3d::Zero()};
+
+    void add(const Residual& residual, const Eigen::Matrix3d& Js)
+    {
+        const Eigen::Matrix3d cov_inverse = residual.cov.inverse();
+        const double norm2 = residual.r.dot(cov_inverse * residual.r);
+        const Eigen::Matrix3d W = (kStudentDof + 3) / (kStudentDof + norm2) * cov_inverse;
+        Hxx += residual.J.transpose() * W * residual.J;
+        Hxs += residual.J.transpose() * W * Js;
+        Hss += Js.transpose() * W * Js;
+        gx += residual.J.transpose() * W * residual.r;
+        gs += Js.transpose() * W * residual.r;
+    }
+};
+}  // namespace
+
+void ShutterCalibrator::TParams::check() const
+{
+    POINTPLANE_CHECK(
+        std::abs(readoutColour) <= kMaxTime,
+        "readoutColour = " << readoutColour << " is not within " << kMaxTime << " s");
+    POINTPLANE_CHECK(
+        std::abs(readoutDepth) <= kMaxTime,
+        "readoutDepth = " << readoutDepth << " is not within " << kMaxTime << " s");
+    POINTPLANE_CHECK(
+        std::abs(depthDelay) <= kMaxTime,
+        "depthDelay = " << depthDelay << " is not within " << kMaxTime << " s");
+    POINTPLANE_CHECK(sigmaPrior > 0, "sigmaPrior = " << sigmaPrior << " is not positive");
+    POINTPLANE_CHECK(
+        informationGain > 0 && informationGain <= 1,
+        "informationGain = " << informationGain << " is not in (0, 1]");
+}
+
+ShutterCalibrator::ShutterCalibrator(const TParams& params)
+    : params_(params), estimate_(params.readoutColour, params.readoutDepth, params.depthDelay)
+{
+    params_.check();
+    information_ = Eigen::Matrix3d::Identity() / (params_.sigmaPrior * params_.sigmaPrior);
+    informationVector_ = information_ * estimate_;
+}
+
+ShutterModel ShutterCalibrator::complete(const ShutterModel& source) const
+{
+    const auto known = [](double a, double b) { return std::isfinite(a) ? a : b; };
+    return {
+        known(source.readoutColour, estimate_[0]),
+        known(source.readoutDepth, estimate_[1]),
+        // Time stamps tell when an image arrived, not when it was exposed: always refined.
+        (std::isfinite(source.depthDelay) ? source.depthDelay : 0) + estimate_[2]};
+}
+
+void ShutterCalibrator::update(
+    const PairBuilder& builder,
+    const std::vector<Association>& associations,
+    const FrameVelocities& velocities,
+    const Eigen::Isometry3d& T_base_cur)
+{
+    if (!params_.selfCalibrate)
+    {
+        return;
+    }
+    // Residuals now, and with each of the three values a little larger. Readout times that the
+    // source tells do not change with the estimate, and so take no part.
+    std::vector<PointPair> points[4];
+    std::vector<PlanePair> planes[4];
+    for (int k = 0; k < 4; ++k)
+    {
+        ShutterCalibrator shifted = *this;
+        if (k > 0)
+        {
+            shifted.estimate_[k - 1] += kStep;
+        }
+        builder.build(associations, velocities, shifted, points[k], planes[k]);
+    }
+    JointNormal normal;
+    Eigen::Matrix3d Js;
+    for (size_t i = 0; i < points[0].size(); ++i)
+    {
+        const Residual residual = pointResidual(points[0][i], T_base_cur);
+        for (int k = 0; k < 3; ++k)
+        {
+            Js.col(k) = (pointResidual(points[k + 1][i], T_base_cur).r - residual.r) / kStep;
+        }
+        normal.add(residual, Js);
+    }
+    for (size_t i = 0; i < planes[0].size(); ++i)
+    {
+        const Residual residual = planeResidualMinimal(planes[0][i], T_base_cur);
+        for (int k = 0; k < 3; ++k)
+        {
+            Js.col(k) = (planeResidualMinimal(planes[k + 1][i], T_base_cur).r - residual.r) / kStep;
+        }
+        normal.add(residual, Js);
+    }
+    const Matrix63d eliminated = normal.Hxx.ldlt().solve(normal.Hxs);
+    const Eigen::Matrix3d information =
+        params_.informationGain * (normal.Hss - normal.Hxs.transpose() * eliminated);
+    const Eigen::Vector3d gradient =
+        params_.informationGain * (normal.gs - eliminated.transpose() * normal.gx);
+    information_ += information;
+    informationVector_ += information * estimate_ - gradient;
+    estimate_ =
+        information_.ldlt().solve(informationVector_).cwiseMax(-kMaxTime).cwiseMin(kMaxTime);
+}
+}  // namespace pointplane
