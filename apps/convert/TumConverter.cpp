@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <optional>
 #include <vector>
 
@@ -196,11 +197,14 @@ class ScanBuilder
         return "";
     }
     const std::string to = stem(options.output) + ".groundtruth.txt";
-    std::error_code error;
-    fs::copy_file(from, to, fs::copy_options::overwrite_existing, error);
-    if (error)
+    // Not copy_file: it would copy a write protection, too.
+    std::ifstream in(from, std::ios::binary);
+    std::ofstream out(to, std::ios::binary);
+    out << in.rdbuf();
+    out.close();
+    if (!in || !out)
     {
-        throw EnvironmentError("cannot write " + to + ": " + error.message());
+        throw EnvironmentError("cannot copy " + from + " to " + to);
     }
     return to;
 }

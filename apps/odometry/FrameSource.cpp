@@ -2,6 +2,7 @@
 #include "FrameSource.h"
 
 #include <pointplane/mrpt_io/errors.h>
+#include <pointplane/mrpt_io/external_range.h>
 
 #include <mrpt/obs/CSensoryFrame.h>
 
@@ -76,6 +77,7 @@ SourceItem FrameSource::item(const mrpt::obs::CObservation::Ptr& observation)
     {
         return out;
     }
+    makeExternalsAbsolute(*scan, reader_->externalsDirectory());
     labelsSeen_.insert(scan->sensorLabel);
     if (label_.empty() && numFrames_ == 0)
     {

@@ -32,6 +32,20 @@ void addOptions(CLI::App& app, OdometryOptions& o, bool& dumpConfig)
     app.add_flag(
            "--format1", o.format1, "Actions (CActionRobotMovement3D) and sensory frames in it")
         ->group("Output");
+    app.add_flag("--with-points", o.withPoints, "Point clouds in its scans (rbpf-slam, maps)")
+        ->group("Output");
+    app.add_option("--simplemap", o.simplemap, "Key frames with pose PDFs, for observations2map")
+        ->group("Output");
+    app.add_option("--keyframe-distance", o.keyframeDistance, "Between those key frames [m]")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str()
+        ->group("Output");
+    app.add_option("--keyframe-angle", o.keyframeAngleDeg, "Or this rotation [deg]")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str()
+        ->group("Output");
+    app.add_option("--graph", o.graph, "Pose graph with information matrices, for graph-slam")
+        ->group("Output");
     app.add_option("--trajectory", o.trajectory, "Poses as TUM text")->group("Output");
     app.add_option("--trajectory-frame", o.trajectoryFrame, "Whose: optical (camera) or robot")
         ->check(CLI::IsMember({"optical", "robot"}))

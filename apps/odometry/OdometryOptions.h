@@ -23,6 +23,11 @@ struct OdometryOptions
     std::string overlay;  //!< folder
     bool onlyPoses{false};
     bool format1{false};
+    bool withPoints{false};  //!< point clouds in the rawlog's scans
+    std::string simplemap;
+    double keyframeDistance{0.2};   //!< between key frames of the simplemap [m]
+    double keyframeAngleDeg{10.0};  //!< or rotation [deg]
+    std::string graph;
 
     std::size_t first{0};  //!< frames left out at the start
     std::size_t count{std::numeric_limits<std::size_t>::max()};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OdometryRun.h"
 
+#include <pointplane/core/BoundedQueue.h>
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/odometry/Odometry.h>
 
@@ -15,10 +16,10 @@
 #include <utility>
 #include <vector>
 
-#include "BoundedQueue.h"
 #include "FrameSource.h"
 #include "ProgressBar.h"
 #include "RawlogSink.h"
+#include "map_sinks.h"
 #include "overlay.h"
 #include "text_sinks.h"
 
@@ -34,6 +35,15 @@ using Sinks = std::vector<std::unique_ptr<Sink>>;
     if (!options.output.empty())
     {
         sinks.push_back(std::make_unique<RawlogSink>(options));
+    }
+    if (!options.simplemap.empty())
+    {
+        sinks.push_back(std::make_unique<SimplemapSink>(
+            options.simplemap, options.keyframeDistance, options.keyframeAngleDeg));
+    }
+    if (!options.graph.empty())
+    {
+        sinks.push_back(std::make_unique<GraphSink>(options.graph));
     }
     if (!options.trajectory.empty())
     {

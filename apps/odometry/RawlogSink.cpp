@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RawlogSink.h"
 
+#include <pointplane/mrpt_io/SimplemapWriter.h>
+
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CActionRobotMovement3D.h>
 #include <mrpt/obs/CObservationComment.h>
@@ -39,7 +41,10 @@ namespace
 }  // namespace
 
 RawlogSink::RawlogSink(const OdometryOptions& options)
-    : writer_(options.output), format1_(options.format1), onlyPoses_(options.onlyPoses)
+    : writer_(options.output),
+      format1_(options.format1),
+      onlyPoses_(options.onlyPoses),
+      withPoints_(options.withPoints)
 {
 }
 
@@ -55,11 +60,21 @@ void RawlogSink::add(const OutputItem& item)
     }
 }
 
+mrpt::obs::CObservation::Ptr RawlogSink::observationOf(const OutputItem& item) const
+{
+    if (withPoints_ && item.frame && item.source.converted->problem.empty())
+    {
+        return withPoints(
+            dynamic_cast<const mrpt::obs::CObservation3DRangeScan&>(*item.source.observation));
+    }
+    return item.source.observation;
+}
+
 void RawlogSink::addFormat2(const OutputItem& item)
 {
     if (!onlyPoses_)
     {
-        writer_.write(*item.source.observation);
+        writer_.write(*observationOf(item));
     }
     if (item.frame)
     {
@@ -88,7 +103,7 @@ void RawlogSink::addFormat1(const OutputItem& item)
     mrpt::obs::CSensoryFrame frame;
     if (!onlyPoses_)
     {
-        frame.insert(item.source.observation);
+        frame.insert(observationOf(item));
     }
     frame.insert(poseObservation(item));
     if (!isTracked(item.frame->motion))

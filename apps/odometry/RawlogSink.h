@@ -25,11 +25,13 @@ class RawlogSink : public Sink
     [[nodiscard]] std::string description() const override;
 
  private:
+    [[nodiscard]] mrpt::obs::CObservation::Ptr observationOf(const OutputItem& item) const;
     void addFormat1(const OutputItem& item);
     void addFormat2(const OutputItem& item);
 
     RawlogWriter writer_;
     bool format1_;
     bool onlyPoses_;
+    bool withPoints_;
 };
 }  // namespace pointplane

@@ -78,6 +78,45 @@ void moveRangeToFile(
     }
 }
 
+void makeExternalsAbsolute(mrpt::obs::CObservation3DRangeScan& scan, const std::string& directory)
+{
+    /** MRPT has no setter for the names of external ranges and points. */
+    struct Access : mrpt::obs::CObservation3DRangeScan
+    {
+        static std::string CObservation3DRangeScan::*rangeFile()
+        {
+            return &Access::m_rangeImage_external_file;
+        }
+        static std::string CObservation3DRangeScan::*pointsFile()
+        {
+            return &Access::m_points3D_external_file;
+        }
+    };
+    const auto absolute = [&directory](const std::string& name)
+    {
+        return name.empty() || name.front() == '/'
+                   ? name
+                   : std::filesystem::absolute(std::filesystem::path(directory) / name)
+                         .lexically_normal()
+                         .string();
+    };
+    if (scan.rangeImage_isExternallyStored())
+    {
+        scan.*Access::rangeFile() = absolute(scan.*Access::rangeFile());
+    }
+    if (scan.points3D_isExternallyStored())
+    {
+        scan.*Access::pointsFile() = absolute(scan.*Access::pointsFile());
+    }
+    for (auto* image : {&scan.intensityImage, &scan.confidenceImage})
+    {
+        if (image->isExternallyStored())
+        {
+            image->setExternalStorage(absolute(image->getExternalStorageFile()));
+        }
+    }
+}
+
 cv::Mat readExternalImage(const std::string& path)
 {
     std::error_code error;

@@ -22,4 +22,8 @@ void moveRangeToFile(
     mrpt::obs::CObservation3DRangeScan& scan,
     const std::string& directory,
     const std::string& name);
+
+/** Makes the names of external files absolute, so that the observation can move to a rawlog in
+ * another folder. \param directory where relative names are */
+void makeExternalsAbsolute(mrpt::obs::CObservation3DRangeScan& scan, const std::string& directory);
 }  // namespace pointplane

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/mrpt_io/SimplemapWriter.h>
+#include <pointplane/mrpt_io/errors.h>
+#include <pointplane/mrpt_io/external_range.h>
+
+#include <mrpt/io/CMemoryStream.h>
+#include <mrpt/obs/CSensoryFrame.h>
+#include <mrpt/obs/T3DPointsProjectionParams.h>
+#include <mrpt/serialization/CArchive.h>
+
+#include <cerrno>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <utility>
+#include <vector>
+
+#include "GzOutput.h"
+
+namespace pointplane
+{
+struct SimplemapWriter::Impl
+{
+    explicit Impl(const std::string& thePath)
+        : path(thePath), file(std::make_unique<GzOutput>(thePath + ".partial", 1))
+    {
+    }
+    std::string path;
+    std::unique_ptr<GzOutput> file;
+    std::vector<std::pair<mrpt::poses::CPose3DPDFGaussian, mrpt::obs::CObservation3DRangeScan::Ptr>>
+        keyframes;
+};
+
+mrpt::obs::CObservation3DRangeScan::Ptr withPoints(const mrpt::obs::CObservation3DRangeScan& scan)
+{
+    auto out = mrpt::obs::CObservation3DRangeScan::Create(scan);
+    if (out->rangeImage_isExternallyStored() && out->rangeImage.size() == 0)
+    {
+        const auto readings = readExternalRange(out->rangeImage_getExternalStorageFile(""));
+        out->rangeImage_forceResetExternalStorage();
+        out->rangeImage = readings;
+    }
+    try
+    {
+        mrpt::obs::T3DPointsProjectionParams params;
+        params.takeIntoAccountSensorPoseOnRobot = false;
+        out->unprojectInto(*out, params);
+    }
+    catch (const std::exception& e)
+    {
+        throw InputError("cannot compute a point cloud: " + oneLine(e));
+    }
+    return out;
+}
+
+SimplemapWriter::SimplemapWriter(const std::string& path) : impl_(std::make_unique<Impl>(path)) {}
+SimplemapWriter::~SimplemapWriter() = default;
+
+void SimplemapWriter::add(
+    const mrpt::poses::CPose3DPDFGaussian& pose,
+    const mrpt::obs::CObservation3DRangeScan::Ptr& scan)
+{
+    impl_->keyframes.emplace_back(pose, scan);
+}
+
+std::size_t SimplemapWriter::size() const { return impl_->keyframes.size(); }
+
+void SimplemapWriter::close()
+{
+    // The layout of a serialised object: class name, version, contents, end mark.
+    mrpt::io::CMemoryStream head;
+    auto archive = mrpt::serialization::archiveFrom(head);
+    const std::string name = "mrpt::maps::CSimpleMap";
+    archive << static_cast<std::uint8_t>(name.size() | 0x80U);
+    archive.WriteBuffer(name.data(), name.size());
+    archive << std::uint8_t{1} << static_cast<std::uint32_t>(impl_->keyframes.size());
+    GzOutput& file = *impl_->file;
+    const auto put = [&file](const mrpt::io::CMemoryStream& bytes)
+    { file.write(bytes.getRawBufferData(), static_cast<std::size_t>(bytes.getTotalBytesCount())); };
+    put(head);
+    for (const auto& [pose, scan] : impl_->keyframes)
+    {
+        mrpt::obs::CSensoryFrame frame;
+        frame.insert(withPoints(*scan));
+        mrpt::io::CMemoryStream body;
+        auto bodyArchive = mrpt::serialization::archiveFrom(body);
+        bodyArchive << pose << frame;
+        put(body);
+    }
+    constexpr std::uint8_t kEndMark = 0x88;
+    file.write(&kEndMark, 1);
+    file.finish();
+    if (std::rename((impl_->path + ".partial").c_str(), impl_->path.c_str()) != 0)
+    {
+        throw EnvironmentError("cannot rename to " + impl_->path + ": " + std::strerror(errno));
+    }
+}
+}  // namespace pointplane
