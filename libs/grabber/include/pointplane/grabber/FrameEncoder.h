@@ -14,7 +14,7 @@ namespace pointplane
 enum class ImageStorage
 {
     Embedded,  //!< in the rawlog
-    External   //!< PNG or JPEG and .bin files in <name>_Images, as `rawlog-edit --externalize` does
+    External   //!< PNG or JPEG and .bin files in NAME_Images, as `rawlog-edit --externalize` does
 };
 
 struct EncodingOptions

@@ -54,7 +54,7 @@ class RawlogReader
     [[nodiscard]] double progress() const;         //!< fraction of the file consumed, 0 to 1
     [[nodiscard]] const std::string& path() const;
 
-    /** Folder of external images and ranges by MRPT's rule: <name>_Images and variants, else
+    /** Folder of external images and ranges by MRPT's rule: NAME_Images and variants, else
      * Images, beside the rawlog. */
     [[nodiscard]] const std::string& externalsDirectory() const;
 

@@ -1,0 +1,43 @@
+#!/usr/bin/env bash
+# What README.md and docs/*.md name exists: links, programs, subcommands and their options.
+# Run in the root of the sources. Argument: the folder with the built programs.
+set -u
+bin=$1
+failed=0
+problem() {
+    echo "$*"
+    failed=1
+}
+
+for command in demo test; do
+    [[ -x $command ]] || problem "./$command is not executable"
+    grep -qF "./$command" README.md || problem "README.md does not name ./$command"
+done
+
+for page in README.md CONTRIBUTING.md docs/*.md; do
+    while read -r link; do
+        [[ -e $(dirname "$page")/$link ]] || problem "$page: link to $link, which is not there"
+    done < <(grep -oE '\]\([^)#]+' "$page" | cut -c3- | grep -vE '^[a-z]+:')
+
+    # Commands are what stands between backquotes or on indented lines.
+    while read -r line; do
+        read -ra words <<<"$line"
+        program=$bin/$(basename "${words[0]}")
+        if [[ ! -x $program ]]; then
+            problem "$page: $(basename "$program") is not built"
+            continue
+        fi
+        help=$("$program" --help)
+        if ((${#words[@]} > 1)) && grep -qE "^  ${words[1]}( |$)" <<<"$help"; then
+            help+=$("$program" "${words[1]}" --help)
+        fi
+        for word in "${words[@]:1}"; do
+            option=${word%%=*}
+            [[ $option =~ ^--?[a-zA-Z] ]] || continue
+            grep -qE "(^|[ ,!])$option([ ,=]|$)" <<<"$help" ||
+                problem "$page: $(basename "$program") has no option $option: $line"
+        done
+    done < <({ grep -oE '`[^`]+`' "$page" | tr -d '`'; grep -E '^    ' "$page" | sed 's/ #.*//'; } |
+        grep -oE '(^| |/)pointplane-[a-z]+.*' | sed 's/^[ /]*//')
+done
+exit $failed
