@@ -31,6 +31,10 @@ CaptureEnd Capture::run(const std::atomic<bool>& stop)
     try
     {
         camera_.start();
+        if (!options_.oniPath.empty())
+        {
+            camera_.recordTo(options_.oniPath);
+        }
         end = capture(stop);
     }
     catch (const std::exception& e)

@@ -55,6 +55,27 @@ void requireKeys(
     }
 }
 
+/** MRPT ignores `dist` in files from before it had `distortion_model`: those mean plumb bob. */
+void readOldDistortion(
+    const mrpt::config::CConfigFile& file,
+    const std::string& path,
+    const std::string& section,
+    mrpt::img::TCamera& camera)
+{
+    if (file.keyExists(section, "distortion_model"))
+    {
+        return;
+    }
+    std::vector<double> dist;
+    file.read_vector(section, "dist", std::vector<double>(), dist);
+    if (dist.size() != 4 && dist.size() != 5)
+    {
+        throw InputError(path + ": section [" + section + "]: dist must be [k1 k2 p1 p2 k3]");
+    }
+    dist.resize(5, 0.0);
+    camera.setDistortionPlumbBob(dist[0], dist[1], dist[2], dist[3], dist[4]);
+}
+
 /** Checks a camera and brings it to the resolution in use. */
 void fitToMode(
     mrpt::img::TCamera& camera, const VideoMode& mode, const std::string& where)
@@ -131,6 +152,8 @@ RgbdCalibration calibrationFromIni(
     {
         throw InputError(path + ": calibration [" + section + "_...]: " + oneLine(e));
     }
+    readOldDistortion(file, path, section + "_LEFT", stereo.leftCamera);
+    readOldDistortion(file, path, section + "_RIGHT", stereo.rightCamera);
     fitToMode(stereo.leftCamera, facts.mode, path + ": section [" + section + "_LEFT]");
     fitToMode(stereo.rightCamera, facts.mode, path + ": section [" + section + "_RIGHT]");
 

@@ -24,6 +24,7 @@ struct CaptureOptions
     double stallTimeout{10.0};     //!< [s] without an image of a stream until the camera is given up
     bool lockExposure{false};      //!< after the warm-up
     bool lockWhiteBalance{false};  //!< likewise
+    std::string oniPath;           //!< of an .oni recording besides; empty = none
 };
 
 enum class CaptureEnd

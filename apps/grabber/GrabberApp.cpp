@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "GrabberApp.h"
+
+#include <pointplane/mrpt_io/errors.h>
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <ostream>
+
+#include "GrabberOptions.h"
+#include "GrabberRun.h"
+#include "device_list.h"
+
+namespace pointplane
+{
+bool GrabberOptions::recordsOni() const
+{
+    return std::filesystem::path(output).extension() == ".oni";
+}
+
+bool GrabberOptions::recordsRawlog() const { return !output.empty() && !recordsOni(); }
+
+namespace
+{
+/** As the command line has them, before they are understood. */
+struct Words
+{
+    std::string mode{"640x480@30"};
+    std::string registration{"auto"};
+    std::string images{"embedded"};
+    double splitMinutes{0};
+    bool list{false};
+};
+
+void addCameraOptions(CLI::App& app, GrabberOptions& o, Words& words)
+{
+    const std::string group = "Camera";
+    app.add_option("--driver", o.driver, "auto, openni2 or freenect")->group(group);
+    app.add_option("-d,--device", o.device, "URI, serial number, index in --list, or an .oni file")
+        ->group(group);
+    app.add_option("--mode", words.mode, "Size and rate of both images")->group(group);
+    app.add_option(
+           "--registration", words.registration, "Depth to colour in the camera: auto, on or off")
+        ->check(CLI::IsMember({"auto", "on", "off"}))
+        ->group(group);
+    app.add_flag("!--no-sync", o.camera.frameSync, "Do not synchronise depth and colour")
+        ->group(group);
+    app.add_flag("--depth-only", o.camera.depthOnly, "Without colour")->group(group);
+    app.add_flag("--lock-exposure", o.capture.lockExposure, "Keep exposure after the warm-up")
+        ->group(group);
+    app.add_flag(
+           "--lock-white-balance", o.capture.lockWhiteBalance, "Keep colours after the warm-up")
+        ->group(group);
+    app.add_flag(
+           "--wait{1e9}", o.waitSeconds, "Wait for a camera to appear (--wait=S: at most S seconds)")
+        ->group(group);
+    app.add_option("--timeout", o.capture.stallTimeout, "Give up a silent camera after [s]")
+        ->check(CLI::PositiveNumber)
+        ->group(group);
+    app.add_option("--calibration", o.calibration, "rawlog-grabber ini file of the camera")
+        ->group(group);
+    app.add_option("--section", o.section, "Its section: S_LEFT, S_RIGHT, S_LEFT2RIGHT_POSE")
+        ->group(group);
+    app.add_option("--label", o.label, "Sensor label (default: the ini file's, or OPENNI2)")
+        ->group(group);
+}
+
+void addRecordingOptions(CLI::App& app, GrabberOptions& o, Words& words)
+{
+    const std::string group = "Recording";
+    app.add_option("-o,--output", o.output, "Rawlog (or .oni file) to write; never overwritten")
+        ->group(group);
+    app.add_option("--duration", o.capture.duration, "Stop after so many seconds")
+        ->check(CLI::PositiveNumber)
+        ->group(group);
+    app.add_option("--frames", o.capture.maxFrames, "Stop after so many frames")
+        ->check(CLI::PositiveNumber)
+        ->group(group);
+    app.add_option("--warm-up", o.capture.warmUp, "Seconds before recording begins")
+        ->check(CLI::Range(0.2, 60.0))
+        ->group(group);
+    app.add_option(
+           "--max-skew", o.capture.maxSkew, "Colour to depth in a pair [s] (default: half a frame)")
+        ->check(CLI::PositiveNumber)
+        ->group(group);
+    app.add_option("--split-minutes", words.splitMinutes, "Begin a new file every so many minutes")
+        ->check(CLI::PositiveNumber)
+        ->group(group);
+    app.add_option("--images", words.images, "embedded, or external: files beside the rawlog")
+        ->check(CLI::IsMember({"embedded", "external"}))
+        ->group(group);
+    app.add_option(
+           "--compression",
+           o.recording.encoding.compression,
+           "0 none, 1 fast ... 9 small; lossless")
+        ->check(CLI::Range(0, 9))
+        ->group(group);
+    app.add_option(
+           "--jpeg", o.recording.encoding.jpegQuality, "Colour as JPEG of this quality (lossy)")
+        ->check(CLI::Range(1, 100))
+        ->group(group);
+    app.add_option("--queue", o.recording.queueFrames, "Frames that may wait for the disk")
+        ->check(CLI::Range(2, 100000))
+        ->group(group);
+    app.add_option("--threads", o.recording.numThreads, "That compress")
+        ->check(CLI::Range(1, 64))
+        ->group(group);
+    app.add_option("--min-free-mb", o.minFreeMb, "Stop when the disk has less left")
+        ->check(CLI::NonNegativeNumber)
+        ->group(group);
+}
+
+void addOtherOptions(CLI::App& app, GrabberOptions& o, Words& words)
+{
+    app.add_flag("--list", words.list, "Show cameras, their modes and abilities")->group("Show");
+    app.add_option("--preview", o.preview, "PNG picture, renewed every second")->group("Show");
+    app.add_flag("--quiet", o.quiet, "No status line")->group("Show");
+    app.add_flag("--live", o.live, "Odometry on the stream: a line per frame on standard output")
+        ->group("Live odometry");
+    app.add_option("--live-config", o.liveOdometry.config, "Its config.ini")->group("Live odometry");
+    app.add_option("--live-output", o.liveOdometry.poseRawlog, "Rawlog with its pose PDFs")
+        ->group("Live odometry");
+}
+
+VideoMode parseMode(const std::string& text)
+{
+    VideoMode mode;
+    int used = 0;
+    const int fields =
+        std::sscanf(text.c_str(), "%dx%d@%d%n", &mode.width, &mode.height, &mode.fps, &used);
+    if (fields != 3 || static_cast<std::size_t>(used) != text.size() || mode.width <= 0 ||
+        mode.height <= 0 || mode.fps <= 0)
+    {
+        throw InputError("--mode '" + text + "' is not of the form 640x480@30");
+    }
+    return mode;
+}
+
+void understand(const Words& words, GrabberOptions& o)
+{
+    const std::map<std::string, RegistrationChoice> registrations{
+        {"auto", RegistrationChoice::Auto},
+        {"on", RegistrationChoice::On},
+        {"off", RegistrationChoice::Off}};
+    o.camera.mode = parseMode(words.mode);
+    o.camera.registration = registrations.at(words.registration);
+    o.recording.path = o.output;
+    o.recording.splitAfter = 60.0 * words.splitMinutes;
+    o.recording.encoding.storage =
+        words.images == "external" ? ImageStorage::External : ImageStorage::Embedded;
+    if (o.output.empty() && !o.live && o.preview.empty())
+    {
+        throw InputError("nothing to do: give -o FILE.rawlog, --live, --preview or --list");
+    }
+    if (!o.live && !(o.liveOdometry.config + o.liveOdometry.poseRawlog).empty())
+    {
+        throw InputError("--live-config and --live-output need --live");
+    }
+    const bool isRawlog = std::filesystem::path(o.output).extension() == ".rawlog";
+    if (!o.output.empty() && !isRawlog && !o.recordsOni())
+    {
+        throw InputError("-o '" + o.output + "' must end in .rawlog or .oni");
+    }
+}
+
+std::string versionText()
+{
+    std::string text = std::string(POINTPLANE_VERSION) + ", drivers:";
+    for (const auto& name : builtInDrivers())
+    {
+        text += " " + name;
+    }
+    return text;
+}
+}  // namespace
+
+int runGrabber(const std::vector<std::string>& args, std::ostream& out, std::ostream& err)
+{
+    CLI::App app{
+        "Records an RGB-D camera to an MRPT rawlog of CObservation3DRangeScan.",
+        "pointplane-grabber"};
+    app.set_version_flag("--version", versionText());
+    GrabberOptions options;
+    Words words;
+    addCameraOptions(app, options, words);
+    addRecordingOptions(app, options, words);
+    addOtherOptions(app, options, words);
+    try
+    {
+        app.parse(std::vector<std::string>(args.rbegin(), args.rend()));  // CLI11: last first
+        if (words.list)
+        {
+            return listCameras(makeCameraDrivers(options.driver), out, err);
+        }
+        understand(words, options);
+        return GrabberRun(options, out, err).run();
+    }
+    catch (const CLI::ParseError& e)
+    {
+        return app.exit(e, out, err) == 0 ? kExitOk : kExitBadInput;
+    }
+    catch (const EnvironmentError& e)
+    {
+        err << "pointplane-grabber: " << e.what() << "\n";
+        return kExitEnvironment;
+    }
+    catch (const std::exception& e)
+    {
+        err << "pointplane-grabber: " << oneLine(e) << "\n";
+        return kExitBadInput;
+    }
+}
+}  // namespace pointplane

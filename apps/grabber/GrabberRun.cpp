@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "GrabberRun.h"
+
+#include <pointplane/mrpt_io/errors.h>
+
+#include <chrono>
+#include <filesystem>
+#include <ostream>
+#include <thread>
+
+#include "ProgressBar.h"
+#include "StopSignals.h"
+
+namespace pointplane
+{
+namespace
+{
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+constexpr std::chrono::milliseconds kPoll{50};
+}  // namespace
+
+GrabberRun::GrabberRun(const GrabberOptions& options, std::ostream& out, std::ostream& err)
+    : options_(options), out_(out), err_(err)
+{
+}
+
+GrabberRun::~GrabberRun() = default;
+
+int GrabberRun::run()
+{
+    installStopSignals();
+    drivers_ = makeCameraDrivers(options_.driver);
+    if (!openCameraOrWait())
+    {
+        return kExitOk;
+    }
+    calibrate();
+    openOutputs();
+    const CaptureEnd end = captureWithStatus();
+    finishOutputs();
+    explain(end);
+    printSummary();
+    return exitCode_;
+}
+
+bool GrabberRun::openCameraOrWait()
+{
+    const auto deadline = Clock::now() + std::chrono::duration<double>(options_.waitSeconds);
+    bool announced = false;
+    while (!stopRequested())
+    {
+        try
+        {
+            camera_ = openCamera(drivers_, options_.device, options_.camera);
+            return true;
+        }
+        catch (const NoCameraError&)
+        {
+            if (Clock::now() >= deadline)
+            {
+                throw;
+            }
+        }
+        if (!announced)
+        {
+            err_ << "pointplane-grabber: waiting for a camera" << std::endl;
+            announced = true;
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    }
+    return false;
+}
+
+void GrabberRun::calibrate()
+{
+    auto calibration =
+        options_.calibration.empty()
+            ? nominalCalibration(camera_->facts())
+            : calibrationFromIni(options_.calibration, options_.section, camera_->facts());
+    if (!options_.label.empty())
+    {
+        calibration.sensorLabel = options_.label;
+    }
+    builder_ = std::make_unique<ObservationBuilder>(std::move(calibration));
+}
+
+void GrabberRun::openOutputs()
+{
+    if (options_.recordsOni())
+    {
+        if (fs::exists(options_.output))
+        {
+            throw InputError("'" + options_.output + "' exists already; recordings never overwrite");
+        }
+        options_.capture.oniPath = options_.output;
+    }
+    if (!options_.preview.empty())
+    {
+        preview_ = std::make_unique<Preview>(options_.preview);
+    }
+    if (options_.live)
+    {
+        options_.liveOdometry.waits = camera_->facts().isFile;
+        live_ = std::make_unique<LiveOdometry>(options_.liveOdometry, *builder_, out_);
+    }
+    if (options_.recordsRawlog())
+    {
+        writer_ = std::make_unique<RecordingWriter>(options_.recording, *builder_);
+    }
+}
+
+bool GrabberRun::consume(const ImagePair& pair)
+{
+    if (writer_)
+    {
+        const bool taken =
+            camera_->facts().isFile ? writer_->push(pair) : writer_->tryPush(pair);
+        if (!taken && writer_->hasFailed())
+        {
+            return false;
+        }
+        queueDrops_ += taken ? 0 : 1;
+    }
+    if (live_)
+    {
+        live_->add(pair);
+    }
+    if (preview_)
+    {
+        preview_->show(pair);
+    }
+    return true;
+}
+
+CaptureEnd GrabberRun::captureWithStatus()
+{
+    capture_ = std::make_unique<Capture>(
+        *camera_, options_.capture, [this](const ImagePair& pair) { return consume(pair); });
+    if (!options_.quiet)
+    {
+        err_ << "pointplane-grabber: " << describe(camera_->facts()) << std::endl;
+    }
+    // The terminal may be slow: the camera gets a thread of its own.
+    std::atomic<bool> done{false};
+    CaptureEnd end = CaptureEnd::Error;
+    std::thread thread([&] {
+        end = capture_->run(stop_);
+        done = true;
+    });
+    StatusLine status(err_, standardErrorIsTerminal());
+    while (!done)
+    {
+        std::this_thread::sleep_for(kPoll);
+        stop_ = stop_ || stopRequested() || (writer_ && writer_->hasFailed());
+        watchDisk();
+        if (!options_.quiet)
+        {
+            status.update(state());
+        }
+    }
+    thread.join();
+    status.end();
+    return end;
+}
+
+void GrabberRun::watchDisk()
+{
+    if (options_.output.empty())
+    {
+        return;
+    }
+    const auto folder = fs::absolute(options_.output).parent_path();
+    std::error_code error;
+    const auto space = fs::space(folder, error);
+    if (error)
+    {
+        return;
+    }
+    freeBytes_ = static_cast<double>(space.available);
+    if (freeBytes_ < 1e6 * options_.minFreeMb && !stop_)
+    {
+        stop_ = true;
+        fail("the disk of '" + options_.output + "' is nearly full: stopped (--min-free-mb)");
+    }
+}
+
+RunState GrabberRun::state() const
+{
+    RunState state;
+    state.capture = capture_->stats();
+    state.queueDrops = queueDrops_;
+    state.freeBytes = freeBytes_;
+    if (writer_)
+    {
+        state.isRecording = true;
+        state.recording = writer_->stats();
+        state.queueCapacity = options_.recording.queueFrames;
+        state.bytesPerSecond =
+            state.capture.recordedTime > 0.0
+                ? static_cast<double>(state.recording.bytesWritten) / state.capture.recordedTime
+                : 0.0;
+    }
+    return state;
+}
+
+void GrabberRun::finishOutputs()
+{
+    preview_.reset();
+    try
+    {
+        if (writer_)
+        {
+            writer_->finish();
+        }
+    }
+    catch (const std::exception& e)
+    {
+        fail(oneLine(e) + "; what was recorded before is complete");
+    }
+    try
+    {
+        if (live_)
+        {
+            live_->finish();
+        }
+    }
+    catch (const std::exception& e)
+    {
+        fail(oneLine(e));
+    }
+}
+
+void GrabberRun::explain(CaptureEnd end)
+{
+    const auto& uri = camera_->facts().device.uri;
+    switch (end)
+    {
+        case CaptureEnd::Stopped:
+        case CaptureEnd::EndOfFile:
+        case CaptureEnd::SinkFull: break;
+        case CaptureEnd::Unplugged:
+            fail("camera " + uri + " was unplugged; everything before is kept");
+            break;
+        case CaptureEnd::Stalled:
+        case CaptureEnd::Error: fail(capture_->problem()); break;
+    }
+    if (exitCode_ == kExitOk && capture_->stats().pairing.pairs == 0 && !stopRequested())
+    {
+        fail("camera " + uri + ": no depth image came with a colour image near enough in time");
+    }
+}
+
+void GrabberRun::fail(const std::string& problem)
+{
+    err_ << "pointplane-grabber: " << problem << std::endl;
+    exitCode_ = kExitEnvironment;
+}
+
+void GrabberRun::printSummary()
+{
+    RunSummary summary;
+    summary.state = state();
+    summary.camera = camera_->facts();
+    summary.calibration = builder_->calibration().source;
+    summary.notes = camera_->facts().notes;
+    for (const auto& note : capture_->notes())
+    {
+        summary.notes.push_back(note);
+    }
+    if (writer_)
+    {
+        summary.outputs = writer_->paths();
+    }
+    else if (options_.recordsOni())
+    {
+        summary.outputs = {options_.output};
+    }
+    if (live_)
+    {
+        summary.hasLive = true;
+        summary.live = live_->stats();
+        if (!summary.live.problem.empty())
+        {
+            summary.notes.push_back("live odometry's rawlog ended early: " + summary.live.problem);
+        }
+    }
+    print(summary, err_);
+}
+}  // namespace pointplane

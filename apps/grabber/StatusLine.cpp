@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "StatusLine.h"
+
+#include <mrpt/core/format.h>
+
+#include <algorithm>
+#include <ostream>
+
+#include "ProgressBar.h"
+
+namespace pointplane
+{
+namespace
+{
+constexpr double kMega = 1e6;
+}
+
+std::string statusText(const RunState& state)
+{
+    if (!state.capture.started)
+    {
+        return "waiting for the camera's streams to settle";
+    }
+    const auto& pairing = state.capture.pairing;
+    std::string text = mrpt::format(
+        "%s  %.1f fps  %llu frames  lost: camera %llu, unpaired %llu, queue %llu",
+        durationText(state.capture.recordedTime).c_str(),
+        state.capture.frameRate,
+        static_cast<unsigned long long>(pairing.pairs),
+        static_cast<unsigned long long>(pairing.droppedDepth + pairing.droppedColour),
+        static_cast<unsigned long long>(pairing.unpairedDepth + pairing.unpairedColour),
+        static_cast<unsigned long long>(state.queueDrops));
+    if (state.isRecording)
+    {
+        const double written = static_cast<double>(state.recording.bytesWritten);
+        text += mrpt::format(
+            "  queue %zu/%zu  %.0f MB  disk free %.0f MB",
+            state.recording.framesQueued,
+            state.queueCapacity,
+            written / kMega,
+            state.freeBytes / kMega);
+        if (state.bytesPerSecond > 0.0)
+        {
+            text += " (" + durationText(state.freeBytes / state.bytesPerSecond) + " left)";
+        }
+    }
+    return text;
+}
+
+StatusLine::StatusLine(std::ostream& out, bool isTerminal) : out_(out), isTerminal_(isTerminal) {}
+
+void StatusLine::update(const RunState& state)
+{
+    const auto now = Clock::now();
+    if (now - drawn_ < (isTerminal_ ? std::chrono::milliseconds(500) : std::chrono::seconds(10)))
+    {
+        return;
+    }
+    drawn_ = now;
+    std::string text = statusText(state);
+    if (!isTerminal_)
+    {
+        out_ << text << std::endl;
+        return;
+    }
+    const std::size_t previous = width_;
+    width_ = text.size();
+    text.resize(std::max(width_, previous), ' ');
+    out_ << "\r" << text << std::flush;
+}
+
+void StatusLine::end()
+{
+    if (width_ > 0)
+    {
+        out_ << std::endl;
+        width_ = 0;
+    }
+}
+}  // namespace pointplane

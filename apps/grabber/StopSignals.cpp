@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "StopSignals.h"
+
+#include <csignal>
+#include <initializer_list>
+
+namespace pointplane
+{
+namespace
+{
+volatile std::sig_atomic_t stopFlag = 0;
+
+void onSignal(int /*number*/) { stopFlag = 1; }
+}  // namespace
+
+void installStopSignals()
+{
+    stopFlag = 0;
+    struct sigaction action{};
+    action.sa_handler = onSignal;
+    action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
+    for (const int number : {SIGINT, SIGTERM, SIGHUP})
+    {
+        sigaction(number, &action, nullptr);
+    }
+    for (const int number : {SIGPIPE, SIGXFSZ})
+    {
+        std::signal(number, SIG_IGN);
+    }
+}
+
+bool stopRequested() { return stopFlag != 0; }
+}  // namespace pointplane

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+namespace pointplane
+{
+/** Makes Ctrl-C, SIGTERM and SIGHUP ask for a clean end; the second signal ends the process at once
+ * (what is on the disk stays readable). Closed pipes and full file systems become errors of the
+ * write instead of killing the process. */
+void installStopSignals();
+
+[[nodiscard]] bool stopRequested();
+}  // namespace pointplane

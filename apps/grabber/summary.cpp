@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "summary.h"
+
+#include <mrpt/core/format.h>
+
+#include <ostream>
+
+#include "ProgressBar.h"
+
+namespace pointplane
+{
+namespace
+{
+void printLosses(const RunState& state, std::ostream& out)
+{
+    const auto& p = state.capture.pairing;
+    out << "lost: " << p.droppedDepth << " depth and " << p.droppedColour
+        << " colour images by the camera, " << p.unpairedDepth << " depth and "
+        << p.unpairedColour << " colour images without a partner, " << state.queueDrops
+        << " pairs because the queue was full\n";
+    if (state.queueDrops > 0)
+    {
+        out << "  the disk or the processor is too slow: a lower --compression, --jpeg or a larger "
+               "--queue helps\n";
+    }
+}
+
+void printTimes(const RunSummary& summary, std::ostream& out)
+{
+    const auto& capture = summary.state.capture;
+    if (summary.camera.hasColour)
+    {
+        out << mrpt::format(
+            "pairs: colour %+.1f ms after depth on average, %.1f ms apart at most\n",
+            1e3 * capture.pairing.meanSkew,
+            1e3 * capture.pairing.maxAbsSkew);
+    }
+    if (!summary.camera.isFile)
+    {
+        out << mrpt::format(
+            "clock: UTC with the camera's spacing; host against camera %+.0f ppm\n",
+            1e6 * capture.clockDrift);
+    }
+    if (capture.clockJumps > 0)
+    {
+        out << "  the camera's clock jumped " << capture.clockJumps << " times\n";
+    }
+}
+}  // namespace
+
+std::string describe(const CameraFacts& facts)
+{
+    const auto& d = facts.device;
+    std::string text = d.uri;
+    for (const auto& word : {d.vendor, d.name})
+    {
+        text += word.empty() ? "" : " " + word;
+    }
+    text += d.serial.empty() ? "" : ", serial " + d.serial;
+    text += " (" + d.driver + "), " + toString({facts.mode.width, facts.mode.height, facts.mode.fps, ""});
+    if (!facts.hasColour)
+    {
+        return text + ", depth only";
+    }
+    text += facts.registered ? ", depth registered to colour" : ", depth not registered";
+    return text + (facts.synchronised ? ", synchronised" : "");
+}
+
+void print(const RunSummary& summary, std::ostream& out)
+{
+    const auto& state = summary.state;
+    const double bytes = static_cast<double>(state.recording.bytesWritten);
+    if (state.isRecording)
+    {
+        out << mrpt::format(
+            "recorded %llu frames, %s, %.1f MB (%.1f MB/s) to",
+            static_cast<unsigned long long>(state.recording.framesWritten),
+            durationText(state.capture.recordedTime).c_str(),
+            1e-6 * bytes,
+            1e-6 * state.bytesPerSecond);
+    }
+    else
+    {
+        out << "saw " << state.capture.pairing.pairs << " frames, "
+            << durationText(state.capture.recordedTime) << (summary.outputs.empty() ? "" : ", to");
+    }
+    for (const auto& path : summary.outputs)
+    {
+        out << " " << path;
+    }
+    out << "\ncamera: " << describe(summary.camera) << "\ncalibration: " << summary.calibration
+        << "\n";
+    printLosses(state, out);
+    printTimes(summary, out);
+    if (summary.hasLive)
+    {
+        out << "live odometry: " << summary.live.processed << " frames, " << summary.live.notTracked
+            << " not tracked, " << summary.live.skipped << " skipped\n";
+    }
+    for (const auto& note : summary.notes)
+    {
+        out << "note: " << note << "\n";
+    }
+}
+}  // namespace pointplane

@@ -1,0 +1,440 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The real program with the real OpenNI2 runtime and a virtual camera.
+#include <pointplane/mrpt_io/VisualOdometry.h>
+#include <pointplane/mrpt_io/mrpt_poses.h>
+#include <pointplane/simulation/SimulatedSequence.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "VirtualCamera.h"
+
+namespace
+{
+using namespace pointplane;
+using namespace pointplane::test;
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+constexpr int kWidth = 64, kHeight = 48;
+constexpr double kPeriod = 0.033333;  // [s] the virtual camera's
+
+class OpenNi2Recording : public ::testing::Test
+{
+ protected:
+    using Args = std::vector<std::string>;
+
+    /** A small camera with 30 different frames. */
+    VirtualCamera camera(const std::string& settings = "")
+    {
+        VirtualCamera result(settings);
+        result.play(frames_, 52.5);
+        return result;
+    }
+    static std::unique_ptr<ChildProcess> start(const VirtualCamera& camera, Args args)
+    {
+        args.insert(args.begin(), {"--driver", "openni2"});
+        return std::make_unique<ChildProcess>(GRABBER, args, camera.environment());
+    }
+    /** Records the small camera until the program ends by itself. */
+    int record(const std::string& settings, const Args& more)
+    {
+        const auto virtualCamera = camera(settings);
+        Args args{"-o", out_, "--mode", "64x48@30", "--warm-up", "0.3"};
+        args.insert(args.end(), more.begin(), more.end());
+        const auto process = start(virtualCamera, args);
+        const int code = process->wait();
+        err_ = process->err();
+        stdout_ = process->out();
+        return code;
+    }
+    void waitForFrames(const std::string& path, std::uintmax_t numBytes)
+    {
+        for (int i = 0; i < 1000; ++i)
+        {
+            std::error_code error;
+            if (fs::file_size(path, error) >= numBytes && !error)
+            {
+                return;
+            }
+            std::this_thread::sleep_for(milliseconds(10));
+        }
+        FAIL() << path << " does not grow";
+    }
+    static double stampOf(const mrpt::obs::CObservation3DRangeScan& scan)
+    {
+        return mrpt::Clock::toDouble(scan.timestamp);
+    }
+
+    TempDir dir_;
+    std::string out_{dir_ / "out.rawlog"};
+    std::vector<PlainFrame> frames_{patternFrames(30, kWidth, kHeight)};
+    std::string err_, stdout_;
+};
+
+TEST_F(OpenNi2Recording, recordsEveryPixelOfConsecutiveFrames)
+{
+    ASSERT_EQ(record("skewUs 3000", {"--frames", "45"}), 0) << err_;
+    const auto scans = readRawlog(out_);
+    ASSERT_EQ(scans.size(), 45U);
+    const auto first = static_cast<std::size_t>(depthOf(*scans[0]).at<std::uint16_t>(0, 1) - 1001);
+    for (std::size_t k = 0; k < scans.size(); ++k)
+    {
+        const auto& expected = frames_[(first + k) % frames_.size()];
+        EXPECT_TRUE(samePixels(depthOf(*scans[k]), expected.depth)) << "frame " << k;
+        EXPECT_TRUE(samePixels(scans[k]->intensityImage.asCvMatRef(), expected.colour));
+    }
+    EXPECT_THAT(err_, HasSubstr("recorded 45 frames"));
+    EXPECT_THAT(err_, HasSubstr("colour +3.0 ms after depth on average, 3.0 ms apart at most"));
+    EXPECT_THAT(err_, HasSubstr("lost: 0 depth and 0 colour images by the camera"));
+    EXPECT_THAT(err_, HasSubstr("serial VC-0000000000000000000012345"));
+    EXPECT_THAT(err_, HasSubstr("depth registered to colour, synchronised"));
+    EXPECT_THAT(err_, HasSubstr("calibration: the driver's field of view"));
+    EXPECT_NEAR(scans[0]->cameraParams.fx(), 52.5, 1e-3);
+}
+
+TEST_F(OpenNi2Recording, stampsAreUtcWithTheCamerasSpacing)
+{
+    const double before = mrpt::Clock::nowDouble();
+    ASSERT_EQ(record("", {"--frames", "60"}), 0) << err_;
+    const double after = mrpt::Clock::nowDouble();
+    const auto scans = readRawlog(out_);
+    ASSERT_EQ(scans.size(), 60U);
+    EXPECT_GT(stampOf(*scans.front()), before);
+    EXPECT_LT(stampOf(*scans.back()), after);
+    for (std::size_t k = 1; k < scans.size(); ++k)
+    {
+        // Host jitter is milliseconds; slewing may change 0.2 per mille.
+        EXPECT_NEAR(stampOf(*scans[k]) - stampOf(*scans[k - 1]), kPeriod, 1e-5) << "frame " << k;
+    }
+}
+
+TEST_F(OpenNi2Recording, wrongTimeUnitOfADriverIsCorrected)
+{
+    ASSERT_EQ(record("ticksPerUs 60", {"--frames", "30"}), 0) << err_;
+    const auto scans = readRawlog(out_);
+    ASSERT_EQ(scans.size(), 30U);
+    EXPECT_NEAR(stampOf(*scans[29]) - stampOf(*scans[0]), 29 * kPeriod, 1e-3);
+    EXPECT_THAT(err_, HasSubstr("time stamps are in a wrong unit"));
+}
+
+TEST_F(OpenNi2Recording, lostImagesAreReportedAndNothingIsJoinedWrongly)
+{
+    ASSERT_EQ(record("dropColourEvery 5", {"--duration", "2"}), 0) << err_;
+    const auto scans = readRawlog(out_);
+    EXPECT_NEAR(static_cast<double>(scans.size()), 48.0, 2.0);
+    EXPECT_THAT(err_, ::testing::ContainsRegex("lost: 0 depth and 1[0-3] colour images"));
+    EXPECT_THAT(err_, ::testing::ContainsRegex("1[0-3] depth and 0 colour images without"));
+    for (const auto& scan : scans)
+    {
+        const int depthFrame = depthOf(*scan).at<std::uint16_t>(0, 1) - 1001;
+        const int colourFrame = scan->intensityImage.asCvMatRef().at<cv::Vec3b>(0, 0)[2];
+        EXPECT_EQ(depthFrame, colourFrame);
+    }
+}
+
+TEST_F(OpenNi2Recording, skewBeyondTheLimitIsNotJoined)
+{
+    ASSERT_EQ(record("skewUs 8000", {"--duration", "1", "--max-skew", "0.004", "--timeout", "3"}), 3)
+        << "no pairs, so no end by duration";
+}
+
+TEST_F(OpenNi2Recording, unpluggingKeepsEverythingBefore)
+{
+    EXPECT_EQ(record("unplugAt 40", {}), 3);
+    EXPECT_THAT(err_, HasSubstr("camera virtual://0 was unplugged; everything before is kept"));
+    const auto scans = readRawlog(out_);
+    EXPECT_GE(scans.size(), 25U);
+    EXPECT_LE(scans.size(), 39U);
+}
+
+TEST_F(OpenNi2Recording, aSilentStreamEndsWithItsName)
+{
+    EXPECT_EQ(record("silentColour 1", {"--timeout", "1"}), 3);
+    EXPECT_THAT(err_, HasSubstr("camera virtual://0 sends no colour images"));
+}
+
+TEST_F(OpenNi2Recording, aSlowStartIsNotLost)
+{
+    EXPECT_EQ(record("startDelayMs 1500", {"--frames", "10", "--timeout", "5"}), 0) << err_;
+    EXPECT_EQ(readRawlog(out_).size(), 10U);
+}
+
+TEST_F(OpenNi2Recording, aCameraWithoutColourNeedsDepthOnly)
+{
+    EXPECT_EQ(record("noColour 1", {"--frames", "5"}), 3);
+    EXPECT_THAT(err_, HasSubstr("has no colour stream; --depth-only records without it"));
+    EXPECT_EQ(record("noColour 1", {"--frames", "5", "--depth-only"}), 0) << err_;
+    const auto scans = readRawlog(out_);
+    ASSERT_EQ(scans.size(), 5U);
+    EXPECT_FALSE(scans[0]->hasIntensityImage);
+}
+
+TEST_F(OpenNi2Recording, unregisteredDepthIsStoredAsSuch)
+{
+    EXPECT_EQ(record("noRegistration 1", {"--frames", "3"}), 0) << err_;
+    EXPECT_THAT(err_, HasSubstr("depth not registered"));
+    EXPECT_FALSE(readRawlog(out_).front()->doDepthAndIntensityCamerasCoincide());
+    EXPECT_EQ(record("noRegistration 1", {"--registration", "on"}), 2);
+    EXPECT_THAT(err_, HasSubstr("cannot register depth to colour"));
+}
+
+TEST_F(OpenNi2Recording, noCameraExplainsItself)
+{
+    EXPECT_EQ(record("noDevice 1", {}), 3);
+    EXPECT_THAT(err_, HasSubstr("no RGB-D camera found"));
+    EXPECT_THAT(err_, HasSubstr("libVirtualCamera.so.0"));
+    EXPECT_THAT(err_, HasSubstr("libfreenect"));
+    EXPECT_FALSE(fs::exists(out_));
+}
+
+TEST_F(OpenNi2Recording, waitsForACameraToAppear)
+{
+    EXPECT_EQ(record("appearAfterMs 1500", {"--wait=20", "--frames", "5"}), 0) << err_;
+    EXPECT_THAT(err_, HasSubstr("waiting for a camera"));
+    EXPECT_EQ(readRawlog(out_).size(), 5U);
+    EXPECT_EQ(record("noDevice 1", {"--wait=1"}), 3);
+}
+
+TEST_F(OpenNi2Recording, listsCamerasAndModes)
+{
+    const auto virtualCamera = camera();
+    const auto process = start(virtualCamera, {"--list"});
+    EXPECT_EQ(process->wait(), 0);
+    EXPECT_THAT(process->out(), HasSubstr("0  virtual://0  pointplane Virtual RGB-D"));
+    EXPECT_THAT(process->out(), HasSubstr("depth: 64x48@30 DEPTH_1_MM"));
+    EXPECT_THAT(process->out(), HasSubstr("registration of depth to colour: yes"));
+}
+
+TEST_F(OpenNi2Recording, cameraIsChosenByUriSerialOrIndex)
+{
+    for (const char* choice : {"virtual://0", "VC-0000000000000000000012345", "0"})
+    {
+        EXPECT_EQ(record("", {"--frames", "2", "--device", choice}), 0) << choice << err_;
+        fs::remove(out_);
+    }
+    EXPECT_EQ(record("", {"--frames", "2", "--device", "1"}), 3);
+    EXPECT_THAT(err_, HasSubstr("no camera '1'; connected:\n  virtual://0"));
+}
+
+TEST_F(OpenNi2Recording, badRequestsAreExplained)
+{
+    EXPECT_EQ(record("", {"--mode", "1280x1024@15"}), 2);
+    EXPECT_THAT(err_, HasSubstr("it offers: 64x48@30 DEPTH_1_MM"));
+    EXPECT_EQ(record("", {"--mode", "big"}), 2);
+    EXPECT_EQ(record("", {"--driver", "kinect"}), 2);
+    EXPECT_THAT(err_, HasSubstr("no driver 'kinect' in this build"));
+    EXPECT_EQ(record("", {"--jpeg", "101"}), 2);
+    EXPECT_EQ(record("", {"--device", dir_ / "missing.oni"}), 2);
+    writeBytes(out_, "precious");
+    EXPECT_EQ(record("", {"--frames", "3"}), 2);
+    EXPECT_EQ(readBytes(out_), "precious");
+}
+
+TEST_F(OpenNi2Recording, ctrlCAndTermEndCleanly)
+{
+    for (const int number : {SIGINT, SIGTERM})
+    {
+        const auto virtualCamera = camera();
+        const auto process =
+            start(virtualCamera, {"-o", out_, "--mode", "64x48@30", "--warm-up", "0.2"});
+        waitForFrames(out_, 100'000);
+        process->signal(number);
+        EXPECT_EQ(process->wait(seconds(10)), 0) << process->err();
+        EXPECT_THAT(process->err(), HasSubstr("recorded"));
+        EXPECT_GE(readRawlog(out_).size(), 10U);
+        fs::remove(out_);
+    }
+}
+
+TEST_F(OpenNi2Recording, killNineLosesAtMostTheLastSecond)
+{
+    for (const char* images : {"embedded", "external"})
+    {
+        const auto virtualCamera = camera();
+        const std::string path = dir_ / (std::string(images) + ".rawlog");
+        const auto process = start(
+            virtualCamera,
+            {"-o", path, "--mode", "64x48@30", "--warm-up", "0.2", "--images", images});
+        waitForFrames(path, 1);
+        std::this_thread::sleep_for(seconds(2));
+        process->signal(SIGKILL);
+        EXPECT_EQ(process->wait(), 128 + SIGKILL);
+        const double killed = mrpt::Clock::nowDouble();
+        RawlogReader reader(path);
+        double last = 0.0;
+        std::size_t count = 0;
+        while (const auto object = reader.next())
+        {
+            const auto scan = std::dynamic_pointer_cast<mrpt::obs::CObservation3DRangeScan>(object);
+            ASSERT_TRUE(scan);
+            last = stampOf(*scan);
+            ++count;
+            const auto folder = dir_ / (std::string(images) + "_Images/");
+            EXPECT_TRUE(
+                std::string(images) == "embedded" ||
+                fs::exists(folder + scan->rangeImage_getExternalStorageFile("")));
+        }
+        EXPECT_GE(count, 30U) << images;
+        EXPECT_LT(killed - last, 1.0) << images;
+    }
+}
+
+TEST_F(OpenNi2Recording, aFullDiskStopsBeforeIt)
+{
+    EXPECT_EQ(record("", {"--min-free-mb", "1e12"}), 3);
+    EXPECT_THAT(err_, HasSubstr("nearly full"));
+    EXPECT_TRUE(fs::exists(out_));
+}
+
+TEST_F(OpenNi2Recording, previewIsACompletePicture)
+{
+    const std::string picture = dir_ / "preview.png";
+    EXPECT_EQ(record("", {"--frames", "40", "--preview", picture}), 0) << err_;
+    const auto bytes = readBytes(picture);
+    ASSERT_GT(bytes.size(), 100U);
+    EXPECT_EQ(bytes.substr(1, 3), "PNG");
+    EXPECT_THAT(bytes.substr(bytes.size() - 8), HasSubstr("IEND"));
+}
+
+TEST_F(OpenNi2Recording, toOniFileAndBackLosesNothing)
+{
+    const std::string oni = dir_ / "out.oni";
+    const auto virtualCamera = camera();
+    const auto writing =
+        start(virtualCamera, {"-o", oni, "--mode", "64x48@30", "--duration", "2", "--warm-up", "0.2"});
+    ASSERT_EQ(writing->wait(), 0) << writing->err();
+    ASSERT_EQ(record("noDevice 1", {"--device", oni}), 0) << err_;
+    const auto scans = readRawlog(out_);
+    ASSERT_GE(scans.size(), 58U);
+    for (std::size_t k = 1; k < scans.size(); ++k)
+    {
+        EXPECT_NEAR(stampOf(*scans[k]) - stampOf(*scans[k - 1]), kPeriod, 1e-4);
+        const int step = depthOf(*scans[k]).at<std::uint16_t>(0, 1) -
+                         depthOf(*scans[k - 1]).at<std::uint16_t>(0, 1);
+        EXPECT_EQ((step + 30) % 30, 1);
+    }
+    EXPECT_THAT(err_, HasSubstr("taken as registered"));
+    EXPECT_THAT(err_, HasSubstr("time stamps count from the date of the .oni file"));
+}
+
+TEST_F(OpenNi2Recording, damagedOniFilesAreBadInput)
+{
+    writeBytes(dir_ / "random.oni", std::string(1000, 'x'));
+    EXPECT_EQ(record("noDevice 1", {"--device", dir_ / "random.oni"}), 2);
+    EXPECT_THAT(err_, HasSubstr("random.oni"));
+}
+
+/** A rendered camera in motion: what is recorded must let the odometry find that motion. */
+class RenderedRecording : public OpenNi2Recording
+{
+ protected:
+    static constexpr int kNumFrames = 60;
+
+    static const SimulatedSequence& sequence()
+    {
+        static const SimulatedSequence instance = [] {
+            SimulationParams params;
+            params.duration = (kNumFrames + 1) / params.fps;
+            return SimulatedSequence("desk", params, 3);
+        }();
+        return instance;
+    }
+    static std::vector<PlainFrame> render()
+    {
+        std::vector<PlainFrame> frames;
+        for (int k = 0; k < kNumFrames; ++k)
+        {
+            PlainFrame plain;
+            const RgbdFrame frame = sequence().frame(k, &plain.colour);
+            cv::Mat depth = frame.depth.clone();
+            cv::patchNaNs(depth, 0.0);
+            depth.convertTo(plain.depth, CV_16U, 1000.0);
+            frames.push_back(plain);
+        }
+        return frames;
+    }
+    /** Error of the motion between the ends of what was recorded [m]. */
+    static double motionError(
+        int first, int last, const Eigen::Isometry3d& T_first_last_estimated)
+    {
+        const Eigen::Isometry3d truth = sequence().trueMotion(first, last);
+        return (truth.inverse() * T_first_last_estimated).translation().norm();
+    }
+    /** Which rendered frame this is. */
+    static int frameOf(
+        const mrpt::obs::CObservation3DRangeScan& scan, const std::vector<PlainFrame>& frames)
+    {
+        for (int k = 0; k < kNumFrames; ++k)
+        {
+            if (samePixels(depthOf(scan), frames[static_cast<std::size_t>(k)].depth))
+            {
+                return k;
+            }
+        }
+        return -1;
+    }
+};
+
+TEST_F(RenderedRecording, odometryOnTheRecordingFindsTheTrueMotion)
+{
+    const auto frames = render();
+    VirtualCamera virtualCamera;
+    virtualCamera.play(frames, sequence().params().focalLengthPx);
+    // The first frames pass during the warm-up; recording ends before the sequence starts again.
+    const auto process =
+        start(virtualCamera, {"-o", out_, "--frames", "48", "--warm-up", "0.2", "--live"});
+    ASSERT_EQ(process->wait(), 0) << process->err();
+    EXPECT_THAT(process->err(), HasSubstr("0 pairs because the queue was full"));
+    const auto scans = readRawlog(out_);
+    ASSERT_EQ(scans.size(), 48U);
+
+    VisualOdometry odometry;
+    Eigen::Isometry3d T_first_cur = Eigen::Isometry3d::Identity();
+    int tracked = 0;
+    for (const auto& scan : scans)
+    {
+        const RobotMotion motion = odometry.process(*scan);
+        tracked += motion.status == TrackingStatus::Tracked ? 1 : 0;
+        T_first_cur = fromMrpt(motion.pose.mean);
+    }
+    EXPECT_EQ(tracked, 47);
+    const Eigen::Isometry3d T_robot_cam = opticalInBody();
+    const int first = frameOf(*scans.front(), frames), last = frameOf(*scans.back(), frames);
+    ASSERT_EQ(last - first, 47);
+    const double error =
+        motionError(first, last, T_robot_cam.inverse() * T_first_cur * T_robot_cam);
+    const double length = sequence().trueMotion(first, last).translation().norm();
+    EXPECT_LT(error, 0.02) << "of a motion of " << length << " m";
+    EXPECT_GT(length, 0.05);
+
+    // --live printed the same stamps.
+    EXPECT_THAT(process->out(), HasSubstr("# stamp status x y z yaw pitch roll"));
+    EXPECT_THAT(process->out(), HasSubstr(" first 0.000000 0.000000 0.000000"));
+}
+
+TEST_F(RenderedRecording, liveOdometryWritesItsPoses)
+{
+    VirtualCamera virtualCamera;
+    virtualCamera.play(render(), sequence().params().focalLengthPx);
+    const std::string poses = dir_ / "poses.rawlog";
+    const auto process = start(
+        virtualCamera, {"--live", "--live-output", poses, "--frames", "40", "--warm-up", "0.2"});
+    ASSERT_EQ(process->wait(), 0) << process->err();
+    RawlogReader reader(poses);
+    std::size_t count = 0;
+    while (reader.next())
+    {
+        ++count;
+    }
+    EXPECT_EQ(reader.ending().kind, RawlogEnd::Clean);
+    EXPECT_GE(count, 5U);
+    const auto lines = process->out();
+    EXPECT_EQ(
+        static_cast<std::size_t>(std::count(lines.begin(), lines.end(), '\n')), count + 1);
+}
+}  // namespace

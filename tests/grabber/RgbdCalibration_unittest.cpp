@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/grabber/RgbdCalibration.h>
+#include <pointplane/mrpt_io/errors.h>
+
+#include <mrpt/core/bits_math.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "TempDir.h"
+
+namespace
+{
+using namespace pointplane;
+using pointplane::test::TempDir;
+using pointplane::test::writeBytes;
+
+const std::string kIni = R"(
+[OPENNI2]
+sensorLabel = FRONT
+pose_x = 0.1
+pose_z = 1.2
+pose_pitch = 10  // degrees
+
+[OPENNI2_LEFT]
+rawlog-grabber-ignore = true
+resolution = [640 488]
+cx = 314.6
+cy = 240.2
+fx = 572.9
+fy = 542.7
+dist = [-4.7e-03 -4.4e-03 0 0 0]
+
+[OPENNI2_RIGHT]
+resolution = [640 480]
+cx = 322.5
+cy = 259.1
+fx = 521.2
+fy = 493.0
+dist = [5.9e-02 3.9e-02 0 0 0]
+
+[OPENNI2_LEFT2RIGHT_POSE]
+pose_quaternion = [0.025575 -0.000609 -0.001462 1 0 0 0]
+)";
+
+CameraFacts facts(bool registered)
+{
+    CameraFacts f;
+    f.registered = registered;
+    f.depthFocal_px = 575.0;
+    f.colourFocal_px = 525.0;
+    f.colourOffset = 0.025;
+    return f;
+}
+
+class CalibrationFile : public ::testing::Test
+{
+ protected:
+    std::string write(std::string text, const std::string& from = "", const std::string& to = "")
+    {
+        if (!from.empty())
+        {
+            text.replace(text.find(from), from.size(), to);
+        }
+        writeBytes(path_, text);
+        return path_;
+    }
+    void expectRejected(const std::string& from, const std::string& to, const std::string& words)
+    {
+        try
+        {
+            (void)calibrationFromIni(write(kIni, from, to), "OPENNI2", facts(false));
+            FAIL() << "accepted " << to;
+        }
+        catch (const InputError& e)
+        {
+            EXPECT_THAT(e.what(), ::testing::HasSubstr(words));
+            EXPECT_THAT(e.what(), ::testing::HasSubstr(path_));
+        }
+    }
+
+    TempDir dir_;
+    std::string path_{dir_ / "camera.ini"};
+};
+
+TEST_F(CalibrationFile, unregisteredDepthHasItsOwnCamera)
+{
+    const auto c = calibrationFromIni(write(kIni), "OPENNI2", facts(false));
+    EXPECT_EQ(c.depth.fx(), 572.9);
+    EXPECT_EQ(c.depth.nrows, 480U);
+    EXPECT_EQ(c.colour.fx(), 521.2);
+    EXPECT_NEAR(c.colour.dist[0], 0.059, 1e-12);
+    EXPECT_EQ(c.sensorLabel, "FRONT");
+    EXPECT_NEAR(c.sensorPose.pitch(), mrpt::DEG2RAD(10.0), 1e-12);
+    // Right in the image (optical x) is -y in MRPT's depth frame.
+    EXPECT_NEAR(c.colourWrtDepth.y(), -0.025575, 1e-9);
+    EXPECT_NEAR(c.colourWrtDepth.yaw(), mrpt::DEG2RAD(-90.0), 1e-9);
+    EXPECT_NEAR(c.colourWrtDepth.roll(), mrpt::DEG2RAD(-90.0), 1e-9);
+}
+
+TEST_F(CalibrationFile, registeredDepthLiesInTheColourCamera)
+{
+    const auto c = calibrationFromIni(write(kIni), "OPENNI2", facts(true));
+    EXPECT_EQ(c.depth.fx(), 521.2);
+    EXPECT_EQ(c.depth.dist[0], 0.0);  // at undistorted pixels
+    EXPECT_EQ(c.colourWrtDepth.norm(), 0.0);
+}
+
+TEST_F(CalibrationFile, scalesToTheMode)
+{
+    auto f = facts(false);
+    f.mode = {320, 240, 30, ""};
+    const auto c = calibrationFromIni(
+        write(kIni, "resolution = [640 488]", "resolution = [640 480]"), "OPENNI2", f);
+    EXPECT_NEAR(c.colour.fx(), 260.6, 1e-9);
+    EXPECT_EQ(c.colour.ncols, 320U);
+}
+
+TEST_F(CalibrationFile, errorsNameFileSectionAndKey)
+{
+    expectRejected("fx = 572.9", "fy = 1", "[OPENNI2_LEFT] has no key 'fx'");
+    expectRejected("[OPENNI2_RIGHT]", "[OTHER_RIGHT]", "[OPENNI2_RIGHT] has no key 'resolution'");
+    expectRejected("fx = 521.2", "fx = abc", "[OPENNI2_RIGHT]: fx, fy, cx and cy must be positive");
+    expectRejected("resolution = [640 480]", "resolution = [640 400]", "does not fit");
+    expectRejected("pose_quaternion", "pose", "has no key 'pose_quaternion'");
+    EXPECT_THROW(
+        (void)calibrationFromIni(dir_ / "missing.ini", "OPENNI2", facts(true)), InputError);
+}
+
+TEST(NominalCalibration, comesFromTheFieldOfViewAndSaysSo)
+{
+    const auto registered = nominalCalibration(facts(true));
+    EXPECT_EQ(registered.depth.fx(), 525.0);
+    EXPECT_EQ(registered.depth.cx(), 319.5);
+    EXPECT_THAT(registered.source, ::testing::HasSubstr("field of view"));
+
+    const auto separate = nominalCalibration(facts(false));
+    EXPECT_EQ(separate.depth.fx(), 575.0);
+    EXPECT_EQ(separate.colour.fx(), 525.0);
+    EXPECT_NEAR(separate.colourWrtDepth.y(), -0.025, 1e-12);
+
+    CameraFacts silent;
+    silent.registered = true;
+    EXPECT_EQ(nominalCalibration(silent).colour.fx(), 525.0);
+    EXPECT_THAT(nominalCalibration(silent).source, ::testing::HasSubstr("typical Kinect"));
+}
+}  // namespace
