@@ -78,15 +78,20 @@ std::string tumLine(double stamp, const Eigen::Isometry3d& T)
     return line.str();
 }
 
-void writeGroundTruth(const SimulatedSequence& sequence, const std::string& path)
+void writeGroundTruth(const SimulatedSequence& sequence, const SequenceOutput& output)
 {
-    TextOutput file(path);
-    file.writeLine("# pose of the robot, axes of MRPT (x forward, y left, z up), in the world");
-    file.writeLine("# its camera has sensorPose = identity; exact; stamp tx ty tz qx qy qz qw");
+    TextOutput file(groundTruthPath(output.path));
+    const bool robot = output.truthFrame == "robot";
+    file.writeLine(
+        robot ? "# exact pose in the world of the robot, axes x forward, y left, z up; its camera "
+                "has sensorPose = identity"
+              : "# exact pose in the world of the camera, optical axes x right, y down, z forward");
+    file.writeLine("# stamp tx ty tz qx qy qz qw");
     for (int i = 0; i < sequence.numFrames(); ++i)
     {
         const double stamp = sequence.stamp(i);
-        file.writeLine(tumLine(stamp, robotFromCamera(sequence.truth(stamp))));
+        const Eigen::Isometry3d T_world_cam = sequence.truth(stamp);
+        file.writeLine(tumLine(stamp, robot ? robotFromCamera(T_world_cam) : T_world_cam));
     }
     file.close();
 }
@@ -128,7 +133,7 @@ void writeSequence(
             bar->update(static_cast<double>(i + 1) / numFrames, static_cast<std::size_t>(i) + 1);
         }
     }
-    writeGroundTruth(sequence, groundTruthPath(output.path));
+    writeGroundTruth(sequence, output);
     writer.close();
 }
 }  // namespace pointplane

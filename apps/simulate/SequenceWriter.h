@@ -14,6 +14,7 @@ struct SequenceOutput
     std::string label{"RGBD"};
     bool external{false};
     bool hideShutter{false};
+    std::string truthFrame{"optical"};  //!< whose poses the ground truth holds, or "robot"
     bool quiet{false};
     std::string description;  //!< goes into a comment at the beginning, to render it again
 };

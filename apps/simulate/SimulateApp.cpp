@@ -69,6 +69,12 @@ void addOptions(CLI::App& app, Arguments& args)
     app.add_flag("--external", args.output.external, "images as files beside the rawlog");
     app.add_flag(
         "--hide-shutter", args.output.hideShutter, "do not tell the rows' times in the rawlog");
+    app.add_option(
+           "--truth-frame",
+           args.output.truthFrame,
+           "Whose pose the ground truth is: optical (camera) or robot")
+        ->check(CLI::IsMember({"optical", "robot"}))
+        ->capture_default_str();
     app.add_flag("--quiet", args.output.quiet, "no progress");
     app.set_version_flag("--version", POINTPLANE_VERSION);
 }

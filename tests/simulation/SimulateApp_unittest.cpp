@@ -120,22 +120,28 @@ TEST(SimulateApp, rawlogHoldsTheFramesOfTheSequence)
     }
 }
 
-TEST(SimulateApp, groundTruthIsTheRobotsPose)
+TEST(SimulateApp, groundTruthIsTheCamerasPoseOrOnRequestTheRobots)
 {
     const test::TempDir dir;
     ASSERT_EQ(run(smallRun(dir / "a.rawlog")).code, 0);
-    const Trajectory truth = readTrajectoryText(dir / "a.groundtruth.txt");
+    std::vector<std::string> args = smallRun(dir / "b.rawlog");
+    args.insert(args.end(), {"--truth-frame", "robot"});
+    ASSERT_EQ(run(args).code, 0);
+    const Trajectory camera = readTrajectoryText(dir / "a.groundtruth.txt");
+    const Trajectory robot = readTrajectoryText(dir / "b.groundtruth.txt");
     const SimulatedSequence sequence("corner", smallParams(), 9);
-    ASSERT_EQ(truth.size(), 4U);
+    ASSERT_EQ(camera.size(), 4U);
+    ASSERT_EQ(robot.size(), 4U);
     for (std::size_t i = 0; i < 4; ++i)
     {
         const double stamp = sequence.stamp(static_cast<int>(i));
-        EXPECT_NEAR(truth.stamps[i], stamp, 1e-6);
-        // The robot looks along its x axis, with y to the left.
+        EXPECT_NEAR(camera.stamps[i], stamp, 1e-6);
         const Eigen::Isometry3d T_world_cam = sequence.truth(stamp);
-        const Eigen::Matrix3d R = truth.poses[i].linear();
+        EXPECT_THAT(camera.poses[i], test::IsNearPose(T_world_cam, 1e-8, 1e-8));
+        // The robot looks along its x axis, with y to the left.
+        const Eigen::Matrix3d R = robot.poses[i].linear();
         EXPECT_THAT(
-            truth.poses[i].translation(), test::IsMatrixNear(T_world_cam.translation(), 1e-8));
+            robot.poses[i].translation(), test::IsMatrixNear(T_world_cam.translation(), 1e-8));
         EXPECT_THAT(R.col(0), test::IsMatrixNear(T_world_cam.linear().col(2), 1e-8));
         EXPECT_THAT(R.col(1), test::IsMatrixNear(-T_world_cam.linear().col(0), 1e-8));
     }
