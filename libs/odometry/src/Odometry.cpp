@@ -11,7 +11,9 @@
 #include <chrono>
 #include <cmath>
 #include <future>
+#include <optional>
 #include <sstream>
+#include <utility>
 
 namespace pointplane
 {
@@ -22,6 +24,9 @@ constexpr double kFirstSigma = 1e-6;
 
 /** Fewer matches than this in total cannot fix a pose [P17, section Pose estimation]. */
 constexpr int kMinMatches = 3;
+
+/** Elapsed between two frames whose stamps do not tell. */
+constexpr double kUnknownStep = 1.0 / 30;  // [s]
 
 /** Rounds of estimation: the velocity that undoes the rolling shutter is the estimate's own. */
 constexpr int kShutterRounds = 2;
@@ -84,6 +89,22 @@ double maxSigma(const Matrix6d& cov)
     const Eigen::SelfAdjointEigenSolver<Matrix6d> es(cov);
     return std::sqrt(std::max(0.0, es.eigenvalues().maxCoeff()));
 }
+
+/** Where a reference frame is, and what has been predicted since. */
+struct Anchor
+{
+    PoseGaussian pose;     //!< T_first_ref
+    PoseGaussian coasted;  //!< T_ref_latest by the motion model alone; zero covariance when none
+
+    void coast(const PoseGaussian& increment) { coasted = compose(coasted, increment); }
+};
+
+/** A frame that has features, but none that the window knows. */
+struct Unmatched
+{
+    Reference frame;
+    Anchor anchor;
+};
 }  // namespace
 
 struct Odometry::Impl
@@ -93,7 +114,12 @@ struct Odometry::Impl
     OdometryResult process(const RgbdFrame& frame);
 
     void extract(const RgbdFrame& frame, FrameDiagnostics& diagnostics);
-    [[nodiscard]] OdometryResult start(const RgbdFrame& frame, OdometryResult result);
+    [[nodiscard]] OdometryResult start(
+        const RgbdFrame& frame, const std::string& reason, OdometryResult result);
+    [[nodiscard]] bool isLate(double stamp);
+    [[nodiscard]] bool track(const RgbdFrame& frame, OdometryResult& result);
+    void keepUnmatched(const RgbdFrame& frame);
+    void restartAtUnmatched();
     [[nodiscard]] OdometryResult coast(
         double stamp, const std::string& reason, OdometryResult result);
     [[nodiscard]] std::vector<Association> associate(
@@ -122,9 +148,11 @@ struct Odometry::Impl
     FrameFeatures features;
     Reference current;
     PinholeCamera camera;
-    PoseGaussian measuredPose;  //!< of the window's previous frame
-    PoseGaussian pose;          //!< of the latest frame, measured or predicted
+    Anchor anchor;      //!< of the window's previous frame
+    PoseGaussian pose;  //!< of the latest frame, measured or predicted
+    std::optional<Unmatched> unmatched;
     double latestStamp{0};
+    std::optional<double> lateStamp;  //!< of the latest frame, when it was not after latestStamp
     bool started{false};
     int numFrames{0};
 };
@@ -140,7 +168,7 @@ Odometry::Impl::Impl(const OdometryParams& p)
       shutter(p.shutter),
       window(p.reference)
 {
-    measuredPose.cov = pose.cov = Matrix6d::Identity() * (kFirstSigma * kFirstSigma);
+    pose.cov = Matrix6d::Identity() * (kFirstSigma * kFirstSigma);
 }
 
 /** The paper's Fig. 1: extraction, matching, pose estimation, validation. */
@@ -157,20 +185,45 @@ OdometryResult Odometry::Impl::process(const RgbdFrame& frame)
     {
         return coast(frame.stamp, problem, result);
     }
-    if (started && !(frame.stamp > latestStamp))
+    if (started && isLate(frame.stamp))
     {
         return coast(frame.stamp, "its time stamp is not after the previous frame's", result);
     }
 
     // 1. Points and planes with their uncertainty.
     extract(frame, result.diagnostics);
-    if (!started || !sameCamera(camera, frame.camera))
+    if (!started || !sameCamera(camera, frame.camera) || frame.stamp <= latestStamp)
     {
-        result = start(frame, result);
+        // A different camera or clock: nothing of the past can be compared with this frame.
+        result = start(
+            frame,
+            frame.stamp <= latestStamp ? "the clock has been set back"
+                                       : "the camera's size or calibration has changed",
+            result);
         result.diagnostics.msTotal = total.ms();
         return result;
     }
 
+    // 2. and 3. against the references; when none of them is in view any more, against the latest
+    // frame, which did not find them either.
+    bool tracked = track(frame, result);
+    if (!tracked && unmatched)
+    {
+        restartAtUnmatched();
+        tracked = track(frame, result);
+    }
+    if (!tracked)
+    {
+        result = coast(frame.stamp, result.reason, result);
+        result.status = TrackingStatus::Predicted;
+        keepUnmatched(frame);
+    }
+    result.diagnostics.msTotal = total.ms();
+    return result;
+}
+
+bool Odometry::Impl::track(const RgbdFrame& frame, OdometryResult& result)
+{
     // 2. Predicted motion since the latest measured frame, and matches with the references.
     const double dt = frame.stamp - window.previous().stamp;
     if (dt > params.pipeline.maxGap)
@@ -187,18 +240,58 @@ OdometryResult Odometry::Impl::process(const RgbdFrame& frame)
     judge(estimated, predicted, result);
     if (result.status != TrackingStatus::Tracked)
     {
-        result = coast(frame.stamp, result.reason, result);
-        result.status = TrackingStatus::Predicted;
-        result.diagnostics.msTotal = total.ms();
-        return result;
+        return false;
     }
 
     // 4. The frame becomes a reference.
+    const FrameVelocities v = velocities(estimated.T_base_cur.mean, dt);
+    window.refinePreviousVelocity(v.previous);
+    current.velocity = v.current;
+    shutter.update(
+        PairBuilder(window.previous(), current, frame.camera.height),
+        associations,
+        v,
+        estimated.T_base_cur.mean);
     finish(estimated.T_base_cur, result);
     motion.update(estimated.T_base_cur.mean, dt);
     advance(frame, associations);
-    result.diagnostics.msTotal = total.ms();
-    return result;
+    return true;
+}
+
+/** One frame may come late. A second one in order after it means that the clock has been set, or
+ * that the stamps before were wrong; it is not late then. */
+bool Odometry::Impl::isLate(double stamp)
+{
+    if (stamp > latestStamp)
+    {
+        lateStamp.reset();
+        return false;
+    }
+    const bool clockWasSet = lateStamp && stamp > *lateStamp;
+    lateStamp = stamp;
+    return !clockWasSet;
+}
+
+void Odometry::Impl::keepUnmatched(const RgbdFrame& frame)
+{
+    if (params.pipeline.usePoints)
+    {
+        current.points = pointStage.makeReference(frame);
+    }
+    if (current.planes.planes.empty() && current.points.points.empty())
+    {
+        return;
+    }
+    current.T_world_cam = pose.mean;
+    unmatched = Unmatched{std::move(current), {pose, {}}};
+}
+
+void Odometry::Impl::restartAtUnmatched()
+{
+    window.clear();
+    window.add(std::move(unmatched->frame), true);
+    anchor = unmatched->anchor;
+    unmatched.reset();
 }
 
 void Odometry::Impl::extract(const RgbdFrame& frame, FrameDiagnostics& diagnostics)
@@ -229,13 +322,12 @@ void Odometry::Impl::extract(const RgbdFrame& frame, FrameDiagnostics& diagnosti
     features.planes = current.planes;
 }
 
-OdometryResult Odometry::Impl::start(const RgbdFrame& frame, OdometryResult result)
+OdometryResult Odometry::Impl::start(
+    const RgbdFrame& frame, const std::string& reason, OdometryResult result)
 {
-    const bool first = !started;
-    if (!first)
+    if (started)
     {
-        // A different camera: nothing of the past can be compared with what it sees.
-        result = coast(frame.stamp, "the camera's size or calibration has changed", result);
+        result = coast(frame.stamp, reason, result);
         result.status = TrackingStatus::Predicted;
     }
     else
@@ -247,8 +339,10 @@ OdometryResult Odometry::Impl::start(const RgbdFrame& frame, OdometryResult resu
     started = true;
     camera = frame.camera;
     window.clear();
-    measuredPose = pose;
+    anchor = {pose, {}};
+    unmatched.reset();
     latestStamp = frame.stamp;
+    lateStamp.reset();
     advance(frame, {});
     return result;
 }
@@ -260,11 +354,21 @@ OdometryResult Odometry::Impl::coast(double stamp, const std::string& reason, Od
     result.status = TrackingStatus::Lost;
     result.reason = reason;
     const double step = stamp - latestStamp;
-    const double dt = started && step > 0 && std::isfinite(step) ? step : 1e-3;
+    const bool known = started && step >= 0 && std::isfinite(step);
+    const double dt = known ? std::max(step, 1e-3) : kUnknownStep;
+    if (dt > params.pipeline.maxGap)
+    {
+        motion.reset();
+    }
     result.increment = motion.predict(dt);
     motion.coast(dt);
     pose = compose(pose, result.increment);
     result.pose = pose;
+    anchor.coast(result.increment);
+    if (unmatched)
+    {
+        unmatched->anchor.coast(result.increment);
+    }
     if (std::isfinite(stamp))
     {
         latestStamp = started ? std::max(latestStamp, stamp) : latestStamp;
@@ -338,10 +442,6 @@ PoseEstimate Odometry::Impl::estimate(
             fuse ? std::optional<PoseGaussian>(predicted) : std::nullopt);
         diagnostics.iterations += out.iterations;
     }
-    const FrameVelocities v = velocities(out.T_base_cur.mean, dt);
-    window.refinePreviousVelocity(v.previous);
-    current.velocity = v.current;
-    shutter.update(builder, associations, v, out.T_base_cur.mean);
     diagnostics.numPointPairs = static_cast<int>(points.size());
     diagnostics.numPlanePairs = static_cast<int>(planes.size());
     diagnostics.numPointInliers = out.numPointInliers;
@@ -370,6 +470,12 @@ void Odometry::Impl::judge(
         reason << "largest standard deviation " << maxSigma(estimate.T_base_cur.cov)
                << " is above the gate";
     }
+    else if (
+        params.poseSolver.weighting != "none" && d.pointChi2PerDof > params.pipeline.maxPointChi2)
+    {
+        reason << "the points contradict their covariances (chi-square per degree of freedom "
+               << d.pointChi2PerDof << ")";
+    }
     else if (d.observableDirections == 0)
     {
         reason << "no direction is measured better than it is predicted";
@@ -386,19 +492,18 @@ void Odometry::Impl::judge(
 }
 
 /** Increment and pose of a measured frame. The pose continues from the latest measured frame; after
- * a gap the increment leads on from the predicted one. */
+ * a gap the increment leads on from the predicted one, and is as uncertain as that. */
 void Odometry::Impl::finish(const PoseGaussian& T_prev_cur, OdometryResult& result)
 {
-    const PoseGaussian predictedPose = pose;
-    pose = compose(measuredPose, T_prev_cur);
+    pose = compose(anchor.pose, T_prev_cur);
     result.pose = pose;
-    result.increment.mean = predictedPose.mean.inverse() * pose.mean;
-    result.increment.cov = withEigenvalueFloor(T_prev_cur.cov, 1e-14);
+    result.increment = compose(inverse(anchor.coasted), T_prev_cur);
+    result.increment.cov = withEigenvalueFloor(result.increment.cov, 1e-14);
     const Vector6d sigma = result.increment.cov.diagonal().cwiseSqrt();
     result.diagnostics.maxSigmaTranslation = sigma.head<3>().maxCoeff();
     result.diagnostics.maxSigmaRotation = sigma.tail<3>().maxCoeff();
-    measuredPose = pose;
-    current.T_world_cam = pose.mean;
+    anchor = {pose, {}};
+    unmatched.reset();
     latestStamp = result.stamp;
 }
 

@@ -14,6 +14,7 @@ void PipelineParams::check() const
         degeneracy == "fuse" || degeneracy == "gate",
         "degeneracy = " << degeneracy << " is neither fuse nor gate");
     POINTPLANE_CHECK(gateSigma > 0, "gateSigma = " << gateSigma << " is not positive");
+    POINTPLANE_CHECK(maxPointChi2 > 0, "maxPointChi2 = " << maxPointChi2 << " is not positive");
     POINTPLANE_CHECK(maxGap > 0, "maxGap = " << maxGap << " is not positive");
     POINTPLANE_CHECK(
         numThreads == 1 || numThreads == 2, "numThreads = " << numThreads << " is not 1 or 2");

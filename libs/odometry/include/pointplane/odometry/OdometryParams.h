@@ -22,6 +22,7 @@ struct PipelineParams
     bool usePlanes{true};
     std::string degeneracy{"fuse"};
     double gateSigma{0.05};
+    double maxPointChi2{200};
     double maxGap{1.0};
     int numThreads{1};
 
@@ -39,6 +40,11 @@ struct PipelineParams
           gateSigma,
           "m, rad",
           "gate: frames with a larger standard deviation in any direction are predicted instead");
+        v("maxPointChi2",
+          maxPointChi2,
+          "-",
+          "frames whose points disagree with their covariances by more than this (chi-square per "
+          "degree of freedom) are predicted instead");
         v("maxGap",
           maxGap,
           "s",
