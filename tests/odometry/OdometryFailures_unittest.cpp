@@ -1,0 +1,435 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "hell_frames.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace pointplane
+{
+namespace
+{
+using test::CachedSequence;
+using test::CheckedOdometry;
+
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+constexpr double kInf = std::numeric_limits<double>::infinity();
+constexpr int kBad = 4;  //!< number of the frame that is tampered with
+
+RgbdFrame good(int i) { return CachedSequence::corner().frame(i); }
+
+/** Frames 0-3 are good, 4 is given, 5-7 are good: what happened at 4, 5 and 7. */
+struct Outcome
+{
+    explicit Outcome(const RgbdFrame& bad, const OdometryParams& params = {}) : odometry(params)
+    {
+        EXPECT_EQ(odometry.run(0, kBad - 1).status, TrackingStatus::Tracked);
+        at = odometry.process(bad);
+        next = odometry.run(kBad + 1, kBad + 1);
+        last = odometry.run(kBad + 2, kBad + 3);
+    }
+    CheckedOdometry odometry;
+    OdometryResult at, next, last;
+};
+
+/** The pose of frame 7 is as if nothing had happened. */
+void expectRecovered(const Outcome& outcome)
+{
+    EXPECT_EQ(outcome.next.status, TrackingStatus::Tracked) << outcome.next.reason;
+    EXPECT_EQ(outcome.last.status, TrackingStatus::Tracked) << outcome.last.reason;
+    const auto& sequence = CachedSequence::corner().sequence();
+    EXPECT_THAT(
+        outcome.last.pose.mean, test::IsNearPose(sequence.trueMotion(0, kBad + 3), 0.02, 0.03));
+}
+
+void expectLost(const RgbdFrame& bad, const char* reason)
+{
+    const Outcome outcome(bad);
+    EXPECT_EQ(outcome.at.status, TrackingStatus::Lost);
+    EXPECT_THAT(outcome.at.reason, testing::HasSubstr(reason));
+    expectRecovered(outcome);
+}
+
+void expectPredicted(const RgbdFrame& bad)
+{
+    const Outcome outcome(bad);
+    EXPECT_EQ(outcome.at.status, TrackingStatus::Predicted) << outcome.at.reason;
+    expectRecovered(outcome);
+}
+}  // namespace
+
+TEST(OdometryFailures, allDepthMissing)
+{
+    RgbdFrame frame = good(kBad);
+    frame.depth.setTo(kNaN);
+    expectPredicted(frame);
+    frame.depth.setTo(0);
+    expectPredicted(frame);
+}
+
+TEST(OdometryFailures, oneValidPixel)
+{
+    RgbdFrame frame = good(kBad);
+    frame.depth.setTo(kNaN);
+    frame.depth.at<float>(120, 160) = 1.5F;
+    expectPredicted(frame);
+}
+
+TEST(OdometryFailures, sequenceThatBeginsWithoutDepth)
+{
+    CheckedOdometry odometry;
+    for (int i = 0; i < 3; ++i)
+    {
+        RgbdFrame frame = good(i);
+        frame.depth.setTo(kNaN);
+        EXPECT_EQ(
+            odometry.process(frame).status,
+            i == 0 ? TrackingStatus::First : TrackingStatus::Predicted);
+    }
+    (void)odometry.process(good(3));  // nothing to compare with yet
+    EXPECT_EQ(odometry.process(good(4)).status, TrackingStatus::Tracked);
+    EXPECT_EQ(odometry.process(good(5)).status, TrackingStatus::Tracked);
+}
+
+TEST(OdometryFailures, everythingOnePlane)
+{
+    // A wall without texture: three directions are seen, the others are the motion model's.
+    CheckedOdometry odometry;
+    for (int i = 0; i < 6; ++i)
+    {
+        RgbdFrame frame = good(i);
+        frame.gray.setTo(128);
+        frame.depth.setTo(1.5);
+        const OdometryResult result = odometry.process(frame);
+        EXPECT_EQ(result.diagnostics.numPlanes, 1);
+        if (i > 0)
+        {
+            EXPECT_EQ(result.status, TrackingStatus::Tracked);
+            EXPECT_EQ(result.diagnostics.observableDirections, 3);
+            EXPECT_FALSE(result.reason.empty());
+            // Along z it knows, along x and y it says that it does not.
+            EXPECT_LT(result.increment.cov(2, 2), 0.01 * result.increment.cov(0, 0));
+            EXPECT_GT(result.increment.cov(0, 0), 1e-6);
+        }
+    }
+}
+
+TEST(OdometryFailures, everythingAtTenMetres)
+{
+    RgbdFrame frame = good(kBad);
+    frame.depth.setTo(10);
+    Outcome outcome(frame);
+    EXPECT_NE(outcome.at.status, TrackingStatus::Lost);
+    expectRecovered(outcome);
+}
+
+TEST(OdometryFailures, unusableIntrinsics)
+{
+    for (const double value : {static_cast<double>(kNaN), kInf, -kInf, 0.0})
+    {
+        RgbdFrame frame = good(kBad);
+        frame.camera.fx = value;
+        expectLost(frame, "fx");
+        frame = good(kBad);
+        frame.camera.fy = value;
+        expectLost(frame, "fy");
+    }
+    RgbdFrame frame = good(kBad);
+    frame.camera.cx = kNaN;
+    expectLost(frame, "cx");
+    frame = good(kBad);
+    frame.camera.distortion[1] = kNaN;
+    expectLost(frame, "not finite");
+    frame = good(kBad);
+    frame.camera.width = 0;
+    expectLost(frame, "empty");
+}
+
+TEST(OdometryFailures, imagesThatDoNotFitTheCamera)
+{
+    RgbdFrame frame = good(kBad);
+    frame.depth = frame.depth.colRange(0, 100).clone();
+    expectLost(frame, "depth image (100x240)");
+    frame.depth = cv::Mat();
+    expectLost(frame, "depth image");
+    frame = good(kBad);
+    frame.depth.convertTo(frame.depth, CV_64FC1);
+    expectLost(frame, "depth image");
+    frame = good(kBad);
+    frame.gray = frame.gray.rowRange(0, 100).clone();
+    expectLost(frame, "intensity image (320x100)");
+}
+
+TEST(OdometryFailures, blackAndSaturatedImagesLeaveThePlanes)
+{
+    for (const int grey : {0, 255})
+    {
+        RgbdFrame frame = good(kBad);
+        frame.gray.setTo(grey);
+        const Outcome outcome(frame);
+        EXPECT_EQ(outcome.at.status, TrackingStatus::Tracked) << outcome.at.reason;
+        EXPECT_EQ(outcome.at.diagnostics.numPointPairs, 0);
+        EXPECT_EQ(outcome.at.diagnostics.numPlanePairs > 2, true);
+        expectRecovered(outcome);
+    }
+}
+
+TEST(OdometryFailures, noIntensityImageLeavesThePlanes)
+{
+    RgbdFrame frame = good(kBad);
+    frame.gray = cv::Mat();
+    const Outcome outcome(frame);
+    EXPECT_EQ(outcome.at.status, TrackingStatus::Tracked) << outcome.at.reason;
+    expectRecovered(outcome);
+}
+
+TEST(OdometryFailures, neitherDepthNorImage)
+{
+    RgbdFrame frame = good(kBad);
+    frame.gray.setTo(0);
+    frame.depth.setTo(kNaN);
+    expectPredicted(frame);
+}
+
+TEST(OdometryFailures, identicalFramesDoNotMove)
+{
+    CheckedOdometry odometry;
+    RgbdFrame frame = good(0);
+    (void)odometry.process(frame);
+    for (int i = 1; i < 5; ++i)
+    {
+        frame.stamp += 1.0 / 30;
+        const OdometryResult result = odometry.process(frame);
+        EXPECT_EQ(result.status, TrackingStatus::Tracked);
+        EXPECT_THAT(result.pose.mean, test::IsNearPose(Eigen::Isometry3d::Identity(), 1e-4, 1e-4));
+    }
+}
+
+/** The camera is suddenly 2 m away, in a view that shares nothing with the last one. */
+TEST(OdometryFailures, jumpOfTwoMetres)
+{
+    CachedSequence desk("desk");
+    for (const bool sameScene : {true, false})
+    {
+        CheckedOdometry odometry;
+        (void)odometry.run(0, 3);
+        RgbdFrame frames[5];
+        for (int i = 0; i < 5; ++i)
+        {
+            frames[i] = sameScene ? good(300 + i) : desk.frame(100 + i);
+            frames[i].stamp = good(4 + i).stamp;
+        }
+        const OdometryResult jumped = odometry.process(frames[0]);
+        if (!sameScene)
+        {
+            EXPECT_EQ(jumped.status, TrackingStatus::Predicted);
+        }
+        (void)odometry.process(frames[1]);
+        OdometryResult result;
+        for (int i = 2; i < 5; ++i)
+        {
+            result = odometry.process(frames[i]);
+            EXPECT_EQ(result.status, TrackingStatus::Tracked) << i << ": " << result.reason;
+        }
+        const auto& sequence = sameScene ? CachedSequence::corner().sequence() : desk.sequence();
+        const int last = sameScene ? 304 : 104;
+        EXPECT_THAT(
+            result.increment.mean,
+            test::IsNearPose(sequence.trueMotion(last - 1, last), 0.01, 0.02));
+    }
+}
+
+TEST(OdometryFailures, equalAndSlightlyBackwardStamps)
+{
+    RgbdFrame frame = good(kBad);
+    frame.stamp = good(kBad - 1).stamp;
+    expectLost(frame, "time stamp");
+    frame.stamp = good(kBad - 2).stamp;
+    expectLost(frame, "time stamp");
+    frame.stamp = static_cast<double>(kNaN);
+    expectLost(frame, "time stamp");
+    frame.stamp = kInf;
+    expectLost(frame, "time stamp");
+}
+
+TEST(OdometryFailures, clockSetBackByAnHour)
+{
+    CheckedOdometry odometry;
+    (void)odometry.run(0, 3);
+    OdometryResult result;
+    for (int i = 4; i < 10; ++i)
+    {
+        RgbdFrame frame = good(i);
+        frame.stamp -= 3600;
+        result = odometry.process(frame);
+        EXPECT_NE(result.status, TrackingStatus::First);
+    }
+    EXPECT_EQ(result.status, TrackingStatus::Tracked) << result.reason;
+    EXPECT_THAT(
+        result.increment.mean,
+        test::IsNearPose(CachedSequence::corner().sequence().trueMotion(8, 9), 0.01, 0.01));
+}
+
+TEST(OdometryFailures, oneStampHoursAhead)
+{
+    CheckedOdometry odometry;
+    (void)odometry.run(0, 3);
+    RgbdFrame frame = good(4);
+    frame.stamp += 5 * 3600;
+    (void)odometry.process(frame);
+    const OdometryResult result = odometry.run(5, 10);
+    EXPECT_EQ(result.status, TrackingStatus::Tracked) << result.reason;
+}
+
+TEST(OdometryFailures, hoursApart)
+{
+    CheckedOdometry odometry;
+    (void)odometry.run(0, 3);
+    OdometryResult result;
+    for (int i = 4; i < 8; ++i)
+    {
+        RgbdFrame frame = good(i);
+        frame.stamp += 7 * 3600;
+        result = odometry.process(frame);
+        EXPECT_EQ(result.status, TrackingStatus::Tracked) << result.reason;
+    }
+    EXPECT_THAT(
+        result.pose.mean,
+        test::IsNearPose(CachedSequence::corner().sequence().trueMotion(0, 7), 0.02, 0.03));
+}
+
+/** The motion model must not carry a walking pace through the night. */
+TEST(OdometryFailures, badFrameHoursLater)
+{
+    CheckedOdometry odometry;
+    (void)odometry.run(0, 3);
+    RgbdFrame frame = good(4);
+    frame.stamp += 7 * 3600;
+    frame.depth.setTo(kNaN);
+    frame.gray.setTo(0);
+    const OdometryResult bad = odometry.process(frame);
+    EXPECT_EQ(bad.status, TrackingStatus::Predicted);
+    EXPECT_LT(bad.increment.mean.translation().norm(), 1);
+    for (int i = 5; i < 8; ++i)
+    {
+        frame = good(i);
+        frame.stamp += 7 * 3600;
+        EXPECT_EQ(odometry.process(frame).status, TrackingStatus::Tracked);
+    }
+}
+
+TEST(OdometryFailures, nothingButBadFrames)
+{
+    CheckedOdometry odometry;
+    for (int i = 0; i < 5; ++i)
+    {
+        RgbdFrame frame = good(i);
+        frame.camera.fx = static_cast<double>(kNaN);
+        EXPECT_EQ(odometry.process(frame).status, TrackingStatus::Lost);
+    }
+    EXPECT_EQ(odometry.run(5, 5).status, TrackingStatus::First);
+    EXPECT_EQ(odometry.run(6, 7).status, TrackingStatus::Tracked);
+}
+
+TEST(OdometryFailures, resolutionChangesInTheMiddle)
+{
+    CachedSequence other("corner", 160, 120);
+    CheckedOdometry odometry;
+    (void)odometry.run(0, 3);
+    const OdometryResult changed = odometry.process(other.frame(4));
+    EXPECT_EQ(changed.status, TrackingStatus::Predicted);
+    EXPECT_THAT(changed.reason, testing::HasSubstr("camera"));
+    EXPECT_EQ(odometry.process(other.frame(5)).status, TrackingStatus::Tracked);
+    EXPECT_EQ(odometry.process(other.frame(6)).status, TrackingStatus::Tracked);
+    EXPECT_EQ(odometry.run(7, 7).status, TrackingStatus::Predicted);
+    const OdometryResult last = odometry.run(8, 10);
+    EXPECT_EQ(last.status, TrackingStatus::Tracked);
+    EXPECT_LT(
+        test::normalisedError(CachedSequence::corner().sequence().trueMotion(0, 10), last.pose), 3);
+}
+
+TEST(OdometryFailures, intrinsicsChangeInTheMiddle)
+{
+    CheckedOdometry odometry;
+    (void)odometry.run(0, 3);
+    for (int i = 4; i < 8; ++i)
+    {
+        RgbdFrame frame = good(i);
+        frame.camera.fx += 5;
+        frame.camera.distortion[0] = 0.01;
+        EXPECT_EQ(
+            odometry.process(frame).status,
+            i == 4 ? TrackingStatus::Predicted : TrackingStatus::Tracked);
+    }
+}
+
+TEST(OdometryFailures, imagesOfAnySize)
+{
+    const std::vector<cv::Size> sizes{
+        {1, 1}, {2, 3}, {8, 8}, {9, 1}, {17, 16}, {33, 21}, {4096, 3072}};
+    for (const cv::Size& size : sizes)
+    {
+        for (const char* method : {"track", "match"})
+        {
+            if (size.width > 1000 && std::string(method) == "match")
+            {
+                continue;  // a second of SURF
+            }
+            SCOPED_TRACE(testing::Message() << size.width << "x" << size.height << " " << method);
+            OdometryParams params;
+            params.points.method = method;
+            CheckedOdometry odometry(params);
+            RgbdFrame frame;
+            frame.camera.width = size.width;
+            frame.camera.height = size.height;
+            frame.camera.fx = frame.camera.fy = 0.8 * size.width;
+            frame.camera.cx = 0.5 * (size.width - 1);
+            frame.camera.cy = 0.5 * (size.height - 1);
+            frame.depth = cv::Mat(size, CV_32FC1, cv::Scalar(2));
+            frame.gray = cv::Mat(size, CV_8UC1, cv::Scalar(100));
+            for (int i = 0; i < 3; ++i)
+            {
+                frame.stamp = 100 + i / 30.0;
+                EXPECT_NE(odometry.process(frame).status, TrackingStatus::Lost);
+            }
+            if (size.width < 1000)
+            {
+                RgbdFrame next = good(0);
+                next.stamp = 101;
+                (void)odometry.process(next);
+                next.stamp = 101.03;
+                EXPECT_EQ(odometry.process(next).status, TrackingStatus::Tracked);
+            }
+        }
+    }
+}
+
+TEST(OdometryFailures, nonsenseInThePixels)
+{
+    RgbdFrame frame = good(kBad);
+    const float values[] = {
+        kNaN, static_cast<float>(kInf), static_cast<float>(-kInf), -1.F, 0.F, 1e-38F, 1e38F, 1e-3F};
+    int k = 0;
+    for (int v = 0; v < frame.depth.rows; ++v)
+    {
+        for (int u = v % 3; u < frame.depth.cols; u += 3)
+        {
+            frame.depth.at<float>(v, u) = values[k++ % 8];
+        }
+    }
+    expectRecovered(Outcome(frame));
+}
+
+TEST(OdometryFailures, resetForgets)
+{
+    Odometry odometry;
+    (void)odometry.process(good(0));
+    (void)odometry.process(good(1));
+    odometry.reset();
+    const OdometryResult first = odometry.process(good(0));
+    EXPECT_EQ(first.status, TrackingStatus::First);
+    EXPECT_TRUE(first.pose.mean.isApprox(Eigen::Isometry3d::Identity()));
+}
+}  // namespace pointplane
