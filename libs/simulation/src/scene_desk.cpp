@@ -39,7 +39,10 @@ void addWalls(SceneBuilder& builder, Random& random)
         canvas.addNoise(0.04, 3, 3, random);
         for (double x = 0.3; x + 0.5 < canvas.width(); x += random.uniform(0.75, 1.05))
         {
-            canvas.poster(x, random.uniform(0.75, 1.05), 0.42, random.uniform(0.5, 0.6), random);
+            // One random number a statement: the order of arguments is the compiler's choice.
+            const double top = random.uniform(0.75, 1.05);
+            const double height = random.uniform(0.5, 0.6);
+            canvas.poster(x, top, 0.42, height, random);
         }
     };
     const auto floor = [&random](Canvas& canvas)
