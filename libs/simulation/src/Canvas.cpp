@@ -18,7 +18,8 @@ std::string randomWord(Random& random)
     const int length = 2 + random.below(7);
     for (int i = 0; i < length; ++i)
     {
-        word += static_cast<char>((random.below(6) == 0 ? 'A' : 'a') + random.below(26));
+        const int letter = random.below(26);
+        word += static_cast<char>((random.below(6) == 0 ? 'A' : 'a') + letter);
     }
     return word;
 }
