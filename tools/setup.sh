@@ -8,7 +8,7 @@ readonly build_dir=build/release
 readonly build_packages=(
     g++ cmake ninja-build pkgconf
     libeigen3-dev libopencv-dev libdlib-dev zlib1g-dev libdeflate-dev
-    libmrpt-obs-dev libcli11-dev nlohmann-json3-dev libgtest-dev libgmock-dev
+    libmrpt-obs-dev libmrpt-graphslam-dev libcli11-dev nlohmann-json3-dev libgtest-dev libgmock-dev
     libopenni2-dev libjs-chart.js
 )
 # Not in every release; what they are for is left out of the build, or its tests skipped, without them.
