@@ -2,13 +2,13 @@
 #include <pointplane/core/check.h>
 #include <pointplane/points/PatchAligner.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
 
 #include "patch_kernel.h"
+#include "patch_template.h"
 
 namespace pointplane
 {
@@ -17,144 +17,10 @@ namespace
 constexpr int kMaxPatchPx = 16;
 constexpr double kMaxStepPx = 2;   // a longer Gauss-Newton step is not to be trusted
 constexpr double kMinGain = 0.05;  // of contrast, current over reference: less is no match
-// A direction is searched when its gradients have this many times the energy of noise's gradients.
-constexpr double kMinGradientToNoise = 2;
 // Rounding to 8 bits in both images: the least noise there is [grey^2].
 constexpr double kQuantisationVariance = 2.0 / 12;
 constexpr double kInterpolationSigmaPx = 0.01;  // error of the cubic interpolation, measured
 constexpr double kCoarseConvergencePx = 0.05;   // the next finer level goes on from there
-
-/** Cubic interpolation, as patch_kernel::sample; adds the variance gain. Pixel must be inside. */
-float interpolate(const cv::Mat& image, double u, double v, double& gain)
-{
-    const int x = static_cast<int>(u), y = static_cast<int>(v);
-    const patch_kernel::CubicWeights wx(static_cast<float>(u - x)), wy(static_cast<float>(v - y));
-    gain += static_cast<double>(wx.noiseGain() * wy.noiseGain());
-    const uint8_t* p = image.ptr<uint8_t>(y - 1) + x - 1;
-    float out = 0;
-    for (int i = 0; i < 4; ++i, p += image.step[0])
-    {
-        out +=
-            wy.w[i] * ((wx.w[0] * static_cast<float>(p[0]) + wx.w[1] * static_cast<float>(p[1])) +
-                       (wx.w[2] * static_cast<float>(p[2]) + wx.w[3] * static_cast<float>(p[3])));
-    }
-    return out;
-}
-
-/** Whether all samples between two corners have the 4x4 pixels that interpolation needs. */
-bool isInside(const cv::Mat& image, double uMin, double vMin, double uMax, double vMax)
-{
-    return uMin >= 1 && vMin >= 1 && uMax < image.cols - 2 && vMax < image.rows - 2;
-}
-
-/** (N+2)^2 samples of the warped reference patch, one pixel wider than the patch on all sides.
- * \return mean gain of noise variance, or 0 when the patch is not inside the image */
-double sampleWarped(
-    const cv::Mat& image,
-    const Eigen::Vector2d& centre,
-    const Eigen::Matrix2d& A,
-    int n,
-    float* out)
-{
-    const double half = 0.5 * (n + 1);
-    // A hair wider than needed, as positions are accumulated with rounding.
-    const Eigen::Vector2d reach =
-        A.cwiseAbs() * Eigen::Vector2d(half, half) + Eigen::Vector2d(1e-6, 1e-6);
-    if (!isInside(
-            image,
-            centre.x() - reach.x(),
-            centre.y() - reach.y(),
-            centre.x() + reach.x(),
-            centre.y() + reach.y()))
-    {
-        return 0;
-    }
-    double gain = 0;
-    for (int y = 0; y < n + 2; ++y)
-    {
-        Eigen::Vector2d p = centre + A * Eigen::Vector2d(-half, y - half);
-        for (int x = 0; x < n + 2; ++x)
-        {
-            *out++ = interpolate(image, p.x(), p.y(), gain);
-            p += A.col(0);
-        }
-    }
-    return gain / ((n + 2) * (n + 2));
-}
-
-/** Eigenvalues in increasing order, closed form. */
-class EigenSolver2 : public Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>
-{
- public:
-    explicit EigenSolver2(const Eigen::Matrix2d& S) { computeDirect(S); }
-};
-
-/** What noise of the reference image adds to each eigenvalue of the Hessian: a central difference
- * has half the variance of a sample. */
-double gradientNoise(int count, const PatchReference::Level& level, double noiseVariance)
-{
-    return count * level.noiseGain * 0.5 * noiseVariance;
-}
-
-/** Template, gradients and Hessian from (n+2)^2 samples. \param data 3 n^2 values, written */
-void fillLevel(
-    const float* samples,
-    const PatchAligner::TParams& params,
-    PatchReference::Level& level,
-    float* data)
-{
-    const int n = params.patchSizePx, count = n * n, stride = n + 2;
-    float *T = data, *Tx = data + count, *Ty = data + 2 * count;
-    double sum = 0, sumX = 0, sumY = 0;
-    for (int i = 0; i < count; ++i)
-    {
-        const float* s = samples + (i / n + 1) * stride + i % n + 1;
-        T[i] = s[0];
-        Tx[i] = 0.5F * (s[1] - s[-1]);
-        Ty[i] = 0.5F * (s[stride] - s[-stride]);
-        sum += static_cast<double>(T[i]);
-        sumX += static_cast<double>(Tx[i]);
-        sumY += static_cast<double>(Ty[i]);
-    }
-    level.mean = static_cast<float>(sum / count);
-    const auto meanX = static_cast<float>(sumX / count), meanY = static_cast<float>(sumY / count);
-    float energy = 0, tx = 0, ty = 0;
-    for (int i = 0; i < count; ++i)
-    {
-        T[i] -= level.mean;
-        energy += T[i] * T[i];
-        tx += T[i] * Tx[i];
-        ty += T[i] * Ty[i];
-    }
-    level.energy = energy;
-    level.isUsable = static_cast<double>(energy) >= count * params.minContrast * params.minContrast;
-    if (!level.isUsable)
-    {
-        return;
-    }
-    double hxx = 0, hxy = 0, hyy = 0;
-    for (int i = 0; i < count; ++i)
-    {
-        Tx[i] -= meanX + tx / energy * T[i];  // orthogonal to bias and gain
-        Ty[i] -= meanY + ty / energy * T[i];
-        hxx += static_cast<double>(Tx[i] * Tx[i]);
-        hxy += static_cast<double>(Tx[i] * Ty[i]);
-        hyy += static_cast<double>(Ty[i] * Ty[i]);
-    }
-    level.hessian << hxx, hxy, hxy, hyy;
-    // Directions with nothing but noise to follow are left alone (aperture problem); a patch
-    // explained by gain and bias alone, such as a ramp, has contrast but no direction left.
-    const double least =
-        kMinGradientToNoise * gradientNoise(count, level, params.noise * params.noise);
-    const EigenSolver2 es(level.hessian);
-    Eigen::Vector2d inverse(0, 0);
-    for (int i = 0; i < 2; ++i)
-    {
-        inverse[i] = es.eigenvalues()[i] > least ? 1 / es.eigenvalues()[i] : 0;
-    }
-    level.inverse = es.eigenvectors() * inverse.asDiagonal() * es.eigenvectors().transpose();
-    level.isUsable = inverse[1] > 0;
-}
 
 /** Where the search of one level ended. */
 struct LevelResult
