@@ -44,6 +44,18 @@ apt() {
     as_root env DEBIAN_FRONTEND=noninteractive apt-get -q -o DPkg::Lock::Timeout=600 "$@"
 }
 
+# Ubuntu 24.04 has no MRPT of its own; the archive of MRPT's author has it (docs.mrpt.org, Download).
+add_mrpt_archive() {
+    if is_offered libmrpt-obs-dev || ! grep -qs '^ID=ubuntu' /etc/os-release; then
+        return
+    fi
+    say "adding ppa:joseluisblancoc/mrpt-stable, as this Ubuntu has no MRPT"
+    apt install --yes --no-install-recommends software-properties-common ca-certificates
+    as_root add-apt-repository --yes ppa:joseluisblancoc/mrpt-stable ||
+        die "could not add ppa:joseluisblancoc/mrpt-stable; MRPT 2.4 or newer is needed"
+    apt update
+}
+
 # install_packages NAME...: those that are missing, and the optional ones where they exist.
 install_packages() {
     command -v apt-get >/dev/null ||
@@ -56,6 +68,7 @@ install_packages() {
         say "installing ${missing[*]}"
         # Another source of the machine may be unreachable; what matters is whether install succeeds.
         apt update || echo "apt-get update failed; trying with the lists that are there" >&2
+        add_mrpt_archive
     fi
     for package in "${optional_packages[@]}"; do
         if ! is_installed "$package" && is_offered "$package"; then
