@@ -28,6 +28,9 @@ constexpr int kMinMatches = 3;
 /** Elapsed between two frames whose stamps do not tell. */
 constexpr double kUnknownStep = 1.0 / 30;  // [s]
 
+/** Search radius when too little is found again around the prediction, over the usual one. */
+constexpr double kWideSearch = 5;
+
 /** Rounds of estimation: the velocity that undoes the rolling shutter is the estimate's own. */
 constexpr int kShutterRounds = 2;
 
@@ -123,7 +126,8 @@ struct Odometry::Impl
     [[nodiscard]] OdometryResult coast(
         double stamp, const std::string& reason, OdometryResult result);
     [[nodiscard]] std::vector<Association> associate(
-        const RgbdFrame& frame, const Eigen::Isometry3d& T_prev_cur) const;
+        const RgbdFrame& frame, const Eigen::Isometry3d& T_prev_cur, double radiusFactor) const;
+    [[nodiscard]] double overlapWithNewest(const std::vector<Association>& associations) const;
     [[nodiscard]] FrameVelocities velocities(const Eigen::Isometry3d& T_prev_cur, double dt) const;
     [[nodiscard]] PoseEstimate estimate(
         const RgbdFrame& frame,
@@ -232,7 +236,15 @@ bool Odometry::Impl::track(const RgbdFrame& frame, OdometryResult& result)
     }
     const PoseGaussian predicted = motion.predict(dt);
     const Stopwatch matching;
-    const std::vector<Association> associations = associate(frame, predicted.mean);
+    std::vector<Association> associations = associate(frame, predicted.mean, 1);
+    if (overlapWithNewest(associations) < params.reference.keyframeMinOverlap)
+    {
+        // A jerk that the motion model did not foresee: look farther, then closely again.
+        associations = associate(frame, predicted.mean, kWideSearch);
+        const PoseEstimate coarse =
+            estimate(frame, associations, predicted, dt, result.diagnostics);
+        associations = associate(frame, coarse.T_base_cur.mean, 1);
+    }
     result.diagnostics.msMatching = matching.ms();
 
     // 3. Pose from both, each weighted by its uncertainty, and its validation.
@@ -377,7 +389,7 @@ OdometryResult Odometry::Impl::coast(double stamp, const std::string& reason, Od
 }
 
 std::vector<Association> Odometry::Impl::associate(
-    const RgbdFrame& frame, const Eigen::Isometry3d& T_prev_cur) const
+    const RgbdFrame& frame, const Eigen::Isometry3d& T_prev_cur, double radiusFactor) const
 {
     std::vector<Association> out;
     const Eigen::Isometry3d T_cur_world =
@@ -394,7 +406,8 @@ std::vector<Association> Odometry::Impl::associate(
         }
         if (params.pipeline.usePoints && !reference->points.points.empty())
         {
-            association.points = pointStage.correspond(reference->points, frame, T_cur_ref);
+            association.points =
+                pointStage.correspond(reference->points, frame, T_cur_ref, radiusFactor);
         }
         out.push_back(std::move(association));
     }
@@ -507,18 +520,14 @@ void Odometry::Impl::finish(const PoseGaussian& T_prev_cur, OdometryResult& resu
     latestStamp = result.stamp;
 }
 
-void Odometry::Impl::advance(const RgbdFrame& frame, const std::vector<Association>& associations)
+/** The fraction of the newest key frame's points or planes that was found again, the smaller. */
+double Odometry::Impl::overlapWithNewest(const std::vector<Association>& associations) const
 {
+    const auto fraction = [](size_t found, size_t all)
+    { return all > 0 ? static_cast<double>(found) / static_cast<double>(all) : 1.0; };
     double overlap = associations.empty() ? 0 : 1;
-    features.points.clear();
     for (const Association& a : associations)
     {
-        for (const PointTrack& track : a.points)
-        {
-            features.points.push_back(track.cur);
-        }
-        const auto fraction = [](size_t found, size_t all)
-        { return all > 0 ? static_cast<double>(found) / static_cast<double>(all) : 1.0; };
         if (window.isNewest(*a.reference))
         {
             overlap = std::min(
@@ -526,8 +535,22 @@ void Odometry::Impl::advance(const RgbdFrame& frame, const std::vector<Associati
                 fraction(a.planes.size(), a.reference->planes.planes.size()));
         }
     }
+    return overlap;
+}
+
+void Odometry::Impl::advance(const RgbdFrame& frame, const std::vector<Association>& associations)
+{
+    features.points.clear();
+    for (const Association& a : associations)
+    {
+        for (const PointTrack& track : a.points)
+        {
+            features.points.push_back(track.cur);
+        }
+    }
     current.T_world_cam = pose.mean;
-    const bool isKeyframe = window.empty() || window.needsKeyframe(pose.mean, overlap);
+    const bool isKeyframe =
+        window.empty() || window.needsKeyframe(pose.mean, overlapWithNewest(associations));
     if (isKeyframe && params.pipeline.usePoints)
     {
         current.points = pointStage.makeReference(frame);

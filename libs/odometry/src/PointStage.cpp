@@ -54,11 +54,12 @@ PointReference PointStage::makeReference(const RgbdFrame& frame) const
 std::vector<PointTrack> PointStage::correspond(
     const PointReference& reference,
     const RgbdFrame& frame,
-    const Eigen::Isometry3d& T_cur_ref) const
+    const Eigen::Isometry3d& T_cur_ref,
+    double radiusFactor) const
 {
     if (tracks())
     {
-        return tracker_.track(reference, frame, pyramid_, T_cur_ref);
+        return tracker_.track(reference, frame, pyramid_, T_cur_ref, radiusFactor);
     }
     std::vector<Eigen::Vector2d> predicted, current;
     for (const PointFeature& point : reference.points)

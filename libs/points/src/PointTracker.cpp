@@ -147,7 +147,8 @@ std::vector<PointTrack> PointTracker::track(
     const PointReference& reference,
     const RgbdFrame& frame,
     const std::vector<cv::Mat>& pyramid,
-    const Eigen::Isometry3d& T_cur_ref) const
+    const Eigen::Isometry3d& T_cur_ref,
+    double radiusFactor) const
 {
     std::vector<int> indices;
     std::vector<cv::Point2f> from, to;
@@ -174,7 +175,7 @@ std::vector<PointTrack> PointTracker::track(
         return tracks;
     }
     const std::vector<cv::Point2f> predicted = to;
-    const double radius = params_.searchRadiusFraction * frame.gray.cols;
+    const double radius = radiusFactor * params_.searchRadiusFraction * frame.gray.cols;
     std::vector<uchar> found;
     cv::calcOpticalFlowPyrLK(
         reference.pyramid,

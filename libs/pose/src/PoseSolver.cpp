@@ -18,6 +18,9 @@ namespace
 /** Sigma of unweighted residuals; sets only the balance with the prior. */
 constexpr double kUnweightedSigma = 0.01;
 
+/** Steps below a thousandth of a millimetre or of a milliradian end the search. */
+constexpr double kStepTolerance = 1e-6;
+
 /** The median of chi-square with 3 degrees of freedom. */
 constexpr double kMedianChi2Of3 = 2.366;
 
@@ -163,10 +166,7 @@ class System
             }
             else
             {
-                add(normalPlanes_,
-                    i,
-                    false,
-                    params_.alpha / params_.planeVarianceFactor);
+                add(normalPlanes_, i, false, params_.alpha / params_.planeVarianceFactor);
             }
         }
     }
@@ -217,6 +217,8 @@ void PoseSolver::TParams::check() const
         "planeVarianceFactor = " << planeVarianceFactor << " is not positive");
     POINTPLANE_CHECK(tukeySigmas >= 0, "tukeySigmas = " << tukeySigmas << " is negative");
     POINTPLANE_CHECK(
+        planeStudentDof >= 0, "planeStudentDof = " << planeStudentDof << " is negative");
+    POINTPLANE_CHECK(
         maxIterations >= 1 && maxIterations <= 1000,
         "maxIterations = " << maxIterations << " is not in 1..1000");
 }
@@ -254,7 +256,8 @@ PoseEstimate PoseSolver::solve(
             const Eigen::Isometry3d candidate = se3Exp(step) * T;
             system.evaluate(candidate, false);
             accepted = step.allFinite() && totalCost(candidate) <= cost * (1 + 1e-12);
-            out.converged = step.head<3>().norm() < 1e-7 && step.tail<3>().norm() < 1e-7;
+            out.converged =
+                step.head<3>().norm() < kStepTolerance && step.tail<3>().norm() < kStepTolerance;
             lambda = accepted ? std::max(1e-9, lambda * 0.1) : lambda * 10;
             if (accepted)
             {

@@ -49,11 +49,12 @@ class PointStage
     [[nodiscard]] PointReference makeReference(const RgbdFrame& frame) const;
 
     /** Points of the reference found in the frame that was prepared last.
-     * \param T_cur_ref predicted motion */
+     * \param T_cur_ref predicted motion \param radiusFactor widens the search (tracking only) */
     [[nodiscard]] std::vector<PointTrack> correspond(
         const PointReference& reference,
         const RgbdFrame& frame,
-        const Eigen::Isometry3d& T_cur_ref) const;
+        const Eigen::Isometry3d& T_cur_ref,
+        double radiusFactor) const;
 
  private:
     [[nodiscard]] bool tracks() const { return params_.method == "track"; }

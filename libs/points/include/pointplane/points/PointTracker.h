@@ -78,12 +78,14 @@ class PointTracker
     /** Corners (Shi & Tomasi 1994) with depth. */
     [[nodiscard]] PointReference makeReference(const RgbdFrame& frame) const;
 
-    /** \param T_cur_ref predicted motion \return in the reference's order */
+    /** \param T_cur_ref predicted motion \param radiusFactor widens the search for a bad prediction
+     * \return in the reference's order */
     [[nodiscard]] std::vector<PointTrack> track(
         const PointReference& reference,
         const RgbdFrame& frame,
         const std::vector<cv::Mat>& pyramid,
-        const Eigen::Isometry3d& T_cur_ref) const;
+        const Eigen::Isometry3d& T_cur_ref,
+        double radiusFactor = 1) const;
 
  private:
     TParams params_;
