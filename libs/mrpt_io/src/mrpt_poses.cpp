@@ -4,6 +4,7 @@
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/mrpt_poses.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -88,6 +89,13 @@ PoseGaussian fromMrpt(const mrpt::poses::CPose3DPDFGaussian& pdf)
     const Matrix6d inverse = jacobianYprOfTangent(out.mean).inverse();
     out.cov = propagate(inverse, Matrix6d(pdf.cov.asEigen()));
     return out;
+}
+
+mrpt::math::CMatrixDouble66 optimizerInformation(const mrpt::poses::CPose3DPDFGaussian& edge)
+{
+    const PoseGaussian left = fromMrpt(edge);
+    const Matrix6d cov = propagate(adjoint(left.mean.inverse()), left.cov);
+    return mrpt::math::CMatrixDouble66(Matrix6d(cov.llt().solve(Matrix6d::Identity())));
 }
 
 double toSeconds(mrpt::Clock::time_point stamp)

@@ -35,6 +35,15 @@ namespace pointplane
 /** The inverse of toMrpt(). */
 [[nodiscard]] PoseGaussian fromMrpt(const mrpt::poses::CPose3DPDFGaussian& pdf);
 
+/** Information matrix of an edge as mrpt::graphslam::optimize_graph_spa_levmarq() weights it.
+ *
+ * An edge's cov_inv is documented, saved and composed in (x, y, z, yaw, pitch, roll), but that
+ * optimiser (MRPT 2.5.8) multiplies it with the logarithm of the error, (x, y, z, rx, ry, rz) in the
+ * frame of the edge's end: yaw's weight meets the rotation about x. Assign this to edge.cov_inv
+ * before optimising. */
+[[nodiscard]] mrpt::math::CMatrixDouble66 optimizerInformation(
+    const mrpt::poses::CPose3DPDFGaussian& edge);
+
 /** Seconds since 1970, UTC. */
 [[nodiscard]] double toSeconds(mrpt::Clock::time_point stamp);
 [[nodiscard]] mrpt::Clock::time_point fromSeconds(double seconds);

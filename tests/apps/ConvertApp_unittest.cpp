@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ConvertApp.h"
+
+#include <pointplane/mrpt_io/ObservationConverter.h>
+#include <pointplane/mrpt_io/errors.h>
+#include <pointplane/mrpt_io/mrpt_poses.h>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include <filesystem>
+#include <sstream>
+
+#include "TempDir.h"
+#include "rawlog_samples.h"
+#include "tum_camera.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace pointplane
+{
+namespace
+{
+using mrpt::obs::CObservation3DRangeScan;
+using test::readAll;
+using test::TempDir;
+using test::writeBytes;
+using testing::HasSubstr;
+
+/** A folder with three colour and four depth images, of which two pairs match. */
+class ConvertApp : public testing::Test
+{
+ protected:
+    void SetUp() override
+    {
+        for (const char* sub : {"in", "in/rgb", "in/depth"})
+        {
+            std::filesystem::create_directory(dir_ / sub);
+        }
+        cv::Mat colour(24, 32, CV_8UC3);
+        cv::Mat depth(24, 32, CV_16UC1);
+        for (int i = 0; i < 4; ++i)
+        {
+            cv::randu(colour, 0, 256);
+            cv::randu(depth, 0, 65536);
+            colour.copyTo(colours_[i]);
+            depth.copyTo(depths_[i]);
+            const std::string name = std::to_string(i) + ".png";
+            cv::imwrite(dir_ / "in/rgb/" + name, colour);
+            cv::imwrite(dir_ / "in/depth/" + name, depth);
+        }
+        writeBytes(
+            dir_ / "in/rgb.txt",
+            "# colour\n1305031102.175304 rgb/0.png\n1305031102.211214 rgb/1.png\n"
+            "1305031109.0 rgb/2.png\n");
+        writeBytes(
+            dir_ / "in/depth.txt",
+            "# depth\n1305031102.160407 depth/0.png\n1305031102.194330 depth/1.png\n"
+            "1305031102.226738 depth/2.png\n1305031104.0 depth/3.png\n");
+        writeBytes(dir_ / "in/camera.txt", "26.2 -26.1 15.5 11.5 0.1 0 0 0 0 32 24 5000\n");
+        writeBytes(dir_ / "in/groundtruth.txt", "# truth\n1305031102.1 0 0 0 0 0 0 1\n");
+    }
+
+    [[nodiscard]] int run(std::vector<std::string> args)
+    {
+        args.insert(args.begin(), "tum");
+        args.emplace_back("--quiet");
+        std::ostringstream out, err;
+        const int code = runConvert(args, out, err);
+        text_ = out.str() + err.str();
+        return code;
+    }
+
+    [[nodiscard]] std::vector<CObservation3DRangeScan::Ptr> scansOf(const std::string& path)
+    {
+        std::vector<CObservation3DRangeScan::Ptr> out;
+        for (const auto& object : readAll(path).objects)
+        {
+            if (auto scan = std::dynamic_pointer_cast<CObservation3DRangeScan>(object))
+            {
+                out.push_back(scan);
+            }
+        }
+        return out;
+    }
+
+    TempDir dir_;
+    std::string in_{dir_ / "in"};
+    std::string out_{dir_ / "out.rawlog"};
+    cv::Mat colours_[4], depths_[4];
+    std::string text_;
+};
+
+TEST_F(ConvertApp, pairsAreThoseOfAssociateAndNothingIsLost)
+{
+    ASSERT_EQ(run({in_, "-o", out_}), kExitOk) << text_;
+    EXPECT_THAT(text_, HasSubstr("2 frames"));
+    EXPECT_THAT(text_, HasSubstr("1 colour and 2 depth images"));
+    const auto scans = scansOf(out_);
+    ASSERT_EQ(scans.size(), 2U);
+    // Nearest first: 102.175304 with .160407 (15 ms), 102.211214 with .226738 (16 ms); .194330 is
+    // 17 and 19 ms away.
+    const int partners[2] = {0, 2};
+    for (int i = 0; i < 2; ++i)
+    {
+        const auto& scan = *scans[static_cast<std::size_t>(i)];
+        EXPECT_FLOAT_EQ(scan.rangeUnits, 1.0F / 5000);
+        for (int v = 0; v < 24; ++v)
+        {
+            for (int u = 0; u < 32; ++u)
+            {
+                ASSERT_EQ(scan.rangeImage(v, u), depths_[partners[i]].at<std::uint16_t>(v, u));
+            }
+        }
+        EXPECT_EQ(cv::norm(scan.intensityImage.asCvMatRef(), colours_[i], cv::NORM_INF), 0);
+        EXPECT_EQ(scan.sensorPose, mrpt::poses::CPose3D());
+    }
+    EXPECT_EQ(stampText(scans[0]->timestamp), "1305031102.175304000");
+    EXPECT_EQ(
+        test::readBytes(dir_ / "out.groundtruth.txt"),
+        test::readBytes(dir_ / "in/groundtruth.txt"));
+}
+
+TEST_F(ConvertApp, cameraAndDelayReachTheFrame)
+{
+    ASSERT_EQ(run({in_, "-o", out_}), kExitOk) << text_;
+    ObservationConverter converter;
+    const auto contents = readAll(out_);
+    converter.readComment(
+        *std::dynamic_pointer_cast<mrpt::obs::CObservationComment>(contents.objects.at(0)));
+    const ConvertedFrame converted = converter.convert(*scansOf(out_).front());
+    ASSERT_EQ(converted.problem, "");
+    EXPECT_DOUBLE_EQ(converted.frame.camera.fy, -26.1);
+    EXPECT_DOUBLE_EQ(converted.frame.camera.distortion[0], 0.1);
+    EXPECT_TRUE(converted.frame.camera.depthAtUndistortedPixel);
+    // Offsets -14.897 and +15.524 ms: the upper median.
+    EXPECT_NEAR(converted.frame.shutter.depthDelay, 0.015524, 1e-6);
+}
+
+TEST_F(ConvertApp, externalFilesAreTheOriginalsAndGiveTheSameFrames)
+{
+    ASSERT_EQ(run({in_, "-o", out_}), kExitOk) << text_;
+    const std::string external = dir_ / "external.rawlog";
+    ASSERT_EQ(run({in_, "-o", external, "--external"}), kExitOk) << text_;
+    EXPECT_LT(std::filesystem::file_size(external), 3000U);
+    const std::string folder = dir_ / "external_Images";
+    EXPECT_EQ(
+        test::readBytes(folder + "/1305031102.175304000_rgb.png"),
+        test::readBytes(dir_ / "in/rgb/0.png"));
+    const auto a = scansOf(out_), b = scansOf(external);
+    ASSERT_EQ(a.size(), b.size());
+    ObservationConverter converter;
+    converter.setExternalsDirectory(folder);
+    for (std::size_t i = 0; i < a.size(); ++i)
+    {
+        const ConvertedFrame fa = converter.convert(*a[i]), fb = converter.convert(*b[i]);
+        ASSERT_EQ(fa.problem + fb.problem, "");
+        EXPECT_EQ(cv::norm(fa.frame.gray, fb.frame.gray, cv::NORM_INF), 0);
+        for (int v = 0; v < 24; ++v)  // NaN compares with nothing
+        {
+            EXPECT_EQ(
+                std::memcmp(fa.frame.depth.ptr(v), fb.frame.depth.ptr(v), 32 * sizeof(float)), 0);
+        }
+    }
+}
+
+TEST_F(ConvertApp, cameraFiles)
+{
+    writeBytes(
+        dir_ / "mrpt.ini",
+        "[CAMERA_PARAMS]\nresolution = [32 24]\ncx = 15.5\ncy = 11.5\nfx = 26\nfy = 27\n"
+        "dist = [0.1 0.2 0.3 0.4 0.5]\ndistortion_model = plumb_bob\n");
+    const TumCamera camera = loadTumCamera(dir_ / "mrpt.ini", in_);
+    EXPECT_EQ(camera.camera.width, 32);
+    EXPECT_DOUBLE_EQ(camera.camera.fy, 27);
+    EXPECT_DOUBLE_EQ(camera.camera.distortion[4], 0.5);
+    EXPECT_DOUBLE_EQ(loadTumCamera("fr1", in_).camera.fx, 517.306408);
+    EXPECT_DOUBLE_EQ(loadTumCamera("", "/data/rgbd_dataset_freiburg3_cabinet").camera.cy, 247.6);
+    EXPECT_DOUBLE_EQ(loadTumCamera("", in_).camera.fx, 26.2);
+    writeBytes(dir_ / "bad.txt", "1 2 3\n");
+    EXPECT_THROW((void)loadTumCamera(dir_ / "bad.txt", in_), InputError);
+    writeBytes(dir_ / "zero.txt", "0 0 0 0 0 0 0 0 0 32 24 5000\n");
+    EXPECT_THROW((void)loadTumCamera(dir_ / "zero.txt", in_), InputError);
+    EXPECT_THROW((void)loadTumCamera("fr7", in_), InputError);
+}
+
+TEST_F(ConvertApp, mistakesAreNamed)
+{
+    const auto expect = [this](const std::string& text, std::vector<std::string> more = {})
+    {
+        std::vector<std::string> args{in_, "-o", out_};
+        args.insert(args.end(), more.begin(), more.end());
+        EXPECT_EQ(run(args), kExitBadInput) << text;
+        EXPECT_THAT(text_, HasSubstr(text));
+        EXPECT_FALSE(std::filesystem::exists(out_));
+    };
+    const std::string listing = test::readBytes(dir_ / "in/depth.txt");
+    writeBytes(dir_ / "in/depth.txt", "# x\n\n12.0 a.png b.png\n");
+    expect("depth.txt:3: expected 'stamp file'");
+    writeBytes(dir_ / "in/depth.txt", "abc a.png\n");
+    expect("depth.txt:1: 'abc' is not a time stamp");
+    writeBytes(dir_ / "in/depth.txt", "# nothing\n");
+    expect("depth.txt: lists no images");
+    writeBytes(dir_ / "in/depth.txt", "5.0 depth/0.png\n");
+    expect("no colour and depth stamps within");
+    writeBytes(dir_ / "in/depth.txt", listing);
+    expect("is 32x24 but the camera is for 640x480", {"--camera", "fr3"});
+    cv::imwrite(dir_ / "in/depth/0.png", colours_[0]);
+    expect("depth/0.png: is not a 16 bit depth image");
+    std::filesystem::remove(dir_ / "in/depth/0.png");
+    expect("cannot open " + in_ + "/depth/0.png: no such file");
+    std::filesystem::remove(dir_ / "in/camera.txt");
+    expect("say --camera");
+    std::ostringstream out, err;
+    EXPECT_EQ(runConvert({"tum", dir_ / "none", "-o", out_}, out, err), kExitBadInput);
+    EXPECT_THAT(err.str(), HasSubstr("none: is not a folder"));
+}
+
+TEST_F(ConvertApp, realFolders)
+{
+    const char* data = std::getenv("POINTPLANE_DATA");
+    if (data == nullptr)
+    {
+        GTEST_SKIP() << "POINTPLANE_DATA is not set";
+    }
+    ASSERT_EQ(run({std::string(data) + "/icl_living_room_kt0_part", "-o", out_}), kExitOk) << text_;
+    const auto scans = scansOf(out_);
+    ASSERT_EQ(scans.size(), 151U);
+    EXPECT_LT(scans[0]->cameraParams.fy(), 0);
+    EXPECT_EQ(ObservationConverter().convert(*scans[150]).problem, "");
+}
+}  // namespace
+}  // namespace pointplane

@@ -1,0 +1,406 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "OdometryApp.h"
+
+#include <pointplane/mrpt_io/RawlogReader.h>
+#include <pointplane/mrpt_io/errors.h>
+#include <pointplane/mrpt_io/external_range.h>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+#include <limits>
+#include <random>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "TempDir.h"
+#include "rawlog_samples.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace pointplane
+{
+namespace
+{
+using mrpt::obs::CObservation3DRangeScan;
+using mrpt::obs::CObservationComment;
+using mrpt::obs::CObservationRobotPose;
+using test::readBytes;
+using test::sampleScan;
+using test::TempDir;
+using test::writeBytes;
+using testing::HasSubstr;
+
+struct Outcome
+{
+    int code{-1};
+    std::string out, err;
+};
+
+class OdometryApp : public testing::Test
+{
+ protected:
+    [[nodiscard]] Outcome run(std::vector<std::string> args) const
+    {
+        args.emplace_back("--quiet");
+        std::ostringstream out, err;
+        Outcome outcome;
+        outcome.code = runOdometry(args, out, err);
+        outcome.out = out.str();
+        outcome.err = err.str();
+        return outcome;
+    }
+
+    /** Runs on n sample scans that `change` has been applied to. */
+    template <class Change>
+    [[nodiscard]] Outcome runOn(int n, const Change& change) const
+    {
+        RawlogWriter writer(in_);
+        for (int i = 0; i < n; ++i)
+        {
+            const auto scan = sampleScan(i, 64, 48);
+            change(i, *scan);
+            writer.write(*scan);
+        }
+        writer.close();
+        return run({in_, "-o", out_});
+    }
+
+    [[nodiscard]] std::size_t numPoses(const std::string& path) const
+    {
+        const auto contents = test::readAll(path);
+        return static_cast<std::size_t>(std::count_if(
+            contents.objects.begin(),
+            contents.objects.end(),
+            [](const auto& o)
+            { return std::dynamic_pointer_cast<CObservationRobotPose>(o) != nullptr; }));
+    }
+
+    TempDir dir_;
+    std::string in_{dir_ / "in.rawlog"};
+    std::string out_{dir_ / "out.rawlog"};
+};
+
+TEST_F(OdometryApp, everyFrameGetsAPoseWithItsStamp)
+{
+    const Outcome outcome = runOn(5, [](int, CObservation3DRangeScan&) {});
+    EXPECT_EQ(outcome.code, kExitOk) << outcome.err;
+    EXPECT_THAT(outcome.out, HasSubstr("RGBD: 5 frames"));
+    const auto contents = test::readAll(out_);
+    EXPECT_EQ(contents.ending.kind, RawlogEnd::Clean);
+    mrpt::Clock::time_point stamp;
+    int numFrames = 0;
+    for (const auto& object : contents.objects)
+    {
+        if (const auto scan = std::dynamic_pointer_cast<CObservation3DRangeScan>(object))
+        {
+            EXPECT_EQ(scan->rangeImage, sampleScan(numFrames++, 64, 48)->rangeImage);
+            stamp = scan->timestamp;
+        }
+        else if (const auto pose = std::dynamic_pointer_cast<CObservationRobotPose>(object))
+        {
+            EXPECT_EQ(pose->timestamp, stamp);
+            EXPECT_EQ(pose->sensorLabel, "RGBD_pose");
+            EXPECT_TRUE(pose->pose.cov.asEigen().llt().info() == Eigen::Success);
+        }
+    }
+    EXPECT_EQ(numFrames, 5);
+}
+
+TEST_F(OdometryApp, sameInputSameBytesForAnyNumberOfThreads)
+{
+    ASSERT_EQ(runOn(8, [](int, CObservation3DRangeScan&) {}).code, kExitOk);
+    const std::string rawlog = readBytes(out_);
+    std::string trajectory;
+    for (const char* jobs : {"1", "2", "3", "3"})
+    {
+        ASSERT_EQ(
+            run({in_, "-o", out_, "--jobs", jobs, "--trajectory", dir_ / "t.txt"}).code, kExitOk);
+        EXPECT_EQ(readBytes(out_), rawlog) << jobs << " jobs";
+        const std::string text = readBytes(dir_ / "t.txt");
+        EXPECT_TRUE(trajectory.empty() || trajectory == text) << jobs << " jobs";
+        trajectory = text;
+    }
+}
+
+TEST_F(OdometryApp, aFrameThatCannotBeUsedIsNamedAndTheRestIsDone)
+{
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    struct Case
+    {
+        std::function<void(CObservation3DRangeScan&)> change;
+        const char* text;
+    };
+    const std::vector<Case> cases{
+        {[](auto& s) { s.hasRangeImage = false; }, "no range image"},
+        {[](auto& s) { s.cameraParams.ncols = 640; },
+         "range image is 64x48 but cameraParams is for 640x48"},
+        {[nan](auto& s) { s.cameraParams.setIntrinsicParamsFromValues(nan, nan, 1, 1); },
+         "not finite"},
+        {[](auto& s) { s.cameraParamsIntensity.setIntrinsicParamsFromValues(0, 0, 0, 0); },
+         "focal length is zero"},
+        {[](auto& s) { s.timestamp = mrpt::Clock::fromDouble(900); }, "time stamp is not after"},
+    };
+    for (const Case& c : cases)
+    {
+        const Outcome outcome = runOn(
+            4,
+            [&c](int i, CObservation3DRangeScan& scan)
+            {
+                if (i == 2)
+                {
+                    c.change(scan);
+                }
+            });
+        EXPECT_EQ(outcome.code, kExitIncomplete) << c.text;
+        EXPECT_THAT(outcome.err, HasSubstr("frame 2 of RGBD: "));
+        EXPECT_THAT(outcome.err, HasSubstr(c.text));
+        EXPECT_EQ(numPoses(out_), 4U) << c.text;
+        EXPECT_THAT(outcome.out, HasSubstr("1 lost")) << c.text;
+    }
+}
+
+TEST_F(OdometryApp, untrackedFramesSaySoInTheRawlog)
+{
+    (void)runOn(
+        3,
+        [](int i, CObservation3DRangeScan& scan)
+        {
+            if (i == 1)
+            {
+                scan.hasRangeImage = false;
+            }
+        });
+    bool found = false;
+    for (const auto& object : test::readAll(out_).objects)
+    {
+        if (const auto comment = std::dynamic_pointer_cast<CObservationComment>(object))
+        {
+            found = found ||
+                    comment->text ==
+                        "pointplane-status label=RGBD frame=1 lost: observation has no range image";
+        }
+    }
+    EXPECT_TRUE(found);
+}
+
+TEST_F(OdometryApp, badInputIsNamedWithExitCode2)
+{
+    const auto expect = [this](const std::vector<std::string>& args, const std::string& text)
+    {
+        const Outcome outcome = run(args);
+        EXPECT_EQ(outcome.code, kExitBadInput) << text;
+        EXPECT_THAT(outcome.err, HasSubstr(text));
+        EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+        EXPECT_FALSE(std::filesystem::exists(out_));
+    };
+    test::writeObservations(in_, 2);
+    expect({dir_ / "none.rawlog", "-o", out_}, "none.rawlog: No such file");
+    writeBytes(dir_ / "empty.rawlog", "");
+    expect({dir_ / "empty.rawlog", "-o", out_}, "empty.rawlog: is empty");
+    writeBytes(dir_ / "text.rawlog", "hello");
+    expect({dir_ / "text.rawlog", "-o", out_}, "is it a rawlog?");
+    expect(
+        {in_, "-o", out_, "--sensor-label", "LEFT"},
+        "'LEFT' in the range asked for; labels in it: 'RGBD'");
+    expect({in_, "-o", in_}, "is an input");
+    writeBytes(dir_ / "typo.ini", "[DepthNoise]\nsigmaInverseDept = 1\n");
+    expect({in_, "-o", out_, "-c", dir_ / "typo.ini"}, "did you mean 'sigmaInverseDepth'?");
+    expect({in_, "-o", out_, "-c", dir_ / "none.ini"}, "none.ini: No such file");
+    expect({in_, "-o", out_, "--set", "DepthNoise.sigmaInverseDepth=-1"}, "sigmaInverseDepth");
+    {
+        RawlogWriter writer(dir_ / "comments.rawlog");
+        writer.write(CObservationComment());
+        writer.close();
+    }
+    expect({dir_ / "comments.rawlog", "-o", out_}, "no CObservation3DRangeScan");
+    CObservationComment comment;
+    comment.text = "pointplane-camera label=RGBD readout=1";
+    {
+        RawlogWriter writer(dir_ / "shutter.rawlog");
+        writer.write(comment);
+        writer.close();
+    }
+    expect(
+        {dir_ / "shutter.rawlog", "-o", out_},
+        "shutter.rawlog: comment 'pointplane-camera': unknown key 'readout'");
+}
+
+TEST_F(OdometryApp, unwritableOutputIsExitCode3)
+{
+    test::writeObservations(in_, 2);
+    for (const char* option : {"-o", "--trajectory", "--diagnostics", "--simplemap", "--graph"})
+    {
+        const Outcome outcome = run({in_, option, "/nonexistent/x"});
+        EXPECT_EQ(outcome.code, kExitEnvironment) << option;
+        EXPECT_THAT(outcome.err, HasSubstr("/nonexistent/x.partial: No such file or directory"));
+    }
+    std::filesystem::create_symlink("/dev/full", dir_ / "full.rawlog.partial");
+    const Outcome outcome = run({in_, "-o", dir_ / "full.rawlog"});
+    EXPECT_EQ(outcome.code, kExitEnvironment);
+    EXPECT_THAT(outcome.err, HasSubstr("No space left on device"));
+}
+
+TEST_F(OdometryApp, damagedInputIsDoneUpToTheDamage)
+{
+    std::mt19937 rng(7);
+    RawlogWriterOptions options;
+    options.flushEveryObjects = 1;
+    test::writeObservations(in_, 6, options);
+    const std::string bytes = readBytes(in_);
+    for (int i = 0; i < 10; ++i)
+    {
+        const std::size_t cut = bytes.size() / 2 + rng() % (bytes.size() / 2 - 1);
+        writeBytes(dir_ / "cut.rawlog", bytes.substr(0, cut));
+        const Outcome outcome = run({dir_ / "cut.rawlog", "-o", out_});
+        EXPECT_EQ(outcome.code, kExitIncomplete);
+        EXPECT_THAT(outcome.err, HasSubstr("cut.rawlog: truncated at byte " + std::to_string(cut)));
+        EXPECT_EQ(numPoses(out_), test::readAll(dir_ / "cut.rawlog").objects.size());
+        EXPECT_EQ(test::readAll(out_).ending.kind, RawlogEnd::Clean);
+    }
+}
+
+TEST_F(OdometryApp, severalCamerasAndSeveralFiles)
+{
+    {
+        RawlogWriter writer(in_);
+        for (int i = 0; i < 3; ++i)
+        {
+            for (const char* label : {"LEFT", "RIGHT"})
+            {
+                const auto scan = sampleScan(i, 64, 48);
+                scan->sensorLabel = label;
+                writer.write(*scan);
+            }
+        }
+        writer.close();
+    }
+    EXPECT_THAT(run({in_, "-o", out_}).out, HasSubstr("LEFT: 3 frames"));
+    EXPECT_THAT(
+        run({in_, "-o", out_, "--sensor-label", "RIGHT"}).out, HasSubstr("RIGHT: 3 frames"));
+    // Both cameras' observations are still there.
+    EXPECT_GE(test::readAll(out_).objects.size(), 9U);
+    test::writeObservations(dir_ / "a.rawlog", 3);
+    RawlogWriter writer(dir_ / "b.rawlog");
+    writer.write(*sampleScan(3));
+    writer.close();
+    EXPECT_THAT(
+        run({dir_ / "a.rawlog", dir_ / "b.rawlog", "-o", out_}).out, HasSubstr("RGBD: 4 frames"));
+}
+
+TEST_F(OdometryApp, firstAndCount)
+{
+    test::writeObservations(in_, 8);
+    const Outcome outcome =
+        run({in_, "--first", "2", "--count", "3", "--diagnostics", dir_ / "d.csv"});
+    EXPECT_EQ(outcome.code, kExitOk) << outcome.err;
+    EXPECT_THAT(outcome.out, HasSubstr("RGBD: 3 frames"));
+    EXPECT_THAT(readBytes(dir_ / "d.csv"), HasSubstr("\n2,1000.062500000,first"));
+    const Outcome none = run({in_, "--first", "8", "-o", out_});
+    EXPECT_EQ(none.code, kExitBadInput);
+}
+
+TEST_F(OdometryApp, readsFormat1AsFormat2)
+{
+    test::writeObservations(in_, 5);
+    test::writeActionsAndFrames(dir_ / "format1.rawlog", 5);
+    ASSERT_EQ(run({in_, "--trajectory", dir_ / "2.txt"}).code, kExitOk);
+    ASSERT_EQ(run({dir_ / "format1.rawlog", "--trajectory", dir_ / "1.txt"}).code, kExitOk);
+    EXPECT_EQ(readBytes(dir_ / "1.txt"), readBytes(dir_ / "2.txt"));
+}
+
+TEST_F(OdometryApp, externalFilesStayReachableFromTheOutput)
+{
+    std::filesystem::create_directories(dir_ / "in_Images");
+    {
+        RawlogWriter writer(in_);
+        for (int i = 0; i < 3; ++i)
+        {
+            const auto scan = sampleScan(i);
+            const std::string name = std::to_string(i);
+            cv::imwrite(dir_ / "in_Images/" + name + ".png", scan->intensityImage.asCvMatRef());
+            scan->intensityImage.setExternalStorage(name + ".png");
+            moveRangeToFile(*scan, dir_ / "in_Images", name + ".bin");
+            writer.write(*scan);
+        }
+        writer.close();
+    }
+    std::filesystem::create_directories(dir_ / "elsewhere");
+    const std::string moved = dir_ / "elsewhere/out.rawlog";
+    ASSERT_EQ(run({in_, "-o", moved, "--trajectory", dir_ / "a.txt"}).code, kExitOk);
+    ASSERT_EQ(run({moved, "--trajectory", dir_ / "b.txt"}).code, kExitOk);
+    EXPECT_EQ(readBytes(dir_ / "a.txt"), readBytes(dir_ / "b.txt"));
+    // One removed, one replaced by garbage: named, and the rest is done.
+    std::filesystem::remove(dir_ / "in_Images/1.bin");
+    writeBytes(dir_ / "in_Images/2.png", "garbage");
+    const Outcome outcome = run({in_, "-o", out_});
+    EXPECT_EQ(outcome.code, kExitIncomplete);
+    EXPECT_THAT(outcome.err, HasSubstr("in_Images/1.bin: No such file"));
+    EXPECT_THAT(outcome.err, HasSubstr("in_Images/2.png: is not an image, or damaged"));
+    EXPECT_EQ(numPoses(out_), 3U);
+}
+
+TEST_F(OdometryApp, killedAtAnyMomentLeavesNothingThatLooksComplete)
+{
+    test::writeObservations(in_, 200);
+    writeBytes(out_, "the previous file");
+    std::mt19937 rng(11);
+    int numKilled = 0;
+    for (int i = 0; i < 10; ++i)
+    {
+        const pid_t child = fork();
+        ASSERT_GE(child, 0);
+        if (child == 0)
+        {
+            (void)run({in_, "-o", out_, "--jobs", "1"});
+            ::_exit(0);
+        }
+        ::usleep(static_cast<useconds_t>(1000 + rng() % 40000));
+        ::kill(child, SIGKILL);
+        int status = 0;
+        ASSERT_EQ(waitpid(child, &status, 0), child);
+        if (!WIFSIGNALED(status))
+        {
+            continue;  // it was faster
+        }
+        ++numKilled;
+        if (readBytes(out_) != "the previous file")
+        {
+            EXPECT_EQ(test::readAll(out_).ending.kind, RawlogEnd::Clean);  // killed after rename
+        }
+        writeBytes(out_, "the previous file");
+    }
+    EXPECT_GT(numKilled, 0);
+}
+
+TEST_F(OdometryApp, picturesOfEveryFrame)
+{
+    test::writeObservations(in_, 2);
+    ASSERT_EQ(run({in_, "--overlay", dir_ / "pictures"}).code, kExitOk);
+    const cv::Mat picture = cv::imread(dir_ / "pictures/000001.png");
+    EXPECT_EQ(picture.size(), cv::Size(32, 24));
+}
+
+TEST_F(OdometryApp, dumpedConfigurationIsItsOwnInput)
+{
+    const Outcome dumped = run({"--dump-config", "--set", "DepthNoise.sigmaPixelPx=0.7"});
+    ASSERT_EQ(dumped.code, kExitOk);
+    EXPECT_THAT(dumped.out, HasSubstr("sigmaPixelPx = 0.7"));
+    writeBytes(dir_ / "a.ini", dumped.out);
+    EXPECT_EQ(run({"--dump-config", "-c", dir_ / "a.ini"}).out, dumped.out);
+}
+
+TEST_F(OdometryApp, helpAndVersion)
+{
+    EXPECT_EQ(run({"--help"}).code, kExitOk);
+    EXPECT_EQ(run({"--version"}).code, kExitOk);
+    EXPECT_EQ(run({"--nonsense"}).code, kExitBadInput);
+    EXPECT_EQ(run({}).code, kExitBadInput);
+}
+}  // namespace
+}  // namespace pointplane
