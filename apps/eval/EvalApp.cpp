@@ -32,6 +32,8 @@ int runEval(const std::vector<std::string>& args, std::ostream& out, std::ostrea
     addAteCommand(app, context);
     addNeesCommand(app, context);
     addCompareCommand(app, context);
+    addSweepCommand(app, context);
+    addReproduceCommand(app, context);
 
     std::vector<std::string> reversed;
     std::transform(args.rbegin(), args.rend(), std::back_inserter(reversed), withHyphens);

@@ -23,5 +23,7 @@ void addRpeCommand(CLI::App& app, CommandContext& context);
 void addAteCommand(CLI::App& app, CommandContext& context);
 void addNeesCommand(CLI::App& app, CommandContext& context);
 void addCompareCommand(CLI::App& app, CommandContext& context);
+void addSweepCommand(CLI::App& app, CommandContext& context);
+void addReproduceCommand(CLI::App& app, CommandContext& context);
 /** @} */
 }  // namespace pointplane

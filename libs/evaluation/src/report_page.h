@@ -62,7 +62,7 @@ charts.forEach((c, index) => {
   const axis = (label, log) => ({type: log ? 'logarithmic' : 'linear',
     title: {display: true, text: label}, ticks: {maxRotation: 0, autoSkipPadding: 14}});
   const scales = {x: axis(c.xLabel, c.logX), y: axis(c.yLabel, c.logY)};
-  scales.x.bounds = 'data';
+  scales.x.bounds = 'data'; scales.x.ticks.includeBounds = false;
   if (c.yRightLabel) {
     scales.y2 = axis(c.yRightLabel, false);
     scales.y2.position = 'right';

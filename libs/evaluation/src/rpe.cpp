@@ -240,7 +240,7 @@ RpeResult relativePoseError(
     return result;
 }
 
-std::string describe(const RpeOptions& options, const RpeResult& result)
+std::string describe(const RpeOptions& options)
 {
     char delta[64] = "all ordered pairs";
     if (options.fixedDelta)
@@ -248,21 +248,23 @@ std::string describe(const RpeOptions& options, const RpeResult& result)
         std::snprintf(
             delta, sizeof delta, "fixed delta %g %s", options.delta, nameOf(options.unit).c_str());
     }
-    char counts[128];
+    const bool script = options.formula == RpeFormula::TumScript;
+    const bool nearest = options.truthAt == TruthAt::NearestStamp;
+    return std::string(script ? "TUM protocol (evaluate_rpe), " : "evo's formula, ") + delta +
+           ", ground truth " + (nearest ? "at the nearest stamp" : "interpolated");
+}
+
+std::string describe(const RpeOptions& options, const RpeResult& result)
+{
+    char counts[160];
     std::snprintf(
         counts,
         sizeof counts,
-        "%zu of %zu pairs%s, coverage %.1f %%",
+        ", %zu of %zu pairs%s, coverage %.1f %%",
         result.translation.count,
         result.candidatePairs,
-        result.randomPairs ? (", drawn with seed " + std::to_string(options.seed)).c_str() : "",
+        result.randomPairs ? (" drawn with seed " + std::to_string(options.seed)).c_str() : "",
         100 * result.coverage);
-    return std::string(
-               options.formula == RpeFormula::TumScript ? "TUM protocol (evaluate_rpe), "
-                                                        : "evo's formula, ") +
-           delta + ", ground truth " +
-           (options.truthAt == TruthAt::NearestStamp ? "at the nearest stamp, "
-                                                     : "interpolated, ") +
-           counts;
+    return describe(options) + counts;
 }
 }  // namespace pointplane

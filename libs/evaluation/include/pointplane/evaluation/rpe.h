@@ -70,6 +70,9 @@ struct RpeResult
 [[nodiscard]] RpeResult relativePoseError(
     const Trajectory& groundTruth, const Trajectory& estimate, const RpeOptions& options);
 
+/** The protocol without what a run adds: formula, delta, ground truth. */
+[[nodiscard]] std::string describe(const RpeOptions& options);
+
 /** The protocol in one line, e.g. for a title: formula, delta, pairs used, ground truth,
  * coverage. */
 [[nodiscard]] std::string describe(const RpeOptions& options, const RpeResult& result);

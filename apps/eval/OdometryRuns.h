@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pointplane/evaluation/rpe.h>
+
+#include <iosfwd>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+namespace pointplane
+{
+/** One run of pointplane-odometry, to be scored against ground truth. */
+struct OdometryRun
+{
+    std::string name;  //!< for progress and file names, e.g. "xyz alpha=3"
+    std::string rawlog;
+    std::string groundTruth;            //!< of the camera's optical frame
+    std::string config;                 //!< ini file; empty: the built-in configuration
+    std::vector<std::string> settings;  //!< Section.key=value
+};
+
+/** Its score, or why there is none. */
+struct OdometryScore
+{
+    std::optional<RpeResult> rpe;
+    std::string failure;
+};
+
+/** How runs are made; sweep and reproduce share the options. */
+struct OdometryRunner
+{
+    std::string odometry;   //!< the program; empty: the one beside this one, or in PATH
+    std::string directory;  //!< for trajectories and logs; empty: a temporary one
+    std::size_t jobs{0};    //!< runs at a time; 0: one per core
+
+    void addTo(CLI::App& command);
+
+    /** Makes all runs, several at a time, and scores them. A failed run is a score with its
+     * failure, not an exception. Progress, one line per run, goes to `err`. \throws
+     * EnvironmentError when the directory cannot be written, InputError when there is no odometry
+     * program */
+    [[nodiscard]] std::vector<OdometryScore> run(
+        const std::vector<OdometryRun>& runs, const RpeOptions& rpe, std::ostream& err) const;
+};
+
+/** A directory that is gone with its owner, unless it was given by name. */
+class WorkDirectory
+{
+ public:
+    /** \param path is created and kept; empty: a temporary one. \throws EnvironmentError */
+    explicit WorkDirectory(const std::string& path);
+    ~WorkDirectory();
+    WorkDirectory(const WorkDirectory&) = delete;
+    WorkDirectory& operator=(const WorkDirectory&) = delete;
+    [[nodiscard]] const std::string& path() const { return path_; }
+
+ private:
+    std::string path_;
+    bool temporary_;
+};
+
+/** "12.3 mm / 0.456 deg", or "failed". */
+[[nodiscard]] std::string scoreText(const OdometryScore& score);
+
+/** Ground truth that pointplane-convert and -simulate put beside a rawlog:
+ * <name>.groundtruth.txt. */
+[[nodiscard]] std::string groundTruthBeside(const std::string& rawlog);
+}  // namespace pointplane

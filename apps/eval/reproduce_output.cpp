@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reproduce_output.h"
+
+#include <algorithm>
+
+#include "result_output.h"
+#include "sweep_charts.h"
+
+namespace pointplane
+{
+namespace
+{
+constexpr double kDegrees = 180 / 3.14159265358979323846;
+
+using Cells = std::vector<std::string>;
+
+struct Table
+{
+    std::string caption;
+    Cells header;
+    std::vector<Cells> rows;
+};
+
+std::string displayName(const ReproducedSequence& s)
+{
+    return s.name + (s.isPart ? " (part)" : "");
+}
+
+/** The paper's figures of a sequence; nothing but dashes if it has none. */
+PublishedFigures publishedOf(const std::string& name)
+{
+    for (const PublishedFigures& figures : publishedFigures())
+    {
+        if (figures.sequence == name)
+        {
+            return figures;
+        }
+    }
+    return {name, "", "", "", ""};
+}
+
+std::string orDash(const std::string& text) { return text.empty() ? "-" : text; }
+
+bool hasGroup(const Reproduction& result, const std::string& group)
+{
+    return std::any_of(
+        result.variants.begin(),
+        result.variants.end(),
+        [&](const Variant& v) { return v.group == group; });
+}
+
+/** Variants of a group down, sequences across. */
+Table groupTable(const Reproduction& result, const std::string& group, const std::string& caption)
+{
+    Table table{caption, {group == "alpha" ? "alpha" : "configuration"}, {}};
+    for (const ReproducedSequence& s : result.sequences)
+    {
+        table.header.push_back(displayName(s));
+    }
+    for (const Variant& v : result.variants)
+    {
+        if (v.group == group)
+        {
+            Cells row{v.name};
+            for (std::size_t s = 0; s < result.sequences.size(); ++s)
+            {
+                row.push_back(result.text(s, group, v.name));
+            }
+            table.rows.push_back(std::move(row));
+        }
+    }
+    return table;
+}
+
+std::vector<Table> tables(const Reproduction& result)
+{
+    std::vector<Table> out;
+    if (hasGroup(result, "paper"))
+    {
+        Table first{
+            "Table 1: points, unweighted and weighted by their uncertainty (config-paper.ini)",
+            {"sequence", "unweighted", "paper", "weighted", "paper"},
+            {}};
+        Table second{
+            "Table 2: points, and points and planes (config-paper.ini)",
+            {"sequence",
+             "points",
+             "paper",
+             "points and planes",
+             "paper",
+             "best named by the paper"},
+            {}};
+        for (std::size_t s = 0; s < result.sequences.size(); ++s)
+        {
+            const PublishedFigures p = publishedOf(result.sequences[s].name);
+            const std::string name = displayName(result.sequences[s]);
+            const std::string points = result.text(s, "paper", "points");
+            first.rows.push_back(
+                {name,
+                 result.text(s, "paper", "points, unweighted"),
+                 orDash(p.deterministic),
+                 points,
+                 orDash(p.deterministic.empty() ? "" : p.points)});
+            second.rows.push_back(
+                {name,
+                 points,
+                 orDash(p.points),
+                 result.text(s, "paper", "points and planes"),
+                 orDash(p.pointsAndPlanes),
+                 orDash(p.stateOfTheArt)});
+        }
+        out.push_back(first);
+        out.push_back(second);
+    }
+    if (hasGroup(result, "alpha"))
+    {
+        out.push_back(
+            groupTable(result, "alpha", "Fig. 3: weight of the planes (config-paper.ini)"));
+    }
+    if (hasGroup(result, "paper"))
+    {
+        out.push_back(groupTable(result, "paper", "Ablations of config-paper.ini"));
+    }
+    if (hasGroup(result, "default"))
+    {
+        out.push_back(groupTable(result, "default", "Ablations of the default configuration"));
+    }
+    return out;
+}
+
+/** What the paper evaluates and this folder does not hold, or holds only a part of. */
+std::string missing(const Reproduction& result)
+{
+    std::string absent;
+    std::string parts;
+    for (const PublishedFigures& figures : publishedFigures())
+    {
+        const auto found = std::find_if(
+            result.sequences.begin(),
+            result.sequences.end(),
+            [&](const ReproducedSequence& s) { return s.name == figures.sequence; });
+        std::string& list = found == result.sequences.end() ? absent : parts;
+        if (found == result.sequences.end() || found->isPart)
+        {
+            list += (list.empty() ? "" : ", ") + figures.sequence;
+        }
+    }
+    std::string out;
+    out += absent.empty() ? "" : "Missing of the paper's sequences: " + absent + ". ";
+    out += parts.empty()
+               ? ""
+               : "Only a part, so not comparable with the published figure as it stands: " + parts +
+                     ". ";
+    return out;
+}
+
+std::string failures(const Reproduction& result)
+{
+    std::string out;
+    for (std::size_t k = 0; k < result.scores.size(); ++k)
+    {
+        if (!result.scores[k].rpe)
+        {
+            const Variant& v = result.variants[k % result.variants.size()];
+            out += "- " + displayName(result.sequences[k / result.variants.size()]) + ", " +
+                   v.group + ", " + v.name + ": " + result.scores[k].failure + "\n";
+        }
+    }
+    return out;
+}
+
+std::string intro(const Reproduction& result)
+{
+    return "RMSE of the relative pose error in mm / deg. " + result.protocol + ".";
+}
+}  // namespace
+
+std::string Reproduction::text(
+    std::size_t sequence, const std::string& group, const std::string& name) const
+{
+    for (std::size_t v = 0; v < variants.size(); ++v)
+    {
+        if (variants[v].group == group && variants[v].name == name)
+        {
+            return scoreText(scores[sequence * variants.size() + v]);
+        }
+    }
+    return "-";
+}
+
+std::string toMarkdown(const Reproduction& result)
+{
+    std::string out = intro(result) + "\n";
+    for (const Table& table : tables(result))
+    {
+        std::vector<std::size_t> widths;
+        for (std::size_t c = 0; c < table.header.size(); ++c)
+        {
+            widths.push_back(table.header[c].size());
+            for (const Cells& row : table.rows)
+            {
+                widths[c] = std::max(widths[c], row[c].size());
+            }
+        }
+        const auto line = [&](const Cells& cells)
+        {
+            std::string text = "|";
+            for (std::size_t c = 0; c < cells.size(); ++c)
+            {
+                text += " " + cells[c] + std::string(widths[c] - cells[c].size(), ' ') + " |";
+            }
+            return text + "\n";
+        };
+        Cells rule;
+        for (const std::size_t width : widths)
+        {
+            rule.push_back(std::string(width, '-'));
+        }
+        out += "\n### " + table.caption + "\n\n" + line(table.header) + line(rule);
+        for (const Cells& row : table.rows)
+        {
+            out += line(row);
+        }
+    }
+    const std::string absent = missing(result);
+    out += absent.empty() ? "" : "\n" + absent + "\n";
+    const std::string failed = failures(result);
+    return out + (failed.empty() ? "" : "\nFailed runs:\n" + failed);
+}
+
+nlohmann::ordered_json toJson(const Reproduction& result)
+{
+    nlohmann::ordered_json json;
+    json["title"] = "Reproduction";
+    json["protocol"] = result.protocol;
+    json["missing"] = missing(result);
+    for (std::size_t k = 0; k < result.scores.size(); ++k)
+    {
+        const ReproducedSequence& s = result.sequences[k / result.variants.size()];
+        const Variant& v = result.variants[k % result.variants.size()];
+        nlohmann::ordered_json run{
+            {"sequence", s.name},
+            {"part", s.isPart},
+            {"group", v.group},
+            {"variant", v.name},
+            {"config", v.config},
+            {"settings", v.settings}};
+        if (result.scores[k].rpe)
+        {
+            run["translation"] = result.scores[k].rpe->translation.rmse;
+            run["rotationDeg"] = result.scores[k].rpe->rotation.rmse * kDegrees;
+            run["pairs"] = result.scores[k].rpe->translation.count;
+            run["coverage"] = result.scores[k].rpe->coverage;
+        }
+        else
+        {
+            run["failure"] = result.scores[k].failure;
+        }
+        json["runs"].push_back(run);
+    }
+    return json;
+}
+
+std::string toCsv(const Reproduction& result)
+{
+    std::string out = "sequence,part,group,variant,pairs,coverage,rpe_m,rpe_deg,failure\n";
+    for (std::size_t k = 0; k < result.scores.size(); ++k)
+    {
+        const ReproducedSequence& s = result.sequences[k / result.variants.size()];
+        const Variant& v = result.variants[k % result.variants.size()];
+        const OdometryScore& score = result.scores[k];
+        out += csvField(s.name) + "," + (s.isPart ? "1" : "0") + "," + v.group + "," +
+               csvField(v.name) +
+               (score.rpe ? format(
+                                ",%zu,%.6g,%.9g,%.9g,\n",
+                                score.rpe->translation.count,
+                                score.rpe->coverage,
+                                score.rpe->translation.rmse,
+                                score.rpe->rotation.rmse * kDegrees)
+                          : ",,,,," + csvField(score.failure) + "\n");
+    }
+    return out;
+}
+
+std::string toHtml(const Reproduction& result)
+{
+    HtmlReport report("Reproduction of the paper's figures", intro(result));
+    const std::string absent = missing(result);
+    if (!absent.empty())
+    {
+        report.addParagraph(absent);
+    }
+    std::vector<std::string> alphas;
+    std::vector<std::string> names;
+    std::vector<OdometryScore> scores;
+    for (std::size_t s = 0; s < result.sequences.size(); ++s)
+    {
+        names.push_back(displayName(result.sequences[s]));
+        for (std::size_t v = 0; v < result.variants.size(); ++v)
+        {
+            if (result.variants[v].group == "alpha")
+            {
+                scores.push_back(result.scores[s * result.variants.size() + v]);
+                if (s == 0)
+                {
+                    alphas.push_back(result.variants[v].name);
+                }
+            }
+        }
+    }
+    if (!alphas.empty())
+    {
+        for (Chart& chart : sweepCharts("alpha", alphas, names, scores, false))
+        {
+            chart.title = "Fig. 3: " + chart.title;
+            report.addChart(chart);
+        }
+    }
+    for (const Table& table : tables(result))
+    {
+        report.addTable(table.caption, table.header, table.rows);
+    }
+    return report.html();
+}
+}  // namespace pointplane

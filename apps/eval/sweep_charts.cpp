@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sweep_charts.h"
+
+#include <charconv>
+#include <limits>
+
+namespace pointplane
+{
+namespace
+{
+constexpr double kDegrees = 180 / 3.14159265358979323846;
+
+std::vector<double> positions(const std::vector<std::string>& values)
+{
+    std::vector<double> numbers;
+    std::vector<double> indices;
+    for (const std::string& value : values)
+    {
+        double number = 0;
+        const char* const end = value.data() + value.size();
+        const auto [parsed, error] = std::from_chars(value.data(), end, number);
+        if (error == std::errc() && parsed == end)
+        {
+            numbers.push_back(number);
+        }
+        indices.push_back(static_cast<double>(indices.size()));
+    }
+    return numbers.size() == values.size() ? numbers : indices;
+}
+}  // namespace
+
+std::vector<Chart> sweepCharts(
+    const std::string& parameter,
+    const std::vector<std::string>& values,
+    const std::vector<std::string>& sequences,
+    const std::vector<OdometryScore>& scores,
+    bool logarithmic)
+{
+    std::vector<Chart> charts(2);
+    charts[0].title = "Translation";
+    charts[0].yLabel = "RPE RMSE [mm]";
+    charts[1].title = "Rotation";
+    charts[1].yLabel = "RPE RMSE [deg]";
+    for (std::size_t c = 0; c < charts.size(); ++c)
+    {
+        charts[c].xLabel = parameter;
+        charts[c].logX = logarithmic;
+        for (std::size_t s = 0; s < sequences.size(); ++s)
+        {
+            ChartSeries series;
+            series.name = sequences[s];
+            series.x = positions(values);
+            for (std::size_t v = 0; v < values.size(); ++v)
+            {
+                const auto& rpe = scores[s * values.size() + v].rpe;
+                series.y.push_back(
+                    !rpe     ? std::numeric_limits<double>::quiet_NaN()
+                    : c == 0 ? 1000 * rpe->translation.rmse
+                             : kDegrees * rpe->rotation.rmse);
+            }
+            charts[c].series.push_back(std::move(series));
+        }
+    }
+    return charts;
+}
+}  // namespace pointplane

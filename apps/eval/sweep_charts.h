@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pointplane/evaluation/HtmlReport.h>
+
+#include <string>
+#include <vector>
+
+#include "OdometryRuns.h"
+
+namespace pointplane
+{
+/** RPE RMSE over the values of a parameter, a curve per sequence: translation and rotation. Values
+ * that are not numbers stand at 0, 1, 2, ...
+ * \param scores of sequence s and value v at [s * values.size() + v] */
+[[nodiscard]] std::vector<Chart> sweepCharts(
+    const std::string& parameter,
+    const std::vector<std::string>& values,
+    const std::vector<std::string>& sequences,
+    const std::vector<OdometryScore>& scores,
+    bool logarithmic);
+}  // namespace pointplane

@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/evaluation/HtmlReport.h>
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <ostream>
+
+#include "OdometryRuns.h"
+#include "command.h"
+#include "result_output.h"
+#include "rpe_options.h"
+#include "sweep_charts.h"
+#include "trajectory_report.h"
+
+namespace pointplane
+{
+namespace
+{
+constexpr double kDegrees = 180 / 3.14159265358979323846;
+
+struct SweepCommand
+{
+    std::string parameter;  //!< Section.key
+    std::vector<std::string> rawlogs, groundTruths, values, settings;
+    std::string config, report;
+    std::vector<double> range;  //!< from, to, steps
+    bool logarithmic{false};
+    RpeCommandOptions rpe;
+    OdometryRunner runner;
+    OutputFiles files;
+
+    void addTo(CLI::App& command);
+    void run(CommandContext& context);
+    [[nodiscard]] std::vector<std::string> valuesToTry() const;
+    [[nodiscard]] std::vector<OdometryRun> runs(const std::vector<std::string>& tried) const;
+};
+
+/** Score of each value on each rawlog. */
+struct SweepResult
+{
+    std::string parameter, protocol;
+    std::vector<std::string> values, sequences;
+    std::vector<OdometryScore> scores;  //!< of sequence s and value v: [s * values.size() + v]
+
+    [[nodiscard]] const OdometryScore& at(std::size_t s, std::size_t v) const
+    {
+        return scores[s * values.size() + v];
+    }
+};
+
+void SweepCommand::addTo(CLI::App& command)
+{
+    command.add_option("parameter", parameter, "Key of the configuration, e.g. PoseSolver.alpha")
+        ->required();
+    command.add_option("rawlogs", rawlogs, "Sequences")->required()->expected(1, -1);
+    command.add_option("--values", values, "Values to try, e.g. 0,1,10 or surf,orb")
+        ->delimiter(',')
+        ->group("Runs");
+    command.add_option("--range", range, "From, to and how many values, instead of --values")
+        ->expected(3)
+        ->delimiter(',')
+        ->group("Runs");
+    command.add_flag("--log", logarithmic, "Space the values of --range logarithmically")
+        ->group("Runs");
+    command
+        .add_option(
+            "--gt", groundTruths, "Ground truth of each rawlog [NAME.groundtruth.txt beside it]")
+        ->delimiter(',')
+        ->group("Runs");
+    command.add_option("-c,--config", config, "Configuration of all runs")->group("Runs");
+    command.add_option("--set", settings, "Section.key=value for all runs")
+        ->allow_extra_args(false)
+        ->group("Runs");
+    runner.addTo(command);
+    rpe.addTo(command);
+    files.addTo(command);
+    command.add_option("--report", report, "Write DIR/index.html: one file, with the curves")
+        ->type_name("DIR")
+        ->group("Output");
+}
+
+std::vector<std::string> SweepCommand::valuesToTry() const
+{
+    if (values.empty() == range.empty())
+    {
+        throw std::invalid_argument("sweep needs either --values or --range");
+    }
+    if (range.empty())
+    {
+        return values;
+    }
+    const double from = range[0];
+    const double to = range[1];
+    const auto steps = static_cast<int>(range[2]);
+    if (steps < 2 || steps != range[2] || (logarithmic && (from <= 0 || to <= 0)))
+    {
+        throw std::invalid_argument(
+            "--range takes from, to and a whole number of at least 2 values; with --log both ends "
+            "are positive");
+    }
+    std::vector<std::string> out;
+    for (int k = 0; k < steps; ++k)
+    {
+        const double f = static_cast<double>(k) / (steps - 1);
+        out.push_back(
+            format("%.6g", logarithmic ? from * std::pow(to / from, f) : from + f * (to - from)));
+    }
+    return out;
+}
+
+std::vector<OdometryRun> SweepCommand::runs(const std::vector<std::string>& tried) const
+{
+    if (!groundTruths.empty() && groundTruths.size() != rawlogs.size())
+    {
+        throw std::invalid_argument("--gt needs one ground truth for each rawlog");
+    }
+    std::vector<OdometryRun> out;
+    for (std::size_t s = 0; s < rawlogs.size(); ++s)
+    {
+        const std::string truth =
+            groundTruths.empty() ? groundTruthBeside(rawlogs[s]) : groundTruths[s];
+        for (const std::string& file : {rawlogs[s], truth})
+        {
+            if (!std::filesystem::exists(file))
+            {
+                throw InputError("no file '" + file + "'");
+            }
+        }
+        for (const std::string& value : tried)
+        {
+            OdometryRun run;
+            run.name =
+                std::filesystem::path(rawlogs[s]).stem().string() + " " + parameter + "=" + value;
+            run.rawlog = rawlogs[s];
+            run.groundTruth = truth;
+            run.config = config;
+            run.settings = settings;
+            run.settings.push_back(parameter + "=" + value);
+            out.push_back(std::move(run));
+        }
+    }
+    return out;
+}
+
+void printTable(const SweepResult& sweep, std::ostream& out)
+{
+    out << "Sweep of " << sweep.parameter << ", RPE RMSE: " << sweep.protocol << "\n\n"
+        << format("%-16s", "value");
+    for (const std::string& sequence : sweep.sequences)
+    {
+        out << format("  %-26.26s", sequence.c_str());
+    }
+    out << "\n";
+    for (std::size_t v = 0; v < sweep.values.size(); ++v)
+    {
+        out << format("%-16s", sweep.values[v].c_str());
+        for (std::size_t s = 0; s < sweep.sequences.size(); ++s)
+        {
+            out << format("  %-26s", scoreText(sweep.at(s, v)).c_str());
+        }
+        out << "\n";
+    }
+}
+
+nlohmann::ordered_json toJson(const SweepResult& sweep)
+{
+    nlohmann::ordered_json json;
+    json["title"] = "Sweep of " + sweep.parameter;
+    json["protocol"] = sweep.protocol;
+    for (std::size_t s = 0; s < sweep.sequences.size(); ++s)
+    {
+        for (std::size_t v = 0; v < sweep.values.size(); ++v)
+        {
+            const OdometryScore& score = sweep.at(s, v);
+            nlohmann::ordered_json item{
+                {"sequence", sweep.sequences[s]}, {"value", sweep.values[v]}};
+            if (score.rpe)
+            {
+                item["translation"] = score.rpe->translation.rmse;
+                item["rotationDeg"] = score.rpe->rotation.rmse * kDegrees;
+                item["pairs"] = score.rpe->translation.count;
+            }
+            else
+            {
+                item["failure"] = score.failure;
+            }
+            json["runs"].push_back(item);
+        }
+    }
+    return json;
+}
+
+std::string toCsv(const SweepResult& sweep)
+{
+    std::string out = "sequence,parameter,value,pairs,rpe_m,rpe_deg,failure\n";
+    for (std::size_t s = 0; s < sweep.sequences.size(); ++s)
+    {
+        for (std::size_t v = 0; v < sweep.values.size(); ++v)
+        {
+            const OdometryScore& score = sweep.at(s, v);
+            out += csvField(sweep.sequences[s]) + "," + sweep.parameter + "," +
+                   csvField(sweep.values[v]) +
+                   (score.rpe ? format(
+                                    ",%zu,%.9g,%.9g,\n",
+                                    score.rpe->translation.count,
+                                    score.rpe->translation.rmse,
+                                    score.rpe->rotation.rmse * kDegrees)
+                              : ",,,," + csvField(score.failure) + "\n");
+        }
+    }
+    return out;
+}
+
+std::string toHtml(const SweepResult& sweep, bool logarithmic)
+{
+    HtmlReport report("Sweep of " + sweep.parameter, sweep.protocol);
+    std::vector<Chart> charts =
+        sweepCharts(sweep.parameter, sweep.values, sweep.sequences, sweep.scores, logarithmic);
+    for (const Chart& chart : charts)
+    {
+        report.addChart(chart);
+    }
+    std::vector<std::vector<std::string>> rows;
+    std::vector<std::string> header{sweep.parameter};
+    header.insert(header.end(), sweep.sequences.begin(), sweep.sequences.end());
+    for (std::size_t v = 0; v < sweep.values.size(); ++v)
+    {
+        rows.push_back({sweep.values[v]});
+        for (std::size_t s = 0; s < sweep.sequences.size(); ++s)
+        {
+            rows.back().push_back(scoreText(sweep.at(s, v)));
+        }
+    }
+    report.addTable("RPE RMSE", header, rows);
+    return report.html();
+}
+
+void SweepCommand::run(CommandContext& context)
+{
+    SweepResult sweep;
+    sweep.parameter = parameter;
+    sweep.values = valuesToTry();
+    for (const std::string& rawlog : rawlogs)
+    {
+        sweep.sequences.push_back(std::filesystem::path(rawlog).stem().string());
+    }
+    rpe.rpe.fixedDelta = true;
+    const RpeOptions resolved = rpe.resolved();
+    sweep.scores = runner.run(runs(sweep.values), resolved, context.err);
+    sweep.protocol = describe(resolved);
+
+    if (!files.replaceTable())
+    {
+        printTable(sweep, context.out);
+    }
+    files.write(toJson(sweep), toCsv(sweep), context.out);
+    if (!report.empty())
+    {
+        context.err << "report: " << writeReportFile(toHtml(sweep, logarithmic), report) << "\n";
+    }
+    for (const OdometryScore& score : sweep.scores)
+    {
+        context.exitCode = score.rpe ? context.exitCode : kExitIncomplete;
+    }
+}
+}  // namespace
+
+void addSweepCommand(CLI::App& app, CommandContext& context)
+{
+    CLI::App& command = *app.add_subcommand(
+        "sweep", "Runs the odometry over a range of any parameter and draws the curve");
+    const auto options = std::make_shared<SweepCommand>();
+    options->addTo(command);
+    command.callback([options, &context] { options->run(context); });
+}
+}  // namespace pointplane
