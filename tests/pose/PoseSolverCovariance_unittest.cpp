@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/evaluation/chi_square.h>
+#include <pointplane/pose/PoseSolver.h>
+
+#include <functional>
+#include <vector>
+
+#include "synthetic_pairs.h"
+#include <gtest/gtest.h>
+
+namespace pointplane
+{
+namespace
+{
+constexpr int kRuns = 600;
+
+/** What so many runs say of the covariance that each claims. */
+struct Consistency
+{
+    double nees{0};             //!< mean e^T cov^-1 e, of 6
+    double shapeDifference{0};  //!< Frobenius norm of the whitened sample covariance minus I
+};
+
+Consistency consistency(
+    test::PairWorld& world,
+    const PoseSolver::TParams& params,
+    const std::optional<Matrix6d>& priorCov = std::nullopt,
+    double noiseScale = 1)
+{
+    const PoseSolver solver(params);
+    Consistency out;
+    std::vector<Vector6d> errors;
+    Matrix6d meanCov = Matrix6d::Zero();
+    for (int i = 0; i < kRuns; ++i)
+    {
+        std::optional<PoseGaussian> prior;
+        Eigen::Isometry3d start = Eigen::Isometry3d::Identity();
+        if (priorCov)
+        {
+            // truth = exp(xi) * mean
+            const Vector6d xi = world.sampler().sample(*priorCov);
+            prior = PoseGaussian{se3Exp(-xi) * world.T_base_cur, *priorCov};
+            start = prior->mean;
+        }
+        const PoseEstimate e =
+            solver.solve(world.drawPoints(noiseScale), world.drawPlanes(noiseScale), start, prior);
+        errors.push_back(leftError(world.T_base_cur, e.T_base_cur.mean));
+        out.nees += errors.back().dot(e.T_base_cur.cov.ldlt().solve(errors.back())) / kRuns;
+        meanCov += e.T_base_cur.cov / kRuns;
+    }
+    out.shapeDifference = test::whitenedDifference(test::sampleCovariance(errors), meanCov);
+    return out;
+}
+
+PoseSolver::TParams gaussian()
+{
+    PoseSolver::TParams params;
+    params.tukeySigmas = 0;
+    params.planeStudentDof = 0;
+    return params;
+}
+
+/** Within the two-sided 99.9 % interval of chi^2(6 n) / n, on either side. */
+void expectConsistent(const Consistency& c)
+{
+    EXPECT_GT(c.nees, chiSquareQuantile(0.0005, 6.0 * kRuns) / kRuns);
+    EXPECT_LT(c.nees, chiSquareQuantile(0.9995, 6.0 * kRuns) / kRuns);
+    EXPECT_LT(c.shapeDifference, 0.42);  // sqrt(42 / 600) = 0.26 for a right covariance
+}
+
+/** Which features a world has; every world moves by 3 cm and 2 degrees. */
+test::PairWorld makeWorld(unsigned seed, int points, int planes)
+{
+    test::PairWorld world(seed);
+    world.addPoints(points);
+    world.addPlanes(planes);
+    world.T_base_cur = world.randomMotion(0.03, 0.035);
+    return world;
+}
+}  // namespace
+
+TEST(PoseSolverCovariance, ofPoints)
+{
+    auto world = makeWorld(31, 40, 0);
+    expectConsistent(consistency(world, gaussian()));
+}
+
+TEST(PoseSolverCovariance, ofPlanes)
+{
+    auto world = makeWorld(32, 0, 5);
+    expectConsistent(consistency(world, gaussian()));
+    PoseSolver::TParams params = gaussian();
+    params.planeResidual = "closestPoint";
+    expectConsistent(consistency(world, params));
+}
+
+TEST(PoseSolverCovariance, ofPointsAndPlanes)
+{
+    auto world = makeWorld(33, 25, 4);
+    expectConsistent(consistency(world, gaussian()));
+}
+
+TEST(PoseSolverCovariance, withPrior)
+{
+    auto world = makeWorld(34, 10, 2);
+    const Matrix6d cov = world.sampler().covariance<6>(1e-6, 2e-5);
+    expectConsistent(consistency(world, gaussian(), cov));
+}
+
+/** One wall and the prior: half of the directions come from either. */
+TEST(PoseSolverCovariance, degenerateWithPrior)
+{
+    auto world = makeWorld(35, 0, 1);
+    const Matrix6d cov = 1e-4 * Matrix6d::Identity();
+    expectConsistent(consistency(world, gaussian(), cov));
+}
+
+/** Weights that are not the inverse covariance: the sandwich H^-1 M H^-1 accounts for them. */
+TEST(PoseSolverCovariance, ofSuboptimalWeights)
+{
+    for (const char* weighting : {"diagonal", "none"})
+    {
+        SCOPED_TRACE(weighting);
+        auto world = makeWorld(36, 25, 4);
+        PoseSolver::TParams params = gaussian();
+        params.weighting = weighting;
+        params.planeResidual = "closestPoint";
+        params.alpha = 10;
+        expectConsistent(consistency(world, params));
+    }
+}
+
+TEST(PoseSolverCovariance, ofCorrelatedNoiseByItsFactor)
+{
+    auto world = makeWorld(37, 25, 4);
+    PoseSolver::TParams params = gaussian();
+    params.pointVarianceFactor = params.planeVarianceFactor = 9;
+    const Matrix6d cov = world.sampler().covariance<6>(1e-6, 2e-5);
+    expectConsistent(consistency(world, params, cov, 3));
+}
+
+/** Down-weighting what is far out by chance costs efficiency, which the covariance must admit. */
+TEST(PoseSolverCovariance, ofTukeysWeights)
+{
+    auto world = makeWorld(38, 60, 0);
+    PoseSolver::TParams params = gaussian();
+    params.tukeySigmas = PoseSolver::TParams{}.tukeySigmas;
+    expectConsistent(consistency(world, params));
+}
+
+TEST(PoseSolverCovariance, ofStudentsWeights)
+{
+    auto world = makeWorld(39, 0, 12);
+    PoseSolver::TParams params = gaussian();
+    params.planeStudentDof = PoseSolver::TParams{}.planeStudentDof;
+    expectConsistent(consistency(world, params));
+}
+}  // namespace pointplane

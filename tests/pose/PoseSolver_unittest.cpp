@@ -1,0 +1,457 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/covariance.h>
+#include <pointplane/pose/PoseSolver.h>
+#include <pointplane/pose/residuals.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "matchers.h"
+#include "synthetic_pairs.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace pointplane
+{
+namespace
+{
+using test::PairWorld;
+
+const Eigen::Isometry3d kStart = Eigen::Isometry3d::Identity();
+constexpr double kFiveDeg = 5 * M_PI / 180;
+
+PoseSolver::TParams gaussian()
+{
+    PoseSolver::TParams params;
+    params.tukeySigmas = 0;
+    params.planeStudentDof = 0;
+    return params;
+}
+
+PoseEstimate solve(
+    const PoseSolver::TParams& params,
+    const std::vector<PointPair>& points,
+    const std::vector<PlanePair>& planes,
+    const std::optional<PoseGaussian>& prior = std::nullopt)
+{
+    return PoseSolver(params).solve(points, planes, kStart, prior);
+}
+
+/** Root of the mean squared tangent error over runs. */
+double rms(PairWorld& world, const PoseSolver::TParams& params, int runs)
+{
+    double sum = 0;
+    for (int i = 0; i < runs; ++i)
+    {
+        const PoseEstimate e = solve(params, world.drawPoints(), world.drawPlanes());
+        sum += leftError(world.T_base_cur, e.T_base_cur.mean).squaredNorm();
+    }
+    return std::sqrt(sum / runs);
+}
+
+/** What a motion model says: 2 cm, 1 degree. */
+PoseGaussian loosePrior()
+{
+    PoseGaussian prior;
+    prior.cov.diagonal() << Eigen::Vector3d::Constant(4e-4), Eigen::Vector3d::Constant(3e-4);
+    return prior;
+}
+}  // namespace
+
+TEST(PoseSolver, recoversExactMotionFromFiveDegreesAndFiveCentimetres)
+{
+    for (const char* weighting : {"full", "diagonal", "none"})
+    {
+        for (const char* residual : {"minimal", "closestPoint"})
+        {
+            for (const auto& [numPoints, numPlanes] :
+                 {std::pair(40, 0),
+                  std::pair(3, 0),
+                  std::pair(0, 4),
+                  std::pair(2, 1),
+                  std::pair(30, 4)})
+            {
+                SCOPED_TRACE(
+                    testing::Message() << weighting << " " << residual << " " << numPoints
+                                       << " points " << numPlanes << " planes");
+                PairWorld world(7);
+                world.addPoints(numPoints);
+                world.addPlanes(numPlanes);
+                PoseSolver::TParams params;
+                params.weighting = weighting;
+                params.planeResidual = residual;
+                params.maxIterations = 100;
+                for (int i = 0; i < 5; ++i)
+                {
+                    world.T_base_cur = world.randomMotion(0.05, kFiveDeg);
+                    const PoseEstimate estimate =
+                        solve(params, world.drawPoints(0), world.drawPlanes(0));
+                    EXPECT_TRUE(estimate.converged);
+                    EXPECT_THAT(
+                        estimate.T_base_cur.mean, test::IsNearPose(world.T_base_cur, 1e-6, 1e-6));
+                }
+            }
+        }
+    }
+}
+
+TEST(PoseSolver, anyStartWithinFiveDegreesAndFiveCentimetresGivesTheSameAnswer)
+{
+    PairWorld world(8);
+    world.addPoints(50);
+    world.addPlanes(4);
+    world.T_base_cur = world.randomMotion(0.03, 0.02);
+    const auto points = world.drawPoints();
+    const auto planes = world.drawPlanes();
+    const PoseSolver solver({});
+    const PoseEstimate reference = solver.solve(points, planes, world.T_base_cur, std::nullopt);
+    EXPECT_TRUE(reference.converged);
+    for (int i = 0; i < 50; ++i)
+    {
+        const Eigen::Isometry3d start = world.randomMotion(0.05, kFiveDeg) * world.T_base_cur;
+        const PoseEstimate estimate = solver.solve(points, planes, start, std::nullopt);
+        EXPECT_TRUE(estimate.converged);
+        EXPECT_THAT(
+            estimate.T_base_cur.mean, test::IsNearPose(reference.T_base_cur.mean, 1e-5, 1e-5));
+    }
+}
+
+/** The minimum of [P17 Eq. 10], whose weights are held while the gradient is taken. */
+TEST(PoseSolver, gradientOfThePapersCostVanishes)
+{
+    for (const char* weighting : {"full", "diagonal"})
+    {
+        PairWorld world(9);
+        world.addPoints(20);
+        world.addPlanes(5);
+        world.T_base_cur = world.randomMotion(0.03, 0.03);
+        PoseSolver::TParams params = gaussian();
+        params.weighting = weighting;
+        params.planeResidual = "closestPoint";
+        params.alpha = 10;
+        params.maxIterations = 200;
+        const auto points = world.drawPoints();
+        const auto planes = world.drawPlanes();
+        const PoseEstimate e = solve(params, points, planes);
+        const auto add = [&](const Residual& r, double alpha, Vector6d& gradient, Matrix6d& H)
+        {
+            const Eigen::Matrix3d diagonal = r.cov.diagonal().cwiseInverse().asDiagonal();
+            const Eigen::Matrix3d W =
+                params.weighting == "full" ? Eigen::Matrix3d(r.cov.inverse()) : diagonal;
+            gradient += alpha * r.J.transpose() * W * r.r;
+            H += alpha * r.J.transpose() * W * r.J;
+        };
+        Vector6d gradient = Vector6d::Zero();
+        Matrix6d H = Matrix6d::Zero();
+        for (const PointPair& pair : points)
+        {
+            add(pointResidual(pair, e.T_base_cur.mean), 1, gradient, H);
+        }
+        for (const PlanePair& pair : planes)
+        {
+            add(planeResidualClosestPoint(pair, e.T_base_cur.mean), 10, gradient, H);
+        }
+        // The step that the gradient still asks for, in sigmas.
+        EXPECT_LT(std::sqrt(gradient.dot(H.ldlt().solve(gradient))), 1e-2) << weighting;
+    }
+}
+
+TEST(PoseSolver, fullAndDiagonalWeightsAgreeOnDiagonalCovariances)
+{
+    PairWorld world(10);
+    world.addPoints(30);
+    auto points = world.drawPoints();
+    for (PointPair& pair : points)
+    {
+        pair.base.cov = 1e-4 * Eigen::Matrix3d::Identity();
+        pair.cur.cov = 2e-4 * Eigen::Matrix3d::Identity();
+    }
+    PoseSolver::TParams full = gaussian(), diagonal = gaussian();
+    diagonal.weighting = "diagonal";
+    const PoseEstimate a = solve(full, points, {}), b = solve(diagonal, points, {});
+    EXPECT_THAT(a.T_base_cur.mean, test::IsNearPose(b.T_base_cur.mean, 1e-9, 1e-9));
+    EXPECT_LT(test::whitenedDifference(a.T_base_cur.cov, b.T_base_cur.cov), 1e-6);
+}
+
+TEST(PoseSolver, unweightedMotionDoesNotDependOnCovariances)
+{
+    PairWorld world(11);
+    world.addPoints(30);
+    auto points = world.drawPoints();
+    PoseSolver::TParams params = gaussian();
+    params.weighting = "none";
+    const PoseEstimate a = solve(params, points, {});
+    for (size_t i = 0; i < points.size(); ++i)
+    {
+        points[i].cur.cov *= 1.0 + static_cast<double>(i);
+    }
+    const PoseEstimate b = solve(params, points, {});
+    EXPECT_THAT(a.T_base_cur.mean, test::IsNearPose(b.T_base_cur.mean, 1e-12, 1e-12));
+    EXPECT_GT(b.T_base_cur.cov.trace(), a.T_base_cur.cov.trace());
+}
+
+TEST(PoseSolver, moreOfTheCovarianceGivesMoreAccuracy)
+{
+    PairWorld world(12);
+    world.addPoints(40);
+    world.T_base_cur = world.randomMotion(0.02, 0.02);
+    PoseSolver::TParams params = gaussian();
+    const double full = rms(world, params, 200);
+    params.weighting = "diagonal";
+    const double diagonal = rms(world, params, 200);
+    params.weighting = "none";
+    const double none = rms(world, params, 200);
+    EXPECT_LT(full, 0.9 * diagonal);
+    EXPECT_LT(diagonal, 0.9 * none);
+}
+
+TEST(PoseSolver, alphaWeighsPlanes)
+{
+    PairWorld world(13);
+    world.addPoints(20);
+    world.addPlanes(4);
+    const auto points = world.drawPoints();
+    auto planes = world.drawPlanes();
+    PoseSolver::TParams params = gaussian();
+    params.alpha = 0;
+    const PoseEstimate without = solve(params, points, planes), none = solve(params, points, {});
+    EXPECT_THAT(without.T_base_cur.mean, test::IsNearPose(none.T_base_cur.mean, 1e-9, 1e-9));
+    double previous = 1e9;
+    for (const double alpha : {0.1, 1.0, 10.0, 100.0})
+    {
+        params.alpha = alpha;
+        const PoseEstimate e = solve(params, points, planes);
+        EXPECT_LT(e.planeChi2PerDof, previous);
+        previous = e.planeChi2PerDof;
+    }
+}
+
+TEST(PoseSolver, informationOfPlanesIsFreeOfAlpha)
+{
+    PairWorld world(14);
+    world.addPlanes(5);
+    const auto planes = world.drawPlanes(0);
+    PoseSolver::TParams params = gaussian();
+    const Matrix6d one = solve(params, {}, planes).infoPlanes;
+    params.alpha = 10;
+    EXPECT_TRUE(solve(params, {}, planes).infoPlanes.isApprox(one, 1e-5));
+}
+
+TEST(PoseSolver, varianceFactorsScaleTheCovariance)
+{
+    PairWorld world(15);
+    world.addPoints(30);
+    world.addPlanes(5);
+    const auto points = world.drawPoints();
+    const auto planes = world.drawPlanes();
+    PoseSolver::TParams params = gaussian();
+    const PoseEstimate one = solve(params, points, planes);
+    params.pointVarianceFactor = params.planeVarianceFactor = 25;
+    const PoseEstimate scaled = solve(params, points, planes);
+    EXPECT_THAT(scaled.T_base_cur.mean, test::IsNearPose(one.T_base_cur.mean, 1e-6, 1e-6));
+    EXPECT_LT(
+        test::whitenedDifference(scaled.T_base_cur.cov, (25 * one.T_base_cur.cov).eval()), 1e-3);
+}
+
+TEST(PoseSolver, tukeyIgnoresThirtyPercentOfOutliers)
+{
+    PairWorld world(16);
+    world.addPoints(100);
+    world.T_base_cur = world.randomMotion(0.03, 0.02);
+    PoseSolver::TParams plain = gaussian();
+    double clean = 0, robust = 0, harmed = 0;
+    for (int run = 0; run < 50; ++run)
+    {
+        auto points = world.drawPoints();
+        const auto error = [&](const PoseEstimate& e)
+        { return leftError(world.T_base_cur, e.T_base_cur.mean).squaredNorm(); };
+        clean += error(solve(plain, points, {}));
+        for (size_t i = 0; i < 30; ++i)
+        {
+            points[i].cur.mean += 0.3 * world.sampler().vector<3>();
+        }
+        const PoseEstimate e = solve({}, points, {});
+        robust += error(e);
+        harmed += error(solve(plain, points, {}));
+        EXPECT_NEAR(e.numPointInliers, 70, 12);
+    }
+    EXPECT_LT(robust, 1.5 * 1.5 * clean);
+    EXPECT_GT(harmed, 10 * 10 * clean);
+}
+
+TEST(PoseSolver, studentTBearsAWrongPlane)
+{
+    PairWorld world(17);
+    world.addPlanes(8);
+    double robust = 0, harmed = 0;
+    for (int run = 0; run < 50; ++run)
+    {
+        auto planes = world.drawPlanes();
+        planes[3].cur.theta_m *= 1.05;  // 5 cm per metre
+        const auto error = [&](const PoseSolver::TParams& params) {
+            return leftError(world.T_base_cur, solve(params, {}, planes).T_base_cur.mean)
+                .squaredNorm();
+        };
+        robust += error({});
+        harmed += error(gaussian());
+    }
+    EXPECT_LT(robust, 0.1 * harmed);
+}
+
+TEST(PoseSolver, withoutPairsThePriorRemains)
+{
+    PairWorld world(18);
+    PoseGaussian prior;
+    prior.mean = world.randomMotion(0.1, 0.1);
+    prior.cov = world.sampler().covariance<6>(1e-6, 1e-3);
+    const PoseEstimate e = solve({}, {}, {}, prior);
+    EXPECT_TRUE(e.converged);
+    EXPECT_THAT(e.T_base_cur.mean, test::IsNearPose(prior.mean, 1e-6, 1e-6));
+    EXPECT_LT(test::whitenedDifference(e.T_base_cur.cov, prior.cov), 1e-3);
+    EXPECT_EQ(e.pointChi2PerDof, 0);
+    EXPECT_EQ(e.planeChi2PerDof, 0);
+    EXPECT_EQ(e.infoPoints, Matrix6d::Zero());
+}
+
+TEST(PoseSolver, withoutAnythingTheStartRemainsAndNothingIsKnown)
+{
+    PairWorld world(19);
+    const Eigen::Isometry3d start = world.randomMotion(0.1, 0.1);
+    const PoseEstimate e = PoseSolver({}).solve({}, {}, start, std::nullopt);
+    EXPECT_THAT(e.T_base_cur.mean, test::IsNearPose(start, 1e-12, 1e-12));
+    EXPECT_TRUE(isPositiveDefinite(e.T_base_cur.cov));
+    EXPECT_GT(e.T_base_cur.cov.diagonal().minCoeff(), 1e6);
+}
+
+/** One wall: seen are the distance and two angles; the rest is as uncertain as before. */
+TEST(PoseSolver, unobservableDirectionsKeepThePriorsCovariance)
+{
+    PairWorld world(20);
+    world.addPlane({0, 0, -1}, 2);
+    const PoseGaussian prior = loosePrior();
+    for (const double studentDof : {0.0, 5.0})
+    {
+        PoseSolver::TParams params;
+        params.planeStudentDof = studentDof;
+        const PoseEstimate e = solve(params, {}, world.drawPlanes(), prior);
+        const Matrix6d& cov = e.T_base_cur.cov;
+        for (const int i : {0, 1, 5})  // x, y, about z
+        {
+            EXPECT_NEAR(cov(i, i), prior.cov(i, i), 0.01 * prior.cov(i, i)) << i;
+        }
+        for (const int i : {2, 3, 4})
+        {
+            EXPECT_LT(cov(i, i), 0.1 * prior.cov(i, i)) << i;
+        }
+        // And their estimate stays where the prior was.
+        const Vector6d moved = se3Log(e.T_base_cur.mean);
+        EXPECT_LT(std::abs(moved[0]) + std::abs(moved[1]) + std::abs(moved[5]), 1e-4);
+    }
+}
+
+TEST(PoseSolver, parallelPlanesLeaveSlidingOpen)
+{
+    // A corridor along z: walls and nothing else.
+    PairWorld world(21);
+    world.addPlane({1, 0, 0}, 1);
+    world.addPlane({-1, 0, 0}, 1.2);
+    const PoseGaussian prior = loosePrior();
+    const PoseEstimate e = solve({}, {}, world.drawPlanes(), prior);
+    for (const int i : {1, 2, 3})  // y, z, about x
+    {
+        EXPECT_NEAR(e.T_base_cur.cov(i, i), prior.cov(i, i), 0.01 * prior.cov(i, i)) << i;
+    }
+    EXPECT_LT(e.T_base_cur.cov(0, 0), 0.05 * prior.cov(0, 0));
+}
+
+TEST(PoseSolver, collinearPointsLeaveTheTurnAboutTheirLineOpen)
+{
+    // Along x at y = 0, z = 2: the turn about that line moves the camera in y and z too.
+    PairWorld world(22);
+    for (int i = 0; i < 20; ++i)
+    {
+        world.addPoint({-1 + 0.1 * i, 0, 2});
+    }
+    const PoseGaussian prior = loosePrior();
+    const PoseEstimate e = solve({}, world.drawPoints(), {}, prior);
+    Vector6d turn;
+    turn << Eigen::Vector3d(0, 0, 2).cross(Eigen::Vector3d::UnitX()), Eigen::Vector3d::UnitX();
+    const Matrix6d info = e.T_base_cur.cov.inverse(), priorInfo = prior.cov.inverse();
+    EXPECT_NEAR(turn.dot(info * turn), turn.dot(priorInfo * turn), 0.02 * turn.dot(info * turn));
+    EXPECT_LT(e.T_base_cur.cov(4, 4), 0.05 * prior.cov(4, 4));
+    EXPECT_TRUE(isPositiveDefinite(e.T_base_cur.cov));
+}
+
+/** A caller's gate on the largest eigenvalue sees them. */
+TEST(PoseSolver, degenerateConfigurationsWithoutPriorSaySo)
+{
+    PairWorld onePoint(23), onePlane(24), twoPoints(25), parallel(28);
+    onePoint.addPoint({0.1, 0.2, 2});
+    onePlane.addPlane({0, 0, -1}, 2);
+    twoPoints.addPoint({0.1, 0.2, 2});
+    twoPoints.addPoint({0.5, 0.1, 2.5});
+    parallel.addPlane({0, 0, -1}, 2);
+    parallel.addPlane({0, 0, -1}, 2.5);
+    parallel.addPlane({0, 0, -1}, 3);
+    for (PairWorld* world : {&onePoint, &onePlane, &twoPoints, &parallel})
+    {
+        const PoseEstimate e = solve({}, world->drawPoints(), world->drawPlanes());
+        EXPECT_TRUE(e.T_base_cur.mean.matrix().allFinite());
+        ASSERT_TRUE(e.T_base_cur.cov.allFinite());
+        const Eigen::SelfAdjointEigenSolver<Matrix6d> es(e.T_base_cur.cov);
+        EXPECT_GT(es.eigenvalues().maxCoeff(), 0.3 * 0.3);
+    }
+}
+
+TEST(PoseSolver, chiSquarePerDegreeOfFreedomIsOneForRightCovariances)
+{
+    PairWorld world(26);
+    world.addPoints(150);
+    world.addPlanes(30);
+    double points = 0, planes = 0;
+    for (int i = 0; i < 20; ++i)
+    {
+        const PoseEstimate e = solve(gaussian(), world.drawPoints(), world.drawPlanes());
+        points += e.pointChi2PerDof / 20;
+        planes += e.planeChi2PerDof / 20;
+    }
+    EXPECT_NEAR(points, 1, 0.05);
+    EXPECT_NEAR(planes, 1, 0.1);
+    const PoseEstimate e = solve(gaussian(), world.drawPoints(3), world.drawPlanes(2));
+    EXPECT_NEAR(e.pointChi2PerDof, 9, 1.5);
+    EXPECT_NEAR(e.planeChi2PerDof, 4, 1.5);
+}
+
+TEST(PoseSolver, sameInputGivesTheSameBits)
+{
+    PairWorld world(27);
+    world.addPoints(40);
+    world.addPlanes(4);
+    const auto points = world.drawPoints();
+    const auto planes = world.drawPlanes();
+    const PoseEstimate a = solve({}, points, planes), b = solve({}, points, planes);
+    EXPECT_EQ(a.T_base_cur.mean.matrix(), b.T_base_cur.mean.matrix());
+    EXPECT_EQ(a.T_base_cur.cov, b.T_base_cur.cov);
+}
+
+TEST(PoseSolver, refusesParametersOutOfRange)
+{
+    const auto refused = [](auto change)
+    {
+        PoseSolver::TParams params;
+        change(params);
+        EXPECT_THROW(PoseSolver{params}, std::invalid_argument);
+    };
+    refused([](auto& p) { p.weighting = "some"; });
+    refused([](auto& p) { p.planeResidual = "some"; });
+    refused([](auto& p) { p.alpha = -1; });
+    refused([](auto& p) { p.tukeySigmas = -1; });
+    refused([](auto& p) { p.planeStudentDof = -1; });
+    refused([](auto& p) { p.pointVarianceFactor = 0; });
+    refused([](auto& p) { p.planeVarianceFactor = 0; });
+    refused([](auto& p) { p.maxIterations = 0; });
+}
+}  // namespace pointplane

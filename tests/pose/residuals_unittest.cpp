@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/se3.h>
+#include <pointplane/pose/residuals.h>
+
+#include <vector>
+
+#include "matchers.h"
+#include "monte_carlo.h"
+#include "numeric_jacobian.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace pointplane
+{
+namespace
+{
+Eigen::Isometry3d quarterTurn()
+{
+    Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+    T.linear() << 0, -1, 0, 1, 0, 0, 0, 0, 1;
+    T.translation() << 1, 2, 3;
+    return T;
+}
+
+Eigen::Isometry3d randomPose(test::GaussianSampler& sampler)
+{
+    return se3Exp(0.3 * sampler.vector<6>());
+}
+
+PointPair randomPointPair(test::GaussianSampler& sampler)
+{
+    return {
+        {sampler.vector<3>(), sampler.covariance<3>(1e-4, 1e-2)},
+        {sampler.vector<3>(), sampler.covariance<3>(1e-4, 1e-2)}};
+}
+
+PlanePair randomPlanePair(test::GaussianSampler& sampler)
+{
+    const Eigen::Vector3d theta(sampler.uniform(-0.3, 0.3), sampler.uniform(-0.3, 0.3), -0.5);
+    return {
+        {theta + 0.05 * sampler.vector<3>(), sampler.covariance<3>(1e-8, 1e-6)},
+        {theta, sampler.covariance<3>(1e-8, 1e-6)}};
+}
+
+/** J of any residual against central differences of the left perturbation. */
+template <class Pair, class F>
+void expectJacobian(const Pair& pair, const Eigen::Isometry3d& T, const F& residual)
+{
+    const auto r = [&](const Vector6d& xi) -> Eigen::Vector3d
+    { return residual(pair, Eigen::Isometry3d(se3Exp(xi) * T)).r; };
+    EXPECT_THAT(
+        residual(pair, T).J,
+        test::IsMatrixNear(test::numericJacobian(r, Vector6d::Zero().eval()), 1e-7));
+}
+}  // namespace
+
+TEST(Residuals, pointByHand)
+{
+    PointPair pair;
+    pair.base.mean << 1.5, 3, 2;
+    pair.base.cov = Eigen::Vector3d(1, 2, 3).asDiagonal();
+    pair.cur.mean << 1, 0, 0;
+    pair.cur.cov = Eigen::Vector3d(4, 5, 6).asDiagonal();
+    // R P + t = (0, 1, 0) + (1, 2, 3); the turn swaps the first two variances.
+    const Residual r = pointResidual(pair, quarterTurn());
+    EXPECT_THAT(r.r, test::IsMatrixNear(Eigen::Vector3d(0.5, 0, -1), 1e-15));
+    const Eigen::Matrix3d cov = Eigen::Vector3d(6, 6, 9).asDiagonal();
+    EXPECT_THAT(r.cov, test::IsMatrixNear(cov, 1e-14));
+    Matrix36d J;
+    J << -1, 0, 0, 0, -3, 3, 0, -1, 0, 3, 0, -1, 0, 0, -1, -3, 1, 0;
+    EXPECT_THAT(r.J, test::IsMatrixNear(J, 1e-14));
+}
+
+TEST(Residuals, planesByHand)
+{
+    // The wall z = 2 seen after 5 cm forward is at 1.95; the pair says 2.1 in base.
+    PlanePair pair;
+    pair.base.theta_m << 0, 0, -1 / 2.1;
+    pair.cur.theta_m << 0, 0, -1 / 2.0;
+    Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+    T.translation().z() = 0.05;
+    EXPECT_THAT(
+        planeResidualMinimal(pair, T).r,
+        test::IsMatrixNear(Eigen::Vector3d(0, 0, -1 / 2.1 + 1 / 2.05), 1e-15));
+    // C = d n = -z n_z: metres.
+    EXPECT_THAT(
+        planeResidualClosestPoint(pair, T).r,
+        test::IsMatrixNear(Eigen::Vector3d(0, 0, -2.1 + 2.05), 1e-14));
+}
+
+TEST(Residuals, planesMoveAsTheirHessianFormsDo)
+{
+    test::GaussianSampler sampler(1);
+    for (int i = 0; i < 50; ++i)
+    {
+        const PlanePair pair = randomPlanePair(sampler);
+        const Eigen::Isometry3d T = randomPose(sampler);
+        const Plane expected = transformed(T, hessianForm(pair.cur.theta_m));
+        EXPECT_THAT(
+            transformed(T, pair.cur).theta_m, test::IsMatrixNear(minimalForm(expected), 1e-9));
+    }
+}
+
+TEST(Residuals, vanishAtTheTruth)
+{
+    test::GaussianSampler sampler(2);
+    const Eigen::Isometry3d T = randomPose(sampler);
+    PointPair points = randomPointPair(sampler);
+    points.base.mean = T * points.cur.mean;
+    EXPECT_LT(pointResidual(points, T).r.norm(), 1e-14);
+    PlanePair planes = randomPlanePair(sampler);
+    planes.base.theta_m = transformed(T, planes.cur).theta_m;
+    EXPECT_LT(planeResidualMinimal(planes, T).r.norm(), 1e-14);
+    EXPECT_LT(planeResidualClosestPoint(planes, T).r.norm(), 1e-13);
+}
+
+TEST(Residuals, jacobiansAreThoseOfTheLeftPerturbation)
+{
+    test::GaussianSampler sampler(3);
+    for (int i = 0; i < 50; ++i)
+    {
+        const Eigen::Isometry3d T = randomPose(sampler);
+        expectJacobian(randomPointPair(sampler), T, pointResidual);
+        const PlanePair planes = randomPlanePair(sampler);
+        expectJacobian(planes, T, planeResidualMinimal);
+        expectJacobian(planes, T, planeResidualClosestPoint);
+    }
+}
+
+TEST(Residuals, covariancesAreThoseOfMonteCarlo)
+{
+    test::GaussianSampler sampler(4);
+    const Eigen::Isometry3d T = randomPose(sampler);
+    const PointPair points = randomPointPair(sampler);
+    const PlanePair planes = randomPlanePair(sampler);
+    const Eigen::Vector3d pointMean = pointResidual(points, T).r;
+    const Eigen::Vector3d minimalMean = planeResidualMinimal(planes, T).r;
+    const Eigen::Vector3d closestMean = planeResidualClosestPoint(planes, T).r;
+    std::vector<Eigen::Vector3d> point, minimal, closest;
+    for (int i = 0; i < 20000; ++i)
+    {
+        PointPair p = points;
+        p.base.mean += sampler.sample(p.base.cov);
+        p.cur.mean += sampler.sample(p.cur.cov);
+        point.emplace_back(pointResidual(p, T).r - pointMean);
+        PlanePair m = planes;
+        m.base.theta_m += sampler.sample(m.base.cov_m);
+        m.cur.theta_m += sampler.sample(m.cur.cov_m);
+        minimal.emplace_back(planeResidualMinimal(m, T).r - minimalMean);
+        closest.emplace_back(planeResidualClosestPoint(m, T).r - closestMean);
+    }
+    // A right covariance differs by 3 / 141 on average.
+    const auto difference = [](const std::vector<Eigen::Vector3d>& errors, const Residual& r)
+    { return test::whitenedDifference(test::sampleCovariance(errors), r.cov); };
+    EXPECT_LT(difference(point, pointResidual(points, T)), 0.05);
+    EXPECT_LT(difference(minimal, planeResidualMinimal(planes, T)), 0.05);
+    EXPECT_LT(difference(closest, planeResidualClosestPoint(planes, T)), 0.05);
+}
+}  // namespace pointplane

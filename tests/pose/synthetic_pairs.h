@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pointplane/core/se3.h>
+#include <pointplane/pose/pairs.h>
+#include <pointplane/pose/residuals.h>
+
+#include <vector>
+
+#include "monte_carlo.h"
+
+namespace pointplane::test
+{
+/** True points and planes in the base frame, each with the covariances that a Kinect's features
+ * have; pairs are drawn from them. */
+class PairWorld
+{
+ public:
+    explicit PairWorld(unsigned seed) : sampler_(seed) {}
+
+    Eigen::Isometry3d T_base_cur{Eigen::Isometry3d::Identity()};  //!< truth
+
+    void addPoint(const Eigen::Vector3d& p_base)
+    {
+        points_.push_back({p_base, kinectCovariance(p_base), kinectCovariance(p_base)});
+    }
+
+    /** Points in a camera's view, 1 to 4 m away. */
+    void addPoints(int n)
+    {
+        for (int i = 0; i < n; ++i)
+        {
+            const double z = sampler_.uniform(1, 4);
+            addPoint({z * sampler_.uniform(-0.6, 0.6), z * sampler_.uniform(-0.45, 0.45), z});
+        }
+    }
+
+    void addPlane(const Eigen::Vector3d& n, double d)
+    {
+        planes_.push_back(
+            {n.normalized() / d,
+             sampler_.covariance<3>(0.2e-6, 2e-6),
+             sampler_.covariance<3>(0.2e-6, 2e-6)});
+    }
+
+    /** Planes at 1 to 3 m with normals towards the camera. */
+    void addPlanes(int n)
+    {
+        for (int i = 0; i < n; ++i)
+        {
+            addPlane(
+                Eigen::Vector3d(sampler_.uniform(-1, 1), sampler_.uniform(-1, 1), -1),
+                sampler_.uniform(1, 3));
+        }
+    }
+
+    /** \param scale of the noise's sigma; 0 = exact */
+    [[nodiscard]] std::vector<PointPair> drawPoints(double scale = 1)
+    {
+        std::vector<PointPair> out;
+        for (const Point& p : points_)
+        {
+            out.push_back(
+                {{p.mean + scale * sampler_.sample(p.covBase), p.covBase},
+                 {T_base_cur.inverse() * p.mean + scale * sampler_.sample(p.covCur), p.covCur}});
+        }
+        return out;
+    }
+
+    [[nodiscard]] std::vector<PlanePair> drawPlanes(double scale = 1)
+    {
+        std::vector<PlanePair> out;
+        for (const PlaneTruth& p : planes_)
+        {
+            const PlaneGaussian inCur =
+                transformed(T_base_cur.inverse(), PlaneGaussian{p.theta, {}});
+            out.push_back(
+                {{p.theta + scale * sampler_.sample(p.covBase), p.covBase},
+                 {inCur.theta_m + scale * sampler_.sample(p.covCur), p.covCur}});
+        }
+        return out;
+    }
+
+    [[nodiscard]] GaussianSampler& sampler() { return sampler_; }
+
+    /** A motion of exactly so many metres and radians in a random direction. */
+    [[nodiscard]] Eigen::Isometry3d randomMotion(double metres, double radians)
+    {
+        Vector6d xi;
+        xi << metres * sampler_.vector<3>().normalized(),
+            radians * sampler_.vector<3>().normalized();
+        return se3Exp(xi);
+    }
+
+ private:
+    struct Point
+    {
+        Eigen::Vector3d mean;
+        Eigen::Matrix3d covBase, covCur;
+    };
+    struct PlaneTruth
+    {
+        Eigen::Vector3d theta;
+        Eigen::Matrix3d covBase, covCur;
+    };
+
+    /** Half a pixel at f = 525, and Khoshelham's sigma_Z. */
+    static Eigen::Matrix3d kinectCovariance(const Eigen::Vector3d& p)
+    {
+        const double lateral = 0.5 / 525 * p.z(), axial = 1.425e-3 * p.z();
+        Eigen::Matrix3d cov = axial * axial * p * p.transpose();
+        cov.diagonal().head<2>().array() += lateral * lateral;
+        return cov;
+    }
+
+    GaussianSampler sampler_;
+    std::vector<Point> points_;
+    std::vector<PlaneTruth> planes_;
+};
+}  // namespace pointplane::test
