@@ -3,8 +3,6 @@
 
 #include <pointplane/mrpt_io/errors.h>
 
-#include <CLI/CLI.hpp>
-
 #include <cstdio>
 #include <filesystem>
 #include <map>
@@ -13,6 +11,7 @@
 #include "GrabberOptions.h"
 #include "GrabberRun.h"
 #include "device_list.h"
+#include <CLI/CLI.hpp>
 
 namespace pointplane
 {
@@ -55,7 +54,9 @@ void addCameraOptions(CLI::App& app, GrabberOptions& o, Words& words)
            "--lock-white-balance", o.capture.lockWhiteBalance, "Keep colours after the warm-up")
         ->group(group);
     app.add_flag(
-           "--wait{1e9}", o.waitSeconds, "Wait for a camera to appear (--wait=S: at most S seconds)")
+           "--wait{1e9}",
+           o.waitSeconds,
+           "Wait for a camera to appear (--wait=S: at most S seconds)")
         ->group(group);
     app.add_option("--timeout", o.capture.stallTimeout, "Give up a silent camera after [s]")
         ->check(CLI::PositiveNumber)
@@ -120,7 +121,8 @@ void addOtherOptions(CLI::App& app, GrabberOptions& o, Words& words)
     app.add_flag("--quiet", o.quiet, "No status line")->group("Show");
     app.add_flag("--live", o.live, "Odometry on the stream: a line per frame on standard output")
         ->group("Live odometry");
-    app.add_option("--live-config", o.liveOdometry.config, "Its config.ini")->group("Live odometry");
+    app.add_option("--live-config", o.liveOdometry.config, "Its config.ini")
+        ->group("Live odometry");
     app.add_option("--live-output", o.liveOdometry.poseRawlog, "Rawlog with its pose PDFs")
         ->group("Live odometry");
 }

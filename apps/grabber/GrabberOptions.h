@@ -13,8 +13,8 @@ namespace pointplane
 struct GrabberOptions
 {
     std::string driver{"auto"};
-    std::string device;    //!< empty = the first
-    double waitSeconds{0};  //!< for a camera to appear
+    std::string device;       //!< empty = the first
+    double waitSeconds{0};    //!< for a camera to appear
     std::string calibration;  //!< ini file; empty = nominal
     std::string section{"OPENNI2"};
     std::string label;   //!< overrides the ini's

@@ -91,7 +91,8 @@ void GrabberRun::openOutputs()
     {
         if (fs::exists(options_.output))
         {
-            throw InputError("'" + options_.output + "' exists already; recordings never overwrite");
+            throw InputError(
+                "'" + options_.output + "' exists already; recordings never overwrite");
         }
         options_.capture.oniPath = options_.output;
     }
@@ -114,8 +115,7 @@ bool GrabberRun::consume(const ImagePair& pair)
 {
     if (writer_)
     {
-        const bool taken =
-            camera_->facts().isFile ? writer_->push(pair) : writer_->tryPush(pair);
+        const bool taken = camera_->facts().isFile ? writer_->push(pair) : writer_->tryPush(pair);
         if (!taken && writer_->hasFailed())
         {
             return false;
@@ -144,10 +144,12 @@ CaptureEnd GrabberRun::captureWithStatus()
     // The terminal may be slow: the camera gets a thread of its own.
     std::atomic<bool> done{false};
     CaptureEnd end = CaptureEnd::Error;
-    std::thread thread([&] {
-        end = capture_->run(stop_);
-        done = true;
-    });
+    std::thread thread(
+        [&]
+        {
+            end = capture_->run(stop_);
+            done = true;
+        });
     StatusLine status(err_, standardErrorIsTerminal());
     while (!done)
     {
@@ -238,16 +240,19 @@ void GrabberRun::explain(CaptureEnd end)
     {
         case CaptureEnd::Stopped:
         case CaptureEnd::EndOfFile:
-        case CaptureEnd::SinkFull: break;
+        case CaptureEnd::SinkFull:
+            break;
         case CaptureEnd::Unplugged:
             fail("camera " + uri + " was unplugged; everything before is kept");
             break;
         case CaptureEnd::Stalled:
-        case CaptureEnd::Error: fail(capture_->problem()); break;
+        case CaptureEnd::Error:
+            fail(capture_->problem());
+            break;
     }
-    if (exitCode_ == kExitOk && capture_->stats().pairing.pairs == 0 && !stopRequested())
+    if (end == CaptureEnd::EndOfFile && capture_->stats().pairing.pairs == 0)
     {
-        fail("camera " + uri + ": no depth image came with a colour image near enough in time");
+        fail("recording '" + uri + "' has no depth image with a colour image near it in time");
     }
 }
 

@@ -16,7 +16,9 @@ void onSignal(int /*number*/) { stopFlag = 1; }
 void installStopSignals()
 {
     stopFlag = 0;
-    struct sigaction action{};
+    struct sigaction action
+    {
+    };
     action.sa_handler = onSignal;
     action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
     for (const int number : {SIGINT, SIGTERM, SIGHUP})

@@ -15,8 +15,8 @@ void printLosses(const RunState& state, std::ostream& out)
 {
     const auto& p = state.capture.pairing;
     out << "lost: " << p.droppedDepth << " depth and " << p.droppedColour
-        << " colour images by the camera, " << p.unpairedDepth << " depth and "
-        << p.unpairedColour << " colour images without a partner, " << state.queueDrops
+        << " colour images by the camera, " << p.unpairedDepth << " depth and " << p.unpairedColour
+        << " colour images without a partner, " << state.queueDrops
         << " pairs because the queue was full\n";
     if (state.queueDrops > 0)
     {
@@ -57,7 +57,8 @@ std::string describe(const CameraFacts& facts)
         text += word.empty() ? "" : " " + word;
     }
     text += d.serial.empty() ? "" : ", serial " + d.serial;
-    text += " (" + d.driver + "), " + toString({facts.mode.width, facts.mode.height, facts.mode.fps, ""});
+    text += " (" + d.driver + "), " +
+            toString({facts.mode.width, facts.mode.height, facts.mode.fps, ""});
     if (!facts.hasColour)
     {
         return text + ", depth only";

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/grabber/FramePairer.h>
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <random>
+
+#include <gtest/gtest.h>
 
 namespace
 {
@@ -21,10 +21,7 @@ CameraImage image(StreamKind stream, std::int64_t index, double time)
     return result;
 }
 
-CameraImage depth(std::int64_t index, double time)
-{
-    return image(StreamKind::Depth, index, time);
-}
+CameraImage depth(std::int64_t index, double time) { return image(StreamKind::Depth, index, time); }
 
 CameraImage colour(std::int64_t index, double time)
 {
@@ -118,7 +115,8 @@ TEST(FramePairer, everyImageIsAccountedFor)
         FramePairer pairer(kPeriod / 2);
         std::uint64_t numDepth = 0, numColour = 0;
         double lastTime = -1.0;
-        const auto check = [&](const std::vector<ImagePair>& pairs) {
+        const auto check = [&](const std::vector<ImagePair>& pairs)
+        {
             for (const auto& pair : pairs)
             {
                 EXPECT_LE(

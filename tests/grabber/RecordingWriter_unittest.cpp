@@ -6,12 +6,11 @@
 #include <mrpt/io/lazy_load_path.h>
 #include <mrpt/obs/CRawlog.h>
 
-#include <gtest/gtest.h>
-#include <sys/resource.h>
-
 #include <csignal>
 
 #include "grabber_testing.h"
+#include <gtest/gtest.h>
+#include <sys/resource.h>
 
 namespace
 {
@@ -115,8 +114,8 @@ TEST_F(Recording, isReadByMrptItself)
     mrpt::obs::CRawlog rawlog;
     ASSERT_TRUE(rawlog.loadFromRawLogFile(options().path));
     ASSERT_EQ(rawlog.size(), frames_.size());
-    const auto scan = std::dynamic_pointer_cast<mrpt::obs::CObservation3DRangeScan>(
-        rawlog.getAsObservation(7));
+    const auto scan =
+        std::dynamic_pointer_cast<mrpt::obs::CObservation3DRangeScan>(rawlog.getAsObservation(7));
     ASSERT_TRUE(scan);
     expectFrame(*scan, 7);
 }

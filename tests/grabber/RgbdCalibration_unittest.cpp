@@ -4,10 +4,9 @@
 
 #include <mrpt/core/bits_math.h>
 
+#include "TempDir.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include "TempDir.h"
 
 namespace
 {

@@ -15,7 +15,8 @@ class VirtualCamera
 {
  public:
     /** \param settings lines of `key value`, see VirtualCameraDriver.cpp */
-    explicit VirtualCamera(const std::string& settings = "") : settings_(settings)
+    VirtualCamera(
+        const std::string& settings, const std::vector<PlainFrame>& frames, double focal_px)
     {
         namespace fs = std::filesystem;
         fs::create_directories(dir_ / "OpenNI2/Drivers");
@@ -25,13 +26,8 @@ class VirtualCamera
         fs::create_symlink(VIRTUAL_CAMERA_DRIVER, dir_ / "OpenNI2/Drivers/libVirtualCamera.so");
         fs::create_symlink(ONI_FILE_DRIVER, dir_ / "OpenNI2/Drivers/libOniFile.so.0");
         fs::create_symlink(ONI_FILE_DRIVER, dir_ / "OpenNI2/Drivers/libOniFile.so");
-        writeSettings("");
-    }
-
-    void play(const std::vector<PlainFrame>& frames, double focal_px = 525.0)
-    {
         writeFrameFile(dir_ / "frames.bin", frames, focal_px);
-        writeSettings("frames " + (dir_ / "frames.bin") + "\n");
+        writeBytes(dir_ / "settings", settings + "\nframes " + (dir_ / "frames.bin") + "\n");
     }
 
     [[nodiscard]] ChildProcess::Environment environment() const
@@ -40,12 +36,6 @@ class VirtualCamera
     }
 
  private:
-    void writeSettings(const std::string& frames)
-    {
-        writeBytes(dir_ / "settings", settings_ + "\n" + frames);
-    }
-
     TempDir dir_;
-    std::string settings_;
 };
 }  // namespace pointplane::test

@@ -30,14 +30,13 @@ inline std::vector<PlainFrame> patternFrames(int count, int width, int height)
     cv::RNG random(7);
     for (int k = 0; k < count; ++k)
     {
-        PlainFrame frame{
-            cv::Mat(height, width, CV_16UC1), cv::Mat(height, width, CV_8UC3)};
+        PlainFrame frame{cv::Mat(height, width, CV_16UC1), cv::Mat(height, width, CV_8UC3)};
         for (int y = 0; y < height; ++y)
         {
             for (int x = 0; x < width; ++x)
             {
-                frame.depth.at<std::uint16_t>(y, x) = static_cast<std::uint16_t>(
-                    (x + y) % 37 == 0 ? 0 : 1000 + x + k);
+                frame.depth.at<std::uint16_t>(y, x) =
+                    static_cast<std::uint16_t>((x + y) % 37 == 0 ? 0 : 1000 + x + k);
                 const auto noise = static_cast<std::uint8_t>(random.uniform(0, 8));
                 frame.colour.at<cv::Vec3b>(y, x) = cv::Vec3b(
                     static_cast<std::uint8_t>(x / 4 + noise),

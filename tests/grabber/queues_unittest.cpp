@@ -3,10 +3,10 @@
 #include <pointplane/grabber/LatestPair.h>
 #include <pointplane/grabber/ReorderBuffer.h>
 
-#include <gtest/gtest.h>
-
 #include <thread>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 namespace
 {
@@ -30,13 +30,15 @@ TEST(BoundedQueue, refusesWhenFullAndKeepsTheOrder)
 TEST(BoundedQueue, pushWaitsForRoom)
 {
     BoundedQueue<int> queue(1);
-    std::thread producer([&] {
-        for (int i = 0; i < 100; ++i)
+    std::thread producer(
+        [&]
         {
-            EXPECT_TRUE(queue.push(i));
-        }
-        queue.close();
-    });
+            for (int i = 0; i < 100; ++i)
+            {
+                EXPECT_TRUE(queue.push(i));
+            }
+            queue.close();
+        });
     int expected = 0;
     while (const auto value = queue.pop())
     {
@@ -53,12 +55,14 @@ TEST(ReorderBuffer, restoresTheOrderOfParallelWorkers)
     std::vector<std::thread> workers;
     for (std::uint64_t first : {0U, 1U, 2U})
     {
-        workers.emplace_back([&buffer, first] {
-            for (std::uint64_t number = first; number < kCount; number += 3)
+        workers.emplace_back(
+            [&buffer, first]
             {
-                buffer.put(number, number);
-            }
-        });
+                for (std::uint64_t number = first; number < kCount; number += 3)
+                {
+                    buffer.put(number, number);
+                }
+            });
     }
     for (std::uint64_t expected = 0; expected < kCount; ++expected)
     {

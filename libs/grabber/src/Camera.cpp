@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "drivers.h"
-
 #include <pointplane/grabber/Camera.h>
 
 #include <algorithm>
 #include <filesystem>
+
+#include "drivers.h"
 
 namespace pointplane
 {
@@ -126,7 +126,8 @@ std::unique_ptr<Camera> openCamera(
         for (const auto& device : driver->listDevices())
         {
             const bool chosen = fits(device, index++, choice);
-            listed += "\n  " + device.uri + (device.serial.empty() ? "" : " serial " + device.serial);
+            listed +=
+                "\n  " + device.uri + (device.serial.empty() ? "" : " serial " + device.serial);
             if (!chosen)
             {
                 continue;

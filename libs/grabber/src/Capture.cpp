@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "drivers.h"
-
 #include <pointplane/grabber/Capture.h>
+
+#include "drivers.h"
 
 namespace pointplane
 {
@@ -50,15 +50,18 @@ CaptureEnd Capture::run(const std::atomic<bool>& stop)
 
 CaptureEnd Capture::capture(const std::atomic<bool>& stop)
 {
-    lastDepth_ = lastColour_ = warmUpStart_ = hostTime();
+    lastDepth_ = lastColour_ = lastPair_ = warmUpStart_ = hostTime();
     while (!stop)
     {
         CameraImage image;
         switch (camera_.wait(image, kPoll))
         {
-            case Delivery::Disconnected: return CaptureEnd::Unplugged;
-            case Delivery::EndOfFile: return CaptureEnd::EndOfFile;
-            case Delivery::Timeout: break;
+            case Delivery::Disconnected:
+                return CaptureEnd::Unplugged;
+            case Delivery::EndOfFile:
+                return CaptureEnd::EndOfFile;
+            case Delivery::Timeout:
+                break;
             case Delivery::Image:
                 (image.stream == StreamKind::Depth ? lastDepth_ : lastColour_) = image.arrival;
                 if (!warm_)
@@ -91,11 +94,10 @@ void Capture::warmUp(const CameraImage& image)
         readings_.push_back({image.deviceTime, image.arrival});
     }
     // Both streams must run, and the clock must have been seen for a while.
-    const bool bothRun = lastDepth_ > warmUpStart_ &&
-                         (!camera_.facts().hasColour || lastColour_ > warmUpStart_);
-    const bool longEnough =
-        !readings_.empty() &&
-        readings_.back().arrival - readings_.front().arrival >= options_.warmUp;
+    const bool bothRun =
+        lastDepth_ > warmUpStart_ && (!camera_.facts().hasColour || lastColour_ > warmUpStart_);
+    const bool longEnough = !readings_.empty() &&
+                            readings_.back().arrival - readings_.front().arrival >= options_.warmUp;
     if (bothRun && longEnough)
     {
         finishWarmUp();
@@ -113,8 +115,9 @@ void Capture::finishWarmUp()
     }
     else if (timeScale_ != 1.0)
     {
-        note("the driver's time stamps are in a wrong unit: scaled by " +
-             std::to_string(timeScale_));
+        note(
+            "the driver's time stamps are in a wrong unit: scaled by " +
+            std::to_string(timeScale_));
     }
     for (const auto& reading : readings_)
     {
@@ -130,6 +133,7 @@ void Capture::finishWarmUp()
         note("the camera cannot lock its white balance");
     }
     warm_ = true;
+    lastPair_ = hostTime();
     const std::lock_guard<std::mutex> lock(mutex_);
     stats_.started = true;
 }
@@ -137,8 +141,7 @@ void Capture::finishWarmUp()
 double Capture::stampOf(const ImagePair& pair) const
 {
     const auto& facts = camera_.facts();
-    const double deviceTime =
-        facts.hasColour ? pair.colour.deviceTime : pair.depth.deviceTime;
+    const double deviceTime = facts.hasColour ? pair.colour.deviceTime : pair.depth.deviceTime;
     if (facts.isFile)
     {
         return facts.startTime + deviceTime;
@@ -168,6 +171,7 @@ std::optional<CaptureEnd> Capture::record(CameraImage image)
         {
             return CaptureEnd::SinkFull;
         }
+        lastPair_ = image.arrival;
         publish(pair.stamp);
         if (++numPairs_ == options_.maxFrames)
         {
@@ -196,7 +200,8 @@ void Capture::publish(double stamp)
 bool Capture::isStalled(double now)
 {
     const auto& facts = camera_.facts();
-    const auto silent = [&](double last, const char* stream) {
+    const auto silent = [&](double last, const char* stream)
+    {
         if (now - last < options_.stallTimeout)
         {
             return false;
@@ -210,7 +215,18 @@ bool Capture::isStalled(double now)
         problem_ = both ? "camera " + facts.device.uri + " sends no images" : problem_;
         return true;
     }
-    return facts.hasColour && silent(lastColour_, "colour");
+    if (facts.hasColour && silent(lastColour_, "colour"))
+    {
+        return true;
+    }
+    if (warm_ && now - lastPair_ >= options_.stallTimeout)
+    {
+        problem_ = "camera " + facts.device.uri +
+                   ": depth and colour images are farther apart in " +
+                   "time than a pair may be (--max-skew)";
+        return true;
+    }
+    return false;
 }
 
 CaptureStats Capture::stats() const

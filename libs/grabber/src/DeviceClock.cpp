@@ -8,7 +8,8 @@ namespace pointplane
 {
 std::optional<double> deviceTimeScale(const std::vector<ClockReading>& readings)
 {
-    constexpr double kTolerance = 0.1;
+    // The units are far apart; the host's times over a short while are not that good.
+    constexpr double kTolerance = 2.0;
     if (readings.size() < 2)
     {
         return std::nullopt;
@@ -21,7 +22,8 @@ std::optional<double> deviceTimeScale(const std::vector<ClockReading>& readings)
     }
     for (const double scale : {1.0, 1.0 / 60.0, 1000.0})
     {
-        if (std::abs(device * scale / host - 1.0) < kTolerance)
+        const double ratio = device * scale / host;
+        if (ratio < kTolerance && ratio > 1.0 / kTolerance)
         {
             return scale;
         }

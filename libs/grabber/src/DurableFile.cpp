@@ -2,12 +2,12 @@
 #include <pointplane/grabber/DurableFile.h>
 #include <pointplane/mrpt_io/errors.h>
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+
+#include <fcntl.h>
+#include <unistd.h>
 
 namespace pointplane
 {

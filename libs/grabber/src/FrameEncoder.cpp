@@ -5,12 +5,13 @@
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/serialization/CArchive.h>
 
-#include <libdeflate.h>
 #include <opencv2/imgcodecs.hpp>
 
 #include <algorithm>
 #include <cstring>
 #include <new>
+
+#include <libdeflate.h>
 
 namespace pointplane
 {
@@ -117,12 +118,13 @@ std::vector<std::uint8_t> FrameEncoder::encode(
     builder_.fill(pair, observation);
     if (options_.storage == ImageStorage::External)
     {
-        const auto write = [&](const std::string& name, const std::vector<std::uint8_t>& content) {
+        const auto write = [&](const std::string& name, const std::vector<std::uint8_t>& content)
+        {
             writeFile(imagesFolder + "/" + name, content.data(), content.size());
             externalBytes += content.size();
         };
-        const auto stem = mrpt::format(
-            "3DCAM_%s_%.06f", observation.sensorLabel.c_str(), pair.stamp);
+        const auto stem =
+            mrpt::format("3DCAM_%s_%.06f", observation.sensorLabel.c_str(), pair.stamp);
         const auto range = rangeFileContent(pair.depth.pixels);
         write(stem + "_RANGES.bin", compressed(range.data(), range.size()));
         observation.setRangeFile(stem + "_RANGES.bin");

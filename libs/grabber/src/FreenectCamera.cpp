@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FreenectCamera.h"
 
-#include "drivers.h"
-
-#include <sys/time.h>
-
 #include <mutex>
+
+#include "drivers.h"
+#include <sys/time.h>
 
 // Players of recorded sessions (fakenect) replace the library but lack this.
 #pragma weak freenect_set_flag
@@ -73,9 +72,10 @@ bool findMode(Mode& found, Count count, Get get, Fits fits)
 bool findDepthMode(freenect_frame_mode& found, freenect_depth_format format)
 {
     return findMode(
-        found, freenect_get_depth_mode_count, freenect_get_depth_mode, [&](const auto& mode) {
-            return mode.depth_format == format;
-        });
+        found,
+        freenect_get_depth_mode_count,
+        freenect_get_depth_mode,
+        [&](const auto& mode) { return mode.depth_format == format; });
 }
 }  // namespace
 
@@ -116,8 +116,8 @@ FreenectCamera::FreenectCamera(
     if (wanted.width != kWidth || wanted.height != kHeight || wanted.fps != kFps)
     {
         throw InputError(
-            "the Kinect has no mode " + toString(wanted) + "; it offers: " +
-            toString({kWidth, kHeight, kFps, ""}));
+            "the Kinect has no mode " + toString(wanted) +
+            "; it offers: " + toString({kWidth, kHeight, kFps, ""}));
     }
     const int index = std::atoi(device.uri.c_str() + std::string(kFreenectUriPrefix).size());
     if (context_->get() == nullptr || freenect_open_device(context_->get(), &device_, index) < 0)
@@ -162,7 +162,8 @@ void FreenectCamera::chooseDepthMode(const CameraSettings& settings)
     }
     if (freenect_set_depth_mode(device_, depthMode_) < 0)
     {
-        throw EnvironmentError("the Kinect refuses its depth mode: " + FreenectContext::lastError());
+        throw EnvironmentError(
+            "the Kinect refuses its depth mode: " + FreenectContext::lastError());
     }
     freenect_set_depth_callback(device_, &FreenectCamera::onDepth);
     facts_.colourFocal_px = kColourFocal_px;
@@ -177,9 +178,10 @@ void FreenectCamera::chooseVideoMode(const CameraSettings& settings)
         return;
     }
     const bool found = findMode(
-        videoMode_, freenect_get_video_mode_count, freenect_get_video_mode, [](const auto& mode) {
-            return mode.video_format == FREENECT_VIDEO_RGB;
-        });
+        videoMode_,
+        freenect_get_video_mode_count,
+        freenect_get_video_mode,
+        [](const auto& mode) { return mode.video_format == FREENECT_VIDEO_RGB; });
     if (!found || freenect_set_video_mode(device_, videoMode_) < 0)
     {
         throw EnvironmentError(

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "KinectTimestamp.h"
-
 #include <pointplane/grabber/Camera.h>
-
-#include <libfreenect.h>
 
 #include <deque>
 #include <memory>
 #include <vector>
+
+#include "KinectTimestamp.h"
+#include <libfreenect.h>
 
 namespace pointplane
 {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "lowPriority.h"
-
 #include <pointplane/grabber/LiveOdometry.h>
 #include <pointplane/mrpt_io/errors.h>
 
@@ -8,6 +6,8 @@
 
 #include <cstdio>
 #include <ostream>
+
+#include "lowPriority.h"
 
 namespace pointplane
 {
@@ -46,7 +46,8 @@ LiveOdometry::LiveOdometry(
     {
         rawlog_ = std::make_unique<RawlogWriter>(options_.poseRawlog);
     }
-    out_ << "# stamp status x y z yaw pitch roll [m rad] covariance: 21 upper-triangular elements\n";
+    out_
+        << "# stamp status x y z yaw pitch roll [m rad] covariance: 21 upper-triangular elements\n";
     thread_ = std::thread([this] { work(); });
 }
 
@@ -84,8 +85,8 @@ void LiveOdometry::process(const ImagePair& pair)
     out_ << lineOf(motion, pair.stamp) << std::endl;
     write(motion, observation.timestamp);
 
-    const bool tracked = motion.status == TrackingStatus::First ||
-                         motion.status == TrackingStatus::Tracked;
+    const bool tracked =
+        motion.status == TrackingStatus::First || motion.status == TrackingStatus::Tracked;
     const std::lock_guard<std::mutex> lock(mutex_);
     ++stats_.processed;
     stats_.notTracked += tracked ? 0 : 1;

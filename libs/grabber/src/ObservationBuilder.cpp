@@ -12,10 +12,18 @@ cv::Mat toBgr(const CameraImage& colour)
     cv::Mat bgr;
     switch (colour.layout)
     {
-        case PixelLayout::Rgb8: cv::cvtColor(colour.pixels, bgr, cv::COLOR_RGB2BGR); break;
-        case PixelLayout::Yuyv: cv::cvtColor(colour.pixels, bgr, cv::COLOR_YUV2BGR_YUYV); break;
-        case PixelLayout::Uyvy: cv::cvtColor(colour.pixels, bgr, cv::COLOR_YUV2BGR_UYVY); break;
-        default: bgr = colour.pixels; break;
+        case PixelLayout::Rgb8:
+            cv::cvtColor(colour.pixels, bgr, cv::COLOR_RGB2BGR);
+            break;
+        case PixelLayout::Yuyv:
+            cv::cvtColor(colour.pixels, bgr, cv::COLOR_YUV2BGR_YUYV);
+            break;
+        case PixelLayout::Uyvy:
+            cv::cvtColor(colour.pixels, bgr, cv::COLOR_YUV2BGR_UYVY);
+            break;
+        default:
+            bgr = colour.pixels;
+            break;
     }
     return bgr;
 }

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OpenNi2Camera.h"
 
-#include "drivers.h"
-
-#include <sys/stat.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,30 +8,43 @@
 #include <filesystem>
 #include <thread>
 
+#include "drivers.h"
+#include <sys/stat.h>
+
 namespace pointplane
 {
 namespace
 {
 constexpr double kMicrosecond = 1e-6;
 
-// PrimeSense's reference design, which Kinect, Xtion and Carmine share: the colour camera sits 25 mm
-// to the right of the infrared one.
+// PrimeSense's reference design, which Kinect, Xtion and Carmine share: the colour camera sits 25
+// mm to the right of the infrared one.
 constexpr double kPrimeSenseOffset = 0.025;
 
 std::string pixelFormatName(openni::PixelFormat format)
 {
     switch (format)
     {
-        case openni::PIXEL_FORMAT_DEPTH_1_MM: return "DEPTH_1_MM";
-        case openni::PIXEL_FORMAT_DEPTH_100_UM: return "DEPTH_100_UM";
-        case openni::PIXEL_FORMAT_SHIFT_9_2: return "SHIFT_9_2";
-        case openni::PIXEL_FORMAT_SHIFT_9_3: return "SHIFT_9_3";
-        case openni::PIXEL_FORMAT_RGB888: return "RGB888";
-        case openni::PIXEL_FORMAT_YUV422: return "YUV422";
-        case openni::PIXEL_FORMAT_YUYV: return "YUYV";
-        case openni::PIXEL_FORMAT_GRAY8: return "GRAY8";
-        case openni::PIXEL_FORMAT_GRAY16: return "GRAY16";
-        case openni::PIXEL_FORMAT_JPEG: return "JPEG";
+        case openni::PIXEL_FORMAT_DEPTH_1_MM:
+            return "DEPTH_1_MM";
+        case openni::PIXEL_FORMAT_DEPTH_100_UM:
+            return "DEPTH_100_UM";
+        case openni::PIXEL_FORMAT_SHIFT_9_2:
+            return "SHIFT_9_2";
+        case openni::PIXEL_FORMAT_SHIFT_9_3:
+            return "SHIFT_9_3";
+        case openni::PIXEL_FORMAT_RGB888:
+            return "RGB888";
+        case openni::PIXEL_FORMAT_YUV422:
+            return "YUV422";
+        case openni::PIXEL_FORMAT_YUYV:
+            return "YUYV";
+        case openni::PIXEL_FORMAT_GRAY8:
+            return "GRAY8";
+        case openni::PIXEL_FORMAT_GRAY16:
+            return "GRAY16";
+        case openni::PIXEL_FORMAT_JPEG:
+            return "JPEG";
     }
     return "format " + std::to_string(static_cast<int>(format));
 }
@@ -45,13 +54,20 @@ int preference(openni::PixelFormat format)
 {
     switch (format)
     {
-        case openni::PIXEL_FORMAT_DEPTH_100_UM: return 1;
-        case openni::PIXEL_FORMAT_DEPTH_1_MM: return 2;  // what calibrations of users refer to
-        case openni::PIXEL_FORMAT_GRAY8: return 1;
-        case openni::PIXEL_FORMAT_YUV422: return 2;
-        case openni::PIXEL_FORMAT_YUYV: return 3;
-        case openni::PIXEL_FORMAT_RGB888: return 4;
-        default: return 0;
+        case openni::PIXEL_FORMAT_DEPTH_100_UM:
+            return 1;
+        case openni::PIXEL_FORMAT_DEPTH_1_MM:
+            return 2;  // what calibrations of users refer to
+        case openni::PIXEL_FORMAT_GRAY8:
+            return 1;
+        case openni::PIXEL_FORMAT_YUV422:
+            return 2;
+        case openni::PIXEL_FORMAT_YUYV:
+            return 3;
+        case openni::PIXEL_FORMAT_RGB888:
+            return 4;
+        default:
+            return 0;
     }
 }
 
@@ -65,11 +81,16 @@ Layout layoutOf(openni::PixelFormat format)
 {
     switch (format)
     {
-        case openni::PIXEL_FORMAT_RGB888: return {PixelLayout::Rgb8, CV_8UC3};
-        case openni::PIXEL_FORMAT_YUYV: return {PixelLayout::Yuyv, CV_8UC2};
-        case openni::PIXEL_FORMAT_YUV422: return {PixelLayout::Uyvy, CV_8UC2};
-        case openni::PIXEL_FORMAT_GRAY8: return {PixelLayout::Gray8, CV_8UC1};
-        default: return {PixelLayout::Depth16, CV_16UC1};
+        case openni::PIXEL_FORMAT_RGB888:
+            return {PixelLayout::Rgb8, CV_8UC3};
+        case openni::PIXEL_FORMAT_YUYV:
+            return {PixelLayout::Yuyv, CV_8UC2};
+        case openni::PIXEL_FORMAT_YUV422:
+            return {PixelLayout::Uyvy, CV_8UC2};
+        case openni::PIXEL_FORMAT_GRAY8:
+            return {PixelLayout::Gray8, CV_8UC1};
+        default:
+            return {PixelLayout::Depth16, CV_16UC1};
     }
 }
 
@@ -257,7 +278,9 @@ void OpenNi2Camera::setUpFile()
     playback->setSpeed(-1.0F);
     playback->setRepeatEnabled(false);
     // The recording has no date; its file has one. Time stamps in it start at zero.
-    struct stat status{};
+    struct stat status
+    {
+    };
     if (::stat(facts_.device.uri.c_str(), &status) == 0)
     {
         facts_.startTime = static_cast<double>(status.st_mtim.tv_sec) +
@@ -272,8 +295,8 @@ void OpenNi2Camera::setUpDevice()
     if (facts_.hasColour)
     {
         chooseMode(colour_, "colour");
-        const bool synced = settings_.frameSync &&
-                            device_.setDepthColorSyncEnabled(true) == openni::STATUS_OK;
+        const bool synced =
+            settings_.frameSync && device_.setDepthColorSyncEnabled(true) == openni::STATUS_OK;
         facts_.synchronised = synced;
         if (settings_.frameSync && !synced)
         {
@@ -359,8 +382,7 @@ Delivery OpenNi2Camera::wait(CameraImage& image, std::chrono::milliseconds timeo
     const bool over = events_->disconnected || events_->atEnd;
     const int limit = over ? 100 : static_cast<int>(timeout.count());
     int ready = 0;
-    const auto status =
-        openni::OpenNI::waitForAnyStream(streams.data(), numStreams, &ready, limit);
+    const auto status = openni::OpenNI::waitForAnyStream(streams.data(), numStreams, &ready, limit);
     if (status != openni::STATUS_OK)
     {
         if (over)

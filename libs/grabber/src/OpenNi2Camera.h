@@ -3,10 +3,10 @@
 
 #include <pointplane/grabber/Camera.h>
 
-#include <OpenNI.h>
-
 #include <atomic>
 #include <string>
+
+#include <OpenNI.h>
 
 namespace pointplane
 {
@@ -20,8 +20,8 @@ namespace pointplane
 
 /** A device or an .oni file through OpenNI2's C++ interface.
  *
- * Frames are always awaited with a time limit: at the end of a file, and after a device is unplugged,
- * a blocking readFrame() never returns. */
+ * Frames are always awaited with a time limit: at the end of a file, and after a device is
+ * unplugged, a blocking readFrame() never returns. */
 class OpenNi2Camera : public Camera
 {
  public:

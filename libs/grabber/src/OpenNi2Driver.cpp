@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "OpenNi2Camera.h"
-#include "drivers.h"
-
-#include <dlfcn.h>
-
 #include <algorithm>
 #include <filesystem>
+
+#include "OpenNi2Camera.h"
+#include "drivers.h"
+#include <dlfcn.h>
 
 namespace pointplane
 {

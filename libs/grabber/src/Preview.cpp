@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "lowPriority.h"
-
 #include <pointplane/grabber/DurableFile.h>
 #include <pointplane/grabber/ObservationBuilder.h>
 #include <pointplane/grabber/Preview.h>
@@ -12,6 +10,8 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
+
+#include "lowPriority.h"
 
 namespace pointplane
 {

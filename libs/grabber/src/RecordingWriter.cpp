@@ -37,13 +37,15 @@ RecordingWriter::RecordingWriter(RecordingOptions options, const ObservationBuil
     workersRunning_ = options_.numThreads;
     for (int i = 0; i < options_.numThreads; ++i)
     {
-        threads_.emplace_back([this] {
-            guarded(&RecordingWriter::compressLoop);
-            if (--workersRunning_ == 0)
+        threads_.emplace_back(
+            [this]
             {
-                encoded_.close();
-            }
-        });
+                guarded(&RecordingWriter::compressLoop);
+                if (--workersRunning_ == 0)
+                {
+                    encoded_.close();
+                }
+            });
     }
     threads_.emplace_back([this] { guarded(&RecordingWriter::writeLoop); });
 }

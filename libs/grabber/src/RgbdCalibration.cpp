@@ -77,8 +77,7 @@ void readOldDistortion(
 }
 
 /** Checks a camera and brings it to the resolution in use. */
-void fitToMode(
-    mrpt::img::TCamera& camera, const VideoMode& mode, const std::string& where)
+void fitToMode(mrpt::img::TCamera& camera, const VideoMode& mode, const std::string& where)
 {
     for (const double value : {camera.fx(), camera.fy(), camera.cx(), camera.cy()})
     {
@@ -118,9 +117,8 @@ RgbdCalibration nominalCalibration(const CameraFacts& facts)
         makeRegistered(calibration);
     }
     const double focal_px = facts.registered ? facts.colourFocal_px : facts.depthFocal_px;
-    calibration.source = focal_px > 0.0
-                             ? "the driver's field of view, no distortion"
-                             : "a typical Kinect (the driver states no field of view)";
+    calibration.source = focal_px > 0.0 ? "the driver's field of view, no distortion"
+                                        : "a typical Kinect (the driver states no field of view)";
     if (!facts.registered && facts.hasColour)
     {
         calibration.source += ", colour camera 25 mm right of depth";
@@ -160,7 +158,7 @@ RgbdCalibration calibrationFromIni(
     RgbdCalibration calibration;
     calibration.depth = stereo.leftCamera;
     calibration.colour = stereo.rightCamera;
-    calibration.colourWrtDepth = 
+    calibration.colourWrtDepth =
         opticalAxes() + mrpt::poses::CPose3D(mrpt::poses::CPose3DQuat(stereo.rightCameraPose));
     if (facts.registered)
     {
@@ -174,8 +172,7 @@ RgbdCalibration calibrationFromIni(
         mrpt::DEG2RAD(number("pose_yaw")),
         mrpt::DEG2RAD(number("pose_pitch")),
         mrpt::DEG2RAD(number("pose_roll")));
-    calibration.sensorLabel =
-        file.read_string(section, "sensorLabel", calibration.sensorLabel);
+    calibration.sensorLabel = file.read_string(section, "sensorLabel", calibration.sensorLabel);
     calibration.source = "'" + path + "', sections [" + section + "_LEFT], [" + section +
                          "_RIGHT], [" + section + "_LEFT2RIGHT_POSE]";
     return calibration;

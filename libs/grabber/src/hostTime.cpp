@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "drivers.h"
-
 #include <chrono>
+
+#include "drivers.h"
 
 namespace pointplane
 {

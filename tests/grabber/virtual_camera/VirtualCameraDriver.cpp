@@ -9,10 +9,6 @@
 #define FALSE 0
 #define TRUE 1
 #endif
-#include <Driver/OniDriverAPI.h>
-
-#include "frame_file.h"
-
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -23,6 +19,9 @@
 #include <memory>
 #include <string>
 #include <thread>
+
+#include "frame_file.h"
+#include <Driver/OniDriverAPI.h>
 
 namespace
 {
@@ -103,19 +102,25 @@ class VirtualStream : public oni::driver::StreamBase
         const bool isDepth = type_ == ONI_SENSOR_DEPTH;
         switch (id)
         {
-            case ONI_STREAM_PROPERTY_VIDEO_MODE: return put(data, size, mode_);
+            case ONI_STREAM_PROPERTY_VIDEO_MODE:
+                return put(data, size, mode_);
             case ONI_STREAM_PROPERTY_HORIZONTAL_FOV:
                 return put(data, size, 2.0F * std::atan(static_cast<float>(width) / (2.0F * f)));
             case ONI_STREAM_PROPERTY_VERTICAL_FOV:
                 return put(data, size, 2.0F * std::atan(static_cast<float>(height) / (2.0F * f)));
-            case ONI_STREAM_PROPERTY_MAX_VALUE: return put(data, size, isDepth ? 10000 : 255);
-            case ONI_STREAM_PROPERTY_MIN_VALUE: return put(data, size, 0);
-            case ONI_STREAM_PROPERTY_STRIDE: return put(data, size, width * bytesPerPixel());
-            case ONI_STREAM_PROPERTY_MIRRORING: return put(data, size, mirrored_);
+            case ONI_STREAM_PROPERTY_MAX_VALUE:
+                return put(data, size, isDepth ? 10000 : 255);
+            case ONI_STREAM_PROPERTY_MIN_VALUE:
+                return put(data, size, 0);
+            case ONI_STREAM_PROPERTY_STRIDE:
+                return put(data, size, width * bytesPerPixel());
+            case ONI_STREAM_PROPERTY_MIRRORING:
+                return put(data, size, mirrored_);
             // Without it in an .oni file the player drops every frame.
             case ONI_STREAM_PROPERTY_CROPPING:
                 return put(data, size, OniCropping{FALSE, 0, 0, width, height});
-            default: return ONI_STATUS_NOT_SUPPORTED;
+            default:
+                return ONI_STATUS_NOT_SUPPORTED;
         }
     }
 
@@ -221,6 +226,18 @@ class VirtualStream : public oni::driver::StreamBase
         }
     }
 
+    /** Again and again, or forth and back, which keeps a motion steady. */
+    [[nodiscard]] int frameNumber(int k) const
+    {
+        const int count = state_.frames.numFrames();
+        if (state_.settings.number("forthAndBack", 0) == 0 || count < 2)
+        {
+            return k % count;
+        }
+        const int phase = k % (2 * count - 2);
+        return phase < count ? phase : 2 * count - 2 - phase;
+    }
+
     void deliver(int k, std::int64_t stamp)
     {
         OniFrame* frame = getServices().acquireFrame();
@@ -239,7 +256,7 @@ class VirtualStream : public oni::driver::StreamBase
         frame->timestamp = static_cast<std::uint64_t>(stamp);
         frame->stride = file.width() * bytesPerPixel();
         frame->dataSize = frame->stride * file.height();
-        const int n = (k - 1) % file.numFrames();
+        const int n = frameNumber(k - 1);
         const void* pixels = type_ == ONI_SENSOR_DEPTH ? file.depth(n) : file.colour(n);
         std::memcpy(frame->data, pixels, static_cast<std::size_t>(frame->dataSize));
         raiseNewFrame(frame);
@@ -280,7 +297,8 @@ class VirtualDevice : public oni::driver::DeviceBase
 
     OniBool isPropertySupported(int id) override
     {
-        return id == ONI_DEVICE_PROPERTY_SERIAL_NUMBER || id == ONI_DEVICE_PROPERTY_IMAGE_REGISTRATION;
+        return id == ONI_DEVICE_PROPERTY_SERIAL_NUMBER ||
+               id == ONI_DEVICE_PROPERTY_IMAGE_REGISTRATION;
     }
     OniStatus getProperty(int id, void* data, int* size) override
     {
@@ -309,7 +327,8 @@ class VirtualDevice : public oni::driver::DeviceBase
     }
     OniBool isImageRegistrationModeSupported(OniImageRegistrationMode mode) override
     {
-        return mode == ONI_IMAGE_REGISTRATION_OFF || state_.settings.number("noRegistration", 0) == 0;
+        return mode == ONI_IMAGE_REGISTRATION_OFF ||
+               state_.settings.number("noRegistration", 0) == 0;
     }
 
  private:
@@ -354,10 +373,12 @@ class VirtualDriver : public oni::driver::DriverBase
         }
         if (const int delay = state_.settings.number("appearAfterMs", 0); delay > 0)
         {
-            appearing_ = std::thread([this, delay] {
-                std::this_thread::sleep_for(std::chrono::milliseconds(delay));
-                deviceConnected(&info_);
-            });
+            appearing_ = std::thread(
+                [this, delay]
+                {
+                    std::this_thread::sleep_for(std::chrono::milliseconds(delay));
+                    deviceConnected(&info_);
+                });
             return ONI_STATUS_OK;
         }
         deviceConnected(&info_);

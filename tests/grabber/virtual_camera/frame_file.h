@@ -36,7 +36,8 @@ class FrameFile
         }
         std::ifstream file(path, std::ios::binary);
         file.read(reinterpret_cast<char*>(&header_), sizeof(header_));
-        if (!file || std::memcmp(header_.magic, FrameFileHeader{}.magic, sizeof(header_.magic)) != 0)
+        if (!file ||
+            std::memcmp(header_.magic, FrameFileHeader{}.magic, sizeof(header_.magic)) != 0)
         {
             throw std::runtime_error("not a frame file: " + path);
         }

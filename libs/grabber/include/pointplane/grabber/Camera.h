@@ -53,15 +53,15 @@ struct CameraSettings
 struct CameraFacts
 {
     DeviceInfo device;
-    VideoMode mode;            //!< in use
-    bool isFile{false};        //!< a recording: delivered as fast as it is read, without loss
-    bool hasColour{true};      //!< false in depth-only mode
-    bool registered{false};    //!< depth pixels lie on the colour image
-    bool synchronised{false};  //!< shutters coupled in hardware
-    double depthFocal_px{0};   //!< from the driver's field of view; 0 = unknown
-    double colourFocal_px{0};  //!< likewise
-    double colourOffset{0};    //!< [m] colour camera right of the depth camera
-    double startTime{0};       //!< [s] UTC of device time 0, for recordings only
+    VideoMode mode;                  //!< in use
+    bool isFile{false};              //!< a recording: delivered as fast as it is read, without loss
+    bool hasColour{true};            //!< false in depth-only mode
+    bool registered{false};          //!< depth pixels lie on the colour image
+    bool synchronised{false};        //!< shutters coupled in hardware
+    double depthFocal_px{0};         //!< from the driver's field of view; 0 = unknown
+    double colourFocal_px{0};        //!< likewise
+    double colourOffset{0};          //!< [m] colour camera right of the depth camera
+    double startTime{0};             //!< [s] UTC of device time 0, for recordings only
     std::vector<std::string> notes;  //!< what the user should know about how it was opened
 };
 

@@ -17,12 +17,12 @@ namespace pointplane
 {
 struct CaptureOptions
 {
-    double duration{0};            //!< [s] of camera time; 0 = until stopped
-    std::uint64_t maxFrames{0};    //!< 0 = until stopped
-    double warmUp{1.0};            //!< [s] not recorded: exposure settles, the clock is learned
-    double maxSkew{0};             //!< [s] between the images of a pair; 0 = half a frame period
-    double stallTimeout{10.0};     //!< [s] without an image of a stream until the camera is given up
-    bool lockExposure{false};      //!< after the warm-up
+    double duration{0};          //!< [s] of camera time; 0 = until stopped
+    std::uint64_t maxFrames{0};  //!< 0 = until stopped
+    double warmUp{1.0};          //!< [s] not recorded: exposure settles, the clock is learned
+    double maxSkew{0};           //!< [s] between the images of a pair; 0 = half a frame period
+    double stallTimeout{10.0};   //!< [s] without an image of a stream until the camera is given up
+    bool lockExposure{false};    //!< after the warm-up
     bool lockWhiteBalance{false};  //!< likewise
     std::string oniPath;           //!< of an .oni recording besides; empty = none
 };
@@ -40,11 +40,11 @@ enum class CaptureEnd
 struct CaptureStats
 {
     PairingCounts pairing;
-    double recordedTime{0};       //!< [s] from the first to the latest pair
-    double frameRate{0};          //!< [Hz] of pairs, by the camera's clock, over the last second
-    std::size_t clockJumps{0};    //!< \sa DeviceClock::numJumps()
-    double clockDrift{0};         //!< \sa DeviceClock::drift()
-    bool started{false};          //!< the warm-up is over
+    double recordedTime{0};     //!< [s] from the first to the latest pair
+    double frameRate{0};        //!< [Hz] of pairs, by the camera's clock, over the last second
+    std::size_t clockJumps{0};  //!< \sa DeviceClock::numJumps()
+    double clockDrift{0};       //!< \sa DeviceClock::drift()
+    bool started{false};        //!< the warm-up is over
 };
 
 /** Takes images from a camera, pairs them, stamps the pairs, hands them on. Runs in a thread of its
@@ -60,8 +60,8 @@ class Capture
     /** Starts the camera and works until there is a reason to end. Never throws. */
     CaptureEnd run(const std::atomic<bool>& stop);
 
-    [[nodiscard]] CaptureStats stats() const;                //!< from any thread
-    [[nodiscard]] std::vector<std::string> notes() const;    //!< what the user should know
+    [[nodiscard]] CaptureStats stats() const;              //!< from any thread
+    [[nodiscard]] std::vector<std::string> notes() const;  //!< what the user should know
     [[nodiscard]] const std::string& problem() const { return problem_; }  //!< after run()
 
  private:
@@ -83,9 +83,9 @@ class Capture
     std::vector<ClockReading> readings_;  // of the warm-up
     double warmUpStart_{0};
     bool warm_{false};
-    double timeScale_{1.0};      // of the device's stamps
-    bool hostStamps_{false};     // the device's are useless
-    double lastDepth_{0}, lastColour_{0};  // arrival of the latest image
+    double timeScale_{1.0};                              // of the device's stamps
+    bool hostStamps_{false};                             // the device's are useless
+    double lastDepth_{0}, lastColour_{0}, lastPair_{0};  // arrival of the latest
     double firstStamp_{0}, rateStart_{0};
     std::uint64_t numPairs_{0}, ratePairs_{0};
     std::string problem_;

@@ -14,19 +14,20 @@ struct ClockReading
     double arrival{0};  //!< [s] UTC on the host
 };
 
-/** Seconds per second of a camera's time stamps: 1 if they are right, 1/60 when a driver hands out a
- * 60 MHz counter as microseconds, 1000 for milliseconds; empty when they follow no clock (constant,
- * or none of these rates within 10 %), so that only arrival times are left.
- * \param readings at least a few tenths of a second of one stream, in order of arrival */
+/** Seconds per second of a camera's time stamps: 1 if they are right, 1/60 when a driver hands out
+ * a 60 MHz counter as microseconds, 1000 for milliseconds; empty when they follow no clock
+ * (constant, or none of these within a factor of two), so that only arrival times are left. \param
+ * readings at least a few tenths of a second of one stream, in order of arrival */
 [[nodiscard]] std::optional<double> deviceTimeScale(const std::vector<ClockReading>& readings);
 
 /** Maps a camera's clock to UTC and keeps the camera's spacing.
  *
- * An image arrives after its time stamp plus a delay that varies but is never less than the transfer
- * time, so the offset between the clocks is the smallest (arrival - device) seen lately. Before
- * lock() the offset follows it freely; afterwards it is only slewed, to follow the drift of the
- * quartz, so that jitter of the host never reaches the stamps: two stamps differ by the device's
- * interval times 1 +- maxSlew. The constant part of the delay cannot be observed and remains. */
+ * An image arrives after its time stamp plus a delay that varies but is never less than the
+ * transfer time, so the offset between the clocks is the smallest (arrival - device) seen lately.
+ * Before lock() the offset follows it freely; afterwards it is only slewed, to follow the drift of
+ * the quartz, so that jitter of the host never reaches the stamps: two stamps differ by the
+ * device's interval times 1 +- maxSlew. The constant part of the delay cannot be observed and
+ * remains. */
 class DeviceClock
 {
  public:
@@ -65,7 +66,7 @@ class DeviceClock
     bool started_{false};
     ClockReading last_;
     double offset_{0};
-    double bucketStart_{0};               // device time at which the current half window began
+    double bucketStart_{0};  // device time at which the current half window began
     double currentMin_{0}, previousMin_{0};
     double offsetAtStart_{0}, deviceAtStart_{0};
     std::size_t numJumps_{0};

@@ -10,8 +10,8 @@
 
 namespace pointplane
 {
-/** A place for one pair between a producer that never waits and a consumer that may be slow: a newer
- * pair replaces one that was not taken. */
+/** A place for one pair between a producer that never waits and a consumer that may be slow: a
+ * newer pair replaces one that was not taken. */
 class LatestPair
 {
  public:

@@ -16,8 +16,7 @@ namespace pointplane
 class ObservationBuilder
 {
  public:
-    explicit ObservationBuilder(RgbdCalibration calibration)
-        : calibration_(std::move(calibration))
+    explicit ObservationBuilder(RgbdCalibration calibration) : calibration_(std::move(calibration))
     {
     }
 

@@ -23,9 +23,9 @@ struct RecordingOptions
 {
     std::string path;  //!< of the rawlog; with splitting: name_001.rawlog, name_002.rawlog, ...
     EncodingOptions encoding;
-    double splitAfter{0};         //!< [s] of recorded time per file; 0 = one file
-    std::size_t queueFrames{150};  //!< that wait in memory, 1.5 MB each at 640x480
-    int numThreads{2};            //!< that compress
+    double splitAfter{0};                         //!< [s] of recorded time per file; 0 = one file
+    std::size_t queueFrames{150};                 //!< that wait in memory, 1.5 MB each at 640x480
+    int numThreads{2};                            //!< that compress
     std::chrono::milliseconds syncInterval{500};  //!< how much a power failure may cost
 };
 
@@ -41,10 +41,10 @@ struct RecordingStats
 
 /** Records image pairs to a rawlog that is readable at any moment.
  *
- * Compression runs in parallel, one thread appends in order and syncs to the disk. Every record is a
- * complete gz member; a rawlog entry is only written after the external files that it names are on
- * the disk. A killed process, a power failure or a full disk therefore cost what came after the last
- * sync, and never what came before. */
+ * Compression runs in parallel, one thread appends in order and syncs to the disk. Every record is
+ * a complete gz member; a rawlog entry is only written after the external files that it names are
+ * on the disk. A killed process, a power failure or a full disk therefore cost what came after the
+ * last sync, and never what came before. */
 class RecordingWriter
 {
  public:

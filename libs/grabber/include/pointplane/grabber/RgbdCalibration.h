@@ -13,9 +13,9 @@ namespace pointplane
 /** Everything that goes into an observation besides its images. */
 struct RgbdCalibration
 {
-    mrpt::img::TCamera depth, colour;      //!< equal but for distortion when depth is registered
-    mrpt::poses::CPose3D colourWrtDepth;   //!< CObservation3DRangeScan's convention
-    mrpt::poses::CPose3D sensorPose;       //!< of the depth camera on the robot
+    mrpt::img::TCamera depth, colour;     //!< equal but for distortion when depth is registered
+    mrpt::poses::CPose3D colourWrtDepth;  //!< CObservation3DRangeScan's convention
+    mrpt::poses::CPose3D sensorPose;      //!< of the depth camera on the robot
     std::string sensorLabel{"OPENNI2"};
     std::string source;  //!< where the intrinsics come from, one clause for the summary
 };
@@ -25,8 +25,8 @@ struct RgbdCalibration
 
 /** From a rawlog-grabber ini file: sections `<section>_LEFT` (depth camera), `<section>_RIGHT`
  * (colour) and `<section>_LEFT2RIGHT_POSE`; from `<section>` itself, if there is one, `sensorLabel`
- * and `pose_x` ... `pose_roll` (metres, degrees). For registered depth only the colour camera counts.
- * \throws InputError that names file, section and key */
+ * and `pose_x` ... `pose_roll` (metres, degrees). For registered depth only the colour camera
+ * counts. \throws InputError that names file, section and key */
 [[nodiscard]] RgbdCalibration calibrationFromIni(
     const std::string& path, const std::string& section, const CameraFacts& facts);
 }  // namespace pointplane
