@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "reproduce_tables.h"
 #include "result_output.h"
 #include "sweep_charts.h"
 
@@ -11,122 +12,6 @@ namespace pointplane
 namespace
 {
 constexpr double kDegrees = 180 / 3.14159265358979323846;
-
-using Cells = std::vector<std::string>;
-
-struct Table
-{
-    std::string caption;
-    Cells header;
-    std::vector<Cells> rows;
-};
-
-std::string displayName(const ReproducedSequence& s)
-{
-    return s.name + (s.isPart ? " (part)" : "");
-}
-
-/** The paper's figures of a sequence; nothing but dashes if it has none. */
-PublishedFigures publishedOf(const std::string& name)
-{
-    for (const PublishedFigures& figures : publishedFigures())
-    {
-        if (figures.sequence == name)
-        {
-            return figures;
-        }
-    }
-    return {name, "", "", "", ""};
-}
-
-std::string orDash(const std::string& text) { return text.empty() ? "-" : text; }
-
-bool hasGroup(const Reproduction& result, const std::string& group)
-{
-    return std::any_of(
-        result.variants.begin(),
-        result.variants.end(),
-        [&](const Variant& v) { return v.group == group; });
-}
-
-/** Variants of a group down, sequences across. */
-Table groupTable(const Reproduction& result, const std::string& group, const std::string& caption)
-{
-    Table table{caption, {group == "alpha" ? "alpha" : "configuration"}, {}};
-    for (const ReproducedSequence& s : result.sequences)
-    {
-        table.header.push_back(displayName(s));
-    }
-    for (const Variant& v : result.variants)
-    {
-        if (v.group == group)
-        {
-            Cells row{v.name};
-            for (std::size_t s = 0; s < result.sequences.size(); ++s)
-            {
-                row.push_back(result.text(s, group, v.name));
-            }
-            table.rows.push_back(std::move(row));
-        }
-    }
-    return table;
-}
-
-std::vector<Table> tables(const Reproduction& result)
-{
-    std::vector<Table> out;
-    if (hasGroup(result, "paper"))
-    {
-        Table first{
-            "Table 1: points, unweighted and weighted by their uncertainty (config-paper.ini)",
-            {"sequence", "unweighted", "paper", "weighted", "paper"},
-            {}};
-        Table second{
-            "Table 2: points, and points and planes (config-paper.ini)",
-            {"sequence",
-             "points",
-             "paper",
-             "points and planes",
-             "paper",
-             "best named by the paper"},
-            {}};
-        for (std::size_t s = 0; s < result.sequences.size(); ++s)
-        {
-            const PublishedFigures p = publishedOf(result.sequences[s].name);
-            const std::string name = displayName(result.sequences[s]);
-            const std::string points = result.text(s, "paper", "points");
-            first.rows.push_back(
-                {name,
-                 result.text(s, "paper", "points, unweighted"),
-                 orDash(p.deterministic),
-                 points,
-                 orDash(p.deterministic.empty() ? "" : p.points)});
-            second.rows.push_back(
-                {name,
-                 points,
-                 orDash(p.points),
-                 result.text(s, "paper", "points and planes"),
-                 orDash(p.pointsAndPlanes),
-                 orDash(p.stateOfTheArt)});
-        }
-        out.push_back(first);
-        out.push_back(second);
-    }
-    if (hasGroup(result, "alpha"))
-    {
-        out.push_back(
-            groupTable(result, "alpha", "Fig. 3: weight of the planes (config-paper.ini)"));
-    }
-    if (hasGroup(result, "paper"))
-    {
-        out.push_back(groupTable(result, "paper", "Ablations of config-paper.ini"));
-    }
-    if (hasGroup(result, "default"))
-    {
-        out.push_back(groupTable(result, "default", "Ablations of the default configuration"));
-    }
-    return out;
-}
 
 /** What the paper evaluates and this folder does not hold, or holds only a part of. */
 std::string missing(const Reproduction& result)
@@ -175,34 +60,21 @@ std::string intro(const Reproduction& result)
 }
 }  // namespace
 
-std::string Reproduction::text(
-    std::size_t sequence, const std::string& group, const std::string& name) const
-{
-    for (std::size_t v = 0; v < variants.size(); ++v)
-    {
-        if (variants[v].group == group && variants[v].name == name)
-        {
-            return scoreText(scores[sequence * variants.size() + v]);
-        }
-    }
-    return "-";
-}
-
 std::string toMarkdown(const Reproduction& result)
 {
     std::string out = intro(result) + "\n";
-    for (const Table& table : tables(result))
+    for (const ReproductionTable& table : reproductionTables(result))
     {
         std::vector<std::size_t> widths;
         for (std::size_t c = 0; c < table.header.size(); ++c)
         {
             widths.push_back(table.header[c].size());
-            for (const Cells& row : table.rows)
+            for (const auto& row : table.rows)
             {
                 widths[c] = std::max(widths[c], row[c].size());
             }
         }
-        const auto line = [&](const Cells& cells)
+        const auto line = [&](const std::vector<std::string>& cells)
         {
             std::string text = "|";
             for (std::size_t c = 0; c < cells.size(); ++c)
@@ -211,13 +83,13 @@ std::string toMarkdown(const Reproduction& result)
             }
             return text + "\n";
         };
-        Cells rule;
+        std::vector<std::string> rule;
         for (const std::size_t width : widths)
         {
             rule.push_back(std::string(width, '-'));
         }
         out += "\n### " + table.caption + "\n\n" + line(table.header) + line(rule);
-        for (const Cells& row : table.rows)
+        for (const auto& row : table.rows)
         {
             out += line(row);
         }
@@ -316,7 +188,7 @@ std::string toHtml(const Reproduction& result)
             report.addChart(chart);
         }
     }
-    for (const Table& table : tables(result))
+    for (const ReproductionTable& table : reproductionTables(result))
     {
         report.addTable(table.caption, table.header, table.rows);
     }
