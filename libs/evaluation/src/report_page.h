@@ -84,5 +84,9 @@ charts.forEach((c, index) => {
           number(t.parsed.y) + ')'}}}}});
   if (c.equalScales) equalScales(chart);
 });
+// For tests: how many charts were drawn, and whether the page is wider than the window.
+const root = document.documentElement;
+root.dataset.charts = charts.length;
+root.dataset.overflow = root.scrollWidth > root.clientWidth;
 )js";
 }  // namespace pointplane
