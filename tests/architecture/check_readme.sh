@@ -19,7 +19,8 @@ for page in README.md CONTRIBUTING.md docs/*.md; do
         [[ -e $(dirname "$page")/$link ]] || problem "$page: link to $link, which is not there"
     done < <(grep -oE '\]\([^)#]+' "$page" | cut -c3- | grep -vE '^[a-z]+:')
 
-    # Commands are what stands between backquotes or on indented lines.
+    # Commands stand at the beginning of a text between backquotes or of an indented line, and
+    # have arguments. pointplane-camera and -status are keys of comments in rawlogs.
     while read -r line; do
         read -ra words <<<"$line"
         program=$bin/$(basename "${words[0]}")
@@ -28,7 +29,7 @@ for page in README.md CONTRIBUTING.md docs/*.md; do
             continue
         fi
         help=$("$program" --help)
-        if ((${#words[@]} > 1)) && grep -qE "^  ${words[1]}( |$)" <<<"$help"; then
+        if [[ ${words[1]} != -* ]] && grep -qE "^  ${words[1]}( |$)" <<<"$help"; then
             help+=$("$program" "${words[1]}" --help)
         fi
         for word in "${words[@]:1}"; do
@@ -37,7 +38,8 @@ for page in README.md CONTRIBUTING.md docs/*.md; do
             grep -qE "(^|[ ,!])$option([ ,=]|$)" <<<"$help" ||
                 problem "$page: $(basename "$program") has no option $option: $line"
         done
-    done < <({ grep -oE '`[^`]+`' "$page" | tr -d '`'; grep -E '^    ' "$page" | sed 's/ #.*//'; } |
-        grep -oE '(^| |/)pointplane-[a-z]+.*' | sed 's/^[ /]*//')
+    done < <({ grep -oE '`[^`]+`' "$page" | tr -d '`'; grep -E '^    ' "$page"; } |
+        sed -nE 's/ #.*//; s/^ *((build[a-z/]*\/)?bin\/)?(pointplane-[a-z]+ .*)/\3/p' |
+        grep -vE '^pointplane-(camera|status) ')
 done
 exit $failed
