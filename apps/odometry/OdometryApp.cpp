@@ -15,7 +15,7 @@ namespace pointplane
 {
 namespace
 {
-void addOptions(CLI::App& app, OdometryOptions& o, bool& dumpConfig)
+void addOptions(CLI::App& app, OdometryOptions& o, bool& dumpConfig, bool& dumpKeys)
 {
     app.add_option("rawlogs", o.inputs, "Input rawlogs, taken as one sequence");
     app.add_option("-c,--config", o.config, "Configuration (default: built in, see --dump-config)");
@@ -26,6 +26,8 @@ void addOptions(CLI::App& app, OdometryOptions& o, bool& dumpConfig)
         "--sensor-label", o.sensorLabel, "Which camera (default: that of the first RGB-D frame)");
     app.add_flag(
         "--dump-config", dumpConfig, "Print the complete configuration in effect and exit");
+    app.add_flag("--dump-keys", dumpKeys, "The same as Markdown tables, for docs/config.md")
+        ->group("");
 
     app.add_option("-o,--output", o.output, "Rawlog with a pose PDF per frame")->group("Output");
     app.add_flag("--only-poses", o.onlyPoses, "Leave the observations out of it")->group("Output");
@@ -107,15 +109,16 @@ int runOdometry(const std::vector<std::string>& args, std::ostream& out, std::os
         "pointplane-odometry"};
     app.set_version_flag("--version", POINTPLANE_VERSION);
     OdometryOptions options;
-    bool dumpConfig = false;
-    addOptions(app, options, dumpConfig);
+    bool dumpConfig = false, dumpKeys = false;
+    addOptions(app, options, dumpConfig, dumpKeys);
     try
     {
         app.parse(std::vector<std::string>(args.rbegin(), args.rend()));  // CLI11: last first
-        if (dumpConfig)
+        if (dumpConfig || dumpKeys)
         {
             OdometryParams params = loadOdometryParams(options.config, options.settings);
-            out << iniText(parametersOf(params));
+            const ParameterTable table = parametersOf(params);
+            out << (dumpConfig ? iniText(table) : markdownText(table));
             return kExitOk;
         }
         return run(options, out, err);

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/mrpt_io/VisualOdometry.h>
+#include <pointplane/mrpt_io/errors.h>
+#include <pointplane/mrpt_io/mrpt_poses.h>
+#include <pointplane/mrpt_io/params_ini.h>
+
+#include "TempDir.h"
+#include "matchers.h"
+#include "rawlog_samples.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace pointplane
+{
+namespace
+{
+using test::sampleScan;
+
+TEST(VisualOdometry, isTheOdometrySeenFromTheRobot)
+{
+    const auto sensorPose = mrpt::poses::CPose3D::FromXYZYawPitchRoll(0.3, 0.1, 0.8, 0.2, 0.1, 0);
+    VisualOdometry vo;
+    vo.setMinLoggingLevel(mrpt::system::LVL_ERROR);
+    Odometry odometry;
+    const ObservationConverter converter;
+    RobotTrajectory trajectory;
+    for (int i = 0; i < 4; ++i)
+    {
+        const auto scan = sampleScan(i, 64, 48);
+        scan->sensorPose = sensorPose;
+        const RobotMotion motion = vo.process(*scan);
+        const ConvertedFrame converted = converter.convert(*scan);
+        const RobotMotion expected =
+            trajectory.add(odometry.process(converted.frame), converted.T_robot_cam);
+        EXPECT_EQ(motion.status, expected.status);
+        EXPECT_EQ(motion.pose.mean, expected.pose.mean);
+        EXPECT_EQ(motion.pose.cov, expected.pose.cov);
+        EXPECT_EQ(motion.increment.mean, expected.increment.mean);
+    }
+}
+
+TEST(VisualOdometry, aBadFrameIsLostWithItsReasonAndTheNextGoesOn)
+{
+    VisualOdometry vo;
+    vo.setMinLoggingLevel(mrpt::system::LVL_ERROR);
+    EXPECT_EQ(vo.process(*sampleScan(0, 64, 48)).status, TrackingStatus::First);
+    const auto bad = sampleScan(1, 64, 48);
+    bad->hasRangeImage = false;
+    const RobotMotion lost = vo.process(*bad);
+    EXPECT_EQ(lost.status, TrackingStatus::Lost);
+    EXPECT_EQ(lost.reason, "observation has no range image");
+    EXPECT_TRUE(lost.pose.cov.asEigen().llt().info() == Eigen::Success);
+    EXPECT_NE(vo.process(*sampleScan(2, 64, 48)).status, TrackingStatus::Lost);
+}
+
+TEST(VisualOdometry, loadsItsConfiguration)
+{
+    const test::TempDir dir;
+    test::writeBytes(dir / "a.ini", "[DepthNoise]\nsigmaPixelPx = 0.75\n");
+    VisualOdometry vo;
+    vo.loadFromConfigFileName(dir / "a.ini");
+    EXPECT_EQ(vo.params().depthNoise.sigmaPixelPx, 0.75);
+    test::writeBytes(dir / "b.ini", "[DepthNoise]\nsigma = 0.75\n");
+    EXPECT_THROW(vo.loadFromConfigFileName(dir / "b.ini"), InputError);
+    EXPECT_EQ(vo.params().depthNoise.sigmaPixelPx, 0.75);
+}
+
+TEST(VisualOdometry, resetStartsAnew)
+{
+    VisualOdometry vo;
+    vo.setMinLoggingLevel(mrpt::system::LVL_ERROR);
+    (void)vo.process(*sampleScan(0, 64, 48));
+    const RobotMotion before = vo.process(*sampleScan(1, 64, 48));
+    vo.reset();
+    EXPECT_EQ(vo.process(*sampleScan(0, 64, 48)).status, TrackingStatus::First);
+    EXPECT_EQ(vo.process(*sampleScan(1, 64, 48)).pose.mean, before.pose.mean);
+}
+}  // namespace
+}  // namespace pointplane
