@@ -219,8 +219,6 @@ void PoseSolver::TParams::check() const
     POINTPLANE_CHECK(
         planeStudentDof >= 0, "planeStudentDof = " << planeStudentDof << " is negative");
     POINTPLANE_CHECK(
-        planeStudentDof >= 0, "planeStudentDof = " << planeStudentDof << " is negative");
-    POINTPLANE_CHECK(
         maxIterations >= 1 && maxIterations <= 1000,
         "maxIterations = " << maxIterations << " is not in 1..1000");
 }
