@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/se3.h>
+#include <pointplane/odometry/ShutterCorrection.h>
+#include <pointplane/planes/PlaneExtractor.h>
+
+#include <opencv2/core/mat.hpp>
+
+#include <cmath>
+#include <limits>
+
+#include "matchers.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace pointplane
+{
+namespace
+{
+constexpr int kWidth = 320, kHeight = 240;
+
+/** A Kinect in a moving hand. */
+ShutterModel kinect() { return {0.027, 0.024, -0.010}; }
+
+Vector6d handVelocity()
+{
+    Vector6d v;
+    v << 0.4, -0.3, 0.25, 0.6, 0.8, -0.5;
+    return v;
+}
+
+PinholeCamera camera()
+{
+    PinholeCamera out;
+    out.width = kWidth;
+    out.height = kHeight;
+    out.fx = out.fy = 262.5;
+    out.cx = 159.5;
+    out.cy = 119.5;
+    return out;
+}
+
+double colourTime(const ShutterModel& s, double row)
+{
+    return (row / kHeight - 0.5) * s.readoutColour;
+}
+
+double depthTime(const ShutterModel& s, double row)
+{
+    return s.depthDelay + (row / kHeight - 0.5) * s.readoutDepth;
+}
+
+/** Where the point, given at the stamp, is in the camera at time s after it. */
+Eigen::Vector3d seenAt(const Eigen::Vector3d& P, double s, const Vector6d& V)
+{
+    return se3Exp(-s * V) * P;
+}
+
+/** What the camera reports of a static point: its pixel in the colour image, whose row is exposed
+ * when the point crosses it, and the depth of that pixel in the depth image of another instant. */
+struct Observation
+{
+    Eigen::Vector3d P;
+    double row{0};
+};
+
+Observation observe(const Eigen::Vector3d& P_stamp, const ShutterModel& shutter, const Vector6d& V)
+{
+    Observation out;
+    out.row = camera().project(P_stamp).y();
+    Eigen::Vector3d inColour = P_stamp;
+    for (int i = 0; i < 50; ++i)  // the row that is exposed when the point is on it
+    {
+        inColour = seenAt(P_stamp, colourTime(shutter, out.row), V);
+        out.row = camera().project(inColour).y();
+    }
+    const Eigen::Vector3d inDepth = seenAt(P_stamp, depthTime(shutter, out.row), V);
+    // The neighbourhood is frontal: its depth does not depend on where exactly it is hit.
+    out.P = inColour * (inDepth.z() / inColour.z());
+    return out;
+}
+
+/** Depth image of a static plane, row by row, each row at its own time. */
+cv::Mat rollingDepth(const Eigen::Vector3d& theta, const ShutterModel& shutter, const Vector6d& V)
+{
+    const PinholeCamera c = camera();
+    const Plane atStamp = hessianForm(theta);
+    cv::Mat depth(kHeight, kWidth, CV_32FC1);
+    for (int v = 0; v < kHeight; ++v)
+    {
+        const Eigen::Isometry3d T_row_stamp = se3Exp(-depthTime(shutter, v) * V);
+        const Eigen::Vector3d m = minimalForm(transformed(T_row_stamp, atStamp));
+        for (int u = 0; u < kWidth; ++u)
+        {
+            const Eigen::Vector3d ray((u - c.cx) / c.fx, (v - c.cy) / c.fy, 1);
+            depth.at<float>(v, u) = static_cast<float>(-1 / m.dot(ray));
+        }
+    }
+    return depth;
+}
+}  // namespace
+
+TEST(ShutterCorrection, pointByHand)
+{
+    // Half an image below the middle: 10 ms late. Forward at 1 m/s: it was 1 cm nearer when seen.
+    ShutterModel shutter{0.02, 0.02, 0};
+    Vector6d V = Vector6d::Zero();
+    V[2] = 1;
+    const ShutterCorrection correction(shutter, kHeight);
+    EXPECT_THAT(
+        correction.point({0.1, 0.4, 1.99}, kHeight, V),
+        test::IsMatrixNear(Eigen::Vector3d(0.1, 0.4, 2), 1e-12));
+    EXPECT_THAT(
+        correction.point({0.1, 0.4, 2}, 0.5 * kHeight, V),
+        test::IsMatrixNear(Eigen::Vector3d(0.1, 0.4, 2), 1e-12));
+}
+
+TEST(ShutterCorrection, pointOfAStaticWorld)
+{
+    const ShutterCorrection correction(kinect(), kHeight);
+    const Vector6d V = handVelocity();
+    for (const double x : {-0.5, 0.0, 0.4})
+    {
+        for (const double y : {-0.4, 0.1, 0.5})
+        {
+            const Eigen::Vector3d P(2 * x, 2 * y, 2);
+            const Observation seen = observe(P, kinect(), V);
+            const Eigen::Vector3d corrected = correction.point(seen.P, seen.row, V);
+            // First order in time: what remains is a twentieth.
+            EXPECT_GT((seen.P - P).norm(), 4e-3);
+            EXPECT_LT((corrected - P).norm(), 0.05 * (seen.P - P).norm()) << P.transpose();
+        }
+    }
+}
+
+TEST(ShutterCorrection, pointErrorIsOfSecondOrder)
+{
+    const ShutterCorrection correction(kinect(), kHeight);
+    const Eigen::Vector3d P(0.6, 0.7, 2.2);
+    const auto remaining = [&](double scale)
+    {
+        const Vector6d V = scale * handVelocity();
+        const Observation seen = observe(P, kinect(), V);
+        return (correction.point(seen.P, seen.row, V) - P).norm();
+    };
+    EXPECT_NEAR(remaining(1) / remaining(0.25), 16, 3);
+}
+
+TEST(ShutterCorrection, planeOfAStaticWorld)
+{
+    const Vector6d V = handVelocity();
+    const ShutterCorrection correction(kinect(), kHeight);
+    PlaneExtractor extractor({}, {});
+    for (const Eigen::Vector3d& theta :
+         {Eigen::Vector3d(0, 0, -0.5),
+          Eigen::Vector3d(0.2, 0.1, -0.5),
+          Eigen::Vector3d(-0.1, -0.3, -0.4)})
+    {
+        const PlaneSet still = extractor.extract(rollingDepth(theta, {0, 0, 0}, V), camera());
+        ASSERT_EQ(still.planes.size(), 1U);
+        EXPECT_THAT(still.planes[0].plane_cam.theta_m, test::IsMatrixNear(theta, 1e-5));
+
+        const PlaneSet rolling = extractor.extract(rollingDepth(theta, kinect(), V), camera());
+        ASSERT_EQ(rolling.planes.size(), 1U);
+        const double before = (rolling.planes[0].plane_cam.theta_m - theta).norm();
+        const PlaneGaussian corrected = correction.plane(rolling.planes[0], V);
+        EXPECT_GT(before, 2e-3);
+        EXPECT_LT((corrected.theta_m - theta).norm(), 0.05 * before) << theta.transpose();
+        EXPECT_EQ(corrected.cov_m, rolling.planes[0].plane_cam.cov_m);
+    }
+}
+
+TEST(ShutterCorrection, planeSeenByAPartOfTheImage)
+{
+    // Only the lower half: the delay of its rows dominates.
+    const Eigen::Vector3d theta(0.1, 0.2, -0.5);
+    const Vector6d V = handVelocity();
+    cv::Mat depth = rollingDepth(theta, kinect(), V);
+    depth.rowRange(0, kHeight / 2).setTo(std::numeric_limits<float>::quiet_NaN());
+    const PlaneSet set = PlaneExtractor({}, {}).extract(depth, camera());
+    ASSERT_EQ(set.planes.size(), 1U);
+    const double before = (set.planes[0].plane_cam.theta_m - theta).norm();
+    const PlaneGaussian corrected = ShutterCorrection(kinect(), kHeight).plane(set.planes[0], V);
+    EXPECT_LT((corrected.theta_m - theta).norm(), 0.05 * before);
+}
+
+TEST(ShutterCorrection, nothingToCorrect)
+{
+    const Eigen::Vector3d P(0.3, -0.2, 1.5);
+    PlaneFeature plane;
+    plane.plane_cam.theta_m << 0.1, 0.2, -0.4;
+    plane.rowLever = 0.1 * Eigen::Matrix3d::Ones();
+    const Eigen::Vector3d& theta = plane.plane_cam.theta_m;
+    // A still camera, a global shutter, an unknown one.
+    const ShutterCorrection still(kinect(), kHeight);
+    EXPECT_THAT(still.point(P, 17, Vector6d::Zero()), test::IsMatrixNear(P, 1e-15));
+    EXPECT_EQ(still.plane(plane, Vector6d::Zero()).theta_m, theta);
+    for (const ShutterModel& shutter : {ShutterModel{0, 0, 0}, ShutterModel{}})
+    {
+        const ShutterCorrection none(shutter, kHeight);
+        EXPECT_THAT(none.point(P, 17, handVelocity()), test::IsMatrixNear(P, 1e-15));
+        EXPECT_THAT(none.plane(plane, handVelocity()).theta_m, test::IsMatrixNear(theta, 1e-15));
+    }
+}
+}  // namespace pointplane
