@@ -91,7 +91,10 @@ bool fits(const DeviceInfo& device, std::size_t index, const std::string& choice
 
 /** Cameras that drivers know but do not list, such as OpenNI2's "Dummy". */
 std::unique_ptr<Camera> openUnlisted(
-    const CameraDrivers& drivers, const std::string& uri, const CameraSettings& settings)
+    const CameraDrivers& drivers,
+    const std::string& uri,
+    const CameraSettings& settings,
+    std::string& problems)
 {
     for (const auto& driver : drivers)
     {
@@ -102,9 +105,9 @@ std::unique_ptr<Camera> openUnlisted(
         {
             return driver->open(device, settings);
         }
-        catch (const EnvironmentError&)
+        catch (const EnvironmentError& e)
         {
-            // Not this driver's. The caller's message names the choice and what there is.
+            problems += std::string("\n  ") + e.what();
         }
     }
     return nullptr;
@@ -148,14 +151,12 @@ std::unique_ptr<Camera> openCamera(
     }
     if (!choice.empty())
     {
-        if (auto camera = openUnlisted(drivers, choice, settings))
+        if (auto camera = openUnlisted(drivers, choice, settings, problems))
         {
             return camera;
         }
-        if (index > 0)
-        {
-            throw NoCameraError("no camera '" + choice + "'; connected:" + listed);
-        }
+        const std::string connected = index > 0 ? "; connected:" + listed : "; none is connected";
+        throw NoCameraError("no camera '" + choice + "'" + connected + "\ntried:" + problems);
     }
     throw NoCameraError(noCameraHelp(drivers));
 }

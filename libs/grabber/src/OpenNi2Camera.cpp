@@ -259,7 +259,9 @@ void OpenNi2Camera::chooseMode(openni::VideoStream& stream, const char* what)
             "the " + std::string(what) + " camera of " + facts_.device.uri + " has no mode " +
             toString(settings_.mode) + "; it offers: " + offered);
     }
-    if (stream.setVideoMode(*best) != openni::STATUS_OK)
+    // A driver with a single mode may refuse to have it set.
+    const bool isSet = toString(videoModeOf(stream.getVideoMode())) == toString(videoModeOf(*best));
+    if (!isSet && stream.setVideoMode(*best) != openni::STATUS_OK)
     {
         throw EnvironmentError(
             "the " + std::string(what) + " camera of " + facts_.device.uri + " refuses its mode " +
