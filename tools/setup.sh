@@ -5,16 +5,15 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 readonly build_dir=build/release
 
+# A question mark: not in every release. What it is for is left out, or its tests are skipped.
 readonly build_packages=(
     g++ cmake ninja-build pkgconf
     libeigen3-dev libopencv-dev libdlib-dev zlib1g-dev libdeflate-dev
     libmrpt-obs-dev libmrpt-graphslam-dev libcli11-dev nlohmann-json3-dev libgtest-dev libgmock-dev
-    libopenni2-dev libjs-chart.js
+    libopenni2-dev "libfreenect-dev?" libjs-chart.js
 )
-# Not in every release; what they are for is left out of the build, or its tests skipped, without them.
-readonly optional_packages=(libfreenect-dev)
-# MRPT's own programs and data sets, which the tests run on our output.
-readonly test_packages=(mrpt-apps mrpt-common)
+# MRPT's own programs and data sets, which the tests run on our output; a browser for the reports.
+readonly test_packages=(mrpt-apps mrpt-common "chromium?")
 
 say() { printf '\n== %s\n' "$*"; }
 die() {
@@ -56,26 +55,29 @@ add_mrpt_archive() {
     apt update
 }
 
-# install_packages NAME...: those that are missing, and the optional ones where they exist.
+# install_packages NAME...: those that are missing; NAME? where it is offered.
 install_packages() {
     command -v apt-get >/dev/null ||
         die "no apt-get: on another system install the equivalents of $* and run cmake by hand"
-    local package missing=()
+    local package missing=() optional=()
     for package in "$@"; do
-        is_installed "$package" || missing+=("$package")
-    done
-    if ((${#missing[@]})); then
-        say "installing ${missing[*]}"
-        # Another source of the machine may be unreachable; what matters is whether install succeeds.
-        apt update || echo "apt-get update failed; trying with the lists that are there" >&2
-        add_mrpt_archive
-    fi
-    for package in "${optional_packages[@]}"; do
-        if ! is_installed "$package" && is_offered "$package"; then
+        is_installed "${package%\?}" && continue
+        if [[ $package == *\? ]]; then
+            optional+=("${package%\?}")
+        else
             missing+=("$package")
         fi
     done
     if ((${#missing[@]})); then
+        # Another source of the machine may be unreachable; what matters is whether install succeeds.
+        apt update || echo "apt-get update failed; trying with the lists that are there" >&2
+        add_mrpt_archive
+    fi
+    for package in "${optional[@]}"; do
+        is_offered "$package" && missing+=("$package")
+    done
+    if ((${#missing[@]})); then
+        say "installing ${missing[*]}"
         apt install --yes --no-install-recommends "${missing[@]}" ||
             die "apt-get could not install ${missing[*]} (its own message is above)"
     fi
