@@ -86,6 +86,10 @@ TEST(RawlogReader, readsEveryMemberThatAScanCanHave)
     scan->hasConfidenceImage = true;
     scan->confidenceImage.resize(32, 24, mrpt::img::CH_GRAY);
     scan->rangeImageOtherLayers["second"].setSize(24, 32);
+    scan->pixelLabels = std::make_shared<mrpt::obs::TPixelLabelInfo<2>>();
+    scan->pixelLabels->setSize(24, 32);
+    scan->pixelLabels->setLabelName(3, "wall");
+    scan->pixelLabels->setLabel(5, 6, 3);
     {
         RawlogWriter writer(dir / "a.rawlog");
         writer.write(*scan);
@@ -105,6 +109,8 @@ TEST(RawlogReader, readsEveryMemberThatAScanCanHave)
     const auto back =
         std::dynamic_pointer_cast<mrpt::obs::CObservation3DRangeScan>(contents.objects[0]);
     EXPECT_EQ(back->points3D_x.at(6), 6.0F);
+    EXPECT_EQ(back->rangeImageOtherLayers.size(), 1U);
+    EXPECT_TRUE(back->pixelLabels->checkLabel(5, 6, 3));
 }
 
 TEST(RawlogReader, readsBothFormatsPlainAndCompressed)

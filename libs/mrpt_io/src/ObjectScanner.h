@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <cstring>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -84,4 +85,34 @@ class ObjectScanner
     std::vector<Resolution> resolutions_;
     std::size_t cameraResolutionAt_{0};  // in the buffer, of the latest camera
 };
+template <class T>
+T ObjectScanner::copyValue()
+{
+    copy(sizeof(T));
+    T value;
+    std::memcpy(&value, bytes_->data() + bytes_->size() - sizeof(T), sizeof(T));
+    return value;
+}
+
+/** What the layouts of all classes are checked with. */
+namespace scanning
+{
+constexpr std::uint64_t kMaxPixels = 1ULL << 26U;  // 8192 x 8192
+
+inline void require(bool condition, const std::string& problem)
+{
+    if (!condition)
+    {
+        throw ObjectScanner::Problem(problem);
+    }
+}
+
+inline std::uint64_t numPixels(std::uint64_t width, std::uint64_t height)
+{
+    require(
+        width <= kMaxPixels && height <= kMaxPixels && width * height <= kMaxPixels,
+        "an image of " + std::to_string(width) + "x" + std::to_string(height) + " pixels");
+    return width * height;
+}
+}  // namespace scanning
 }  // namespace pointplane

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The layouts of CObservation3DRangeScan and what it is made of, as MRPT serialises them.
+#include <cstring>
+#include <iterator>
+
+#include "ObjectScanner.h"
+
+namespace pointplane
+{
+using scanning::numPixels;
+using scanning::require;
+
+void ObjectScanner::range3DScan(int version)
+{
+    copy(sizeof(float));  // maxRange
+    copyObject("CPose3D");
+    if (version == 0 || copyBool())
+    {
+        const auto n = copyValue<std::uint32_t>();
+        copyArray(n, 3 * sizeof(float));
+        if (version == 0)
+        {
+            copyArray(n, 1);
+        }
+        if (version >= 8)
+        {
+            copyArray(n, 2 * sizeof(std::uint16_t));
+        }
+    }
+    if (version >= 1)
+    {
+        rangeImage(version);
+    }
+    copy(sizeof(float) + sizeof(std::uint64_t));  // stdError, time stamp
+    copyString();
+    if (version >= 3)
+    {
+        copyBool();  // external points and their file
+        copyString();
+        copyBool();  // external ranges and their file
+        copyString();
+    }
+    if (version >= 5)
+    {
+        copyBool();  // range_is_depth
+    }
+    if (version >= 6)
+    {
+        copy(sizeof(std::int8_t));  // intensity channel
+    }
+    if (version >= 7 && copyBool())
+    {
+        pixelLabels();
+    }
+    if (version >= 10)
+    {
+        const int numLayers = copyValue<std::uint8_t>();
+        for (int i = 0; i < numLayers; ++i)
+        {
+            copyString();
+            const auto rows = copyValue<std::uint32_t>();
+            copyArray(numPixels(copyValue<std::uint32_t>(), rows), sizeof(std::uint16_t));
+        }
+    }
+}
+
+void ObjectScanner::rangeImage(int version)
+{
+    Resolution range;
+    const bool hasRange = copyBool();
+    if (version >= 9)
+    {
+        copy(sizeof(float));  // rangeUnits
+    }
+    if (hasRange && version < 9)
+    {
+        copyObject("CMatrixF");
+    }
+    else if (hasRange)
+    {
+        range.rows = copyValue<std::uint32_t>();
+        range.cols = copyValue<std::uint32_t>();
+        copyArray(numPixels(range.cols, range.rows), sizeof(std::uint16_t));
+    }
+    if (copyBool())
+    {
+        copyObject("CImage");  // intensity
+    }
+    if (copyBool())
+    {
+        copyObject("CImage");  // confidence
+    }
+    if (version >= 2)
+    {
+        copyObject("TCamera");
+        exchangeResolution(range);
+    }
+    if (version >= 4)
+    {
+        copyObject("TCamera");
+        copyObject("CPose3D");
+    }
+}
+
+void ObjectScanner::exchangeResolution(const Resolution& range)
+{
+    Resolution camera;
+    std::uint8_t* at = bytes_->data() + cameraResolutionAt_;
+    std::memcpy(&camera, at, sizeof(camera));
+    resolutions_.push_back(camera);
+    if (range.rows > 0 && range.cols > 0)
+    {
+        std::memcpy(at, &range, sizeof(range));
+    }
+}
+
+void ObjectScanner::pixelLabels()
+{
+    require(copyValue<std::uint8_t>() == 1, "pixel labels of an unknown version");
+    const auto bytesPerPixel = copyValue<std::uint8_t>();
+    require(bytesPerPixel >= 1 && bytesPerPixel <= 8, "pixel labels of an unknown size");
+    const auto rows = copyValue<std::uint32_t>();
+    copyArray(numPixels(copyValue<std::uint32_t>(), rows), bytesPerPixel);
+    copyString();  // "std::map" and the names of its types
+    copyString();
+    copyString();
+    const auto numNames = copyValue<std::uint32_t>();
+    require(numNames <= 8U * bytesPerPixel, "more pixel labels than there are bits");
+    for (std::uint32_t i = 0; i < numNames; ++i)
+    {
+        copy(sizeof(std::uint32_t));
+        copyString();
+    }
+}
+
+void ObjectScanner::image(int version)
+{
+    require(
+        version >= 7 && version <= 9,
+        "an image of serialisation version " + std::to_string(version) + " (7 to 9 are supported)");
+    if (copyBool())
+    {
+        copyString();  // external file
+        return;
+    }
+    if (copyBool())
+    {
+        colourPixels(version);
+    }
+    else
+    {
+        grayPixels(version);
+    }
+}
+
+void ObjectScanner::grayPixels(int version)
+{
+    const auto width = copyValue<std::uint32_t>();
+    const auto height = copyValue<std::uint32_t>();
+    copy(sizeof(std::int32_t));  // origin
+    const auto size = copyValue<std::uint32_t>();
+    std::uint64_t pixelSize = 1;
+    if (version >= 9)
+    {
+        // OpenCV's depth codes: 8, 16, 32 and 64 bit.
+        static constexpr std::uint64_t kSizes[] = {1, 1, 2, 2, 4, 4, 8};
+        const auto depth = copyValue<std::uint32_t>();
+        require(depth < std::size(kSizes), "an image of unknown depth");
+        pixelSize = kSizes[depth];
+    }
+    require(numPixels(width, height) * pixelSize == size, "an image whose sizes disagree");
+    require(!copyBool(), "a zip-compressed image, which MRPT 2 cannot read");
+    copy(size);
+}
+
+void ObjectScanner::colourPixels(int version)
+{
+    // Negative: raw pixels. Positive: JPEG follows.
+    const auto width = copyValue<std::int32_t>();
+    const auto height = copyValue<std::int32_t>();
+    const auto magnitude = [](std::int32_t v)
+    { return static_cast<std::uint64_t>(v < 0 ? -static_cast<std::int64_t>(v) : v); };
+    const std::uint64_t pixels = numPixels(magnitude(width), magnitude(height));
+    require((width < 0) == (height < 0) || pixels == 0, "an image whose sizes disagree");
+    if (version >= 8 && width < 0)
+    {
+        copy(pixels * 3);
+    }
+    else if (width > 0 && height > 0)
+    {
+        const auto size = copyValue<std::uint32_t>();
+        require(size <= pixels * 6 + 65536, "a JPEG image larger than its pixels");
+        copy(size);
+    }
+}
+
+void ObjectScanner::camera(int version)
+{
+    require(
+        version >= 2 && version <= 6,
+        "a camera of serialisation version " + std::to_string(version) + " (2 to 6 are supported)");
+    const std::uint64_t numDistortion = version >= 3 ? 8 : 5;
+    const std::uint64_t numIntrinsics = version >= 4 ? 4 : 9;
+    copy((1 + numDistortion) * sizeof(double));
+    if (version < 4)
+    {
+        copy(2 * sizeof(std::uint32_t));  // rows and columns of the matrix
+    }
+    copy(numIntrinsics * sizeof(double));
+    cameraResolutionAt_ = bytes_->size();
+    copy(2 * sizeof(std::uint32_t));  // rows, columns
+    if (version >= 5)
+    {
+        copyString();
+    }
+    if (version >= 6)
+    {
+        copy(sizeof(std::uint8_t));
+    }
+}
+
+void ObjectScanner::pose3D(int version)
+{
+    require(
+        version == 2 || version == 3,
+        "a pose of serialisation version " + std::to_string(version) + " (2, 3 are supported)");
+    // Translation and rotation matrix; a quaternion in version 2.
+    copyArray(version == 3 ? 12 : 7, sizeof(double));
+}
+
+}  // namespace pointplane
