@@ -3,22 +3,20 @@
 
 #include <pointplane/core/BoundedQueue.h>
 #include <pointplane/mrpt_io/errors.h>
-#include <pointplane/odometry/Odometry.h>
 
 #include <algorithm>
 #include <chrono>
-#include <exception>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <ostream>
-#include <thread>
 #include <utility>
 #include <vector>
 
+#include "FrameEstimator.h"
 #include "FrameSource.h"
 #include "ProgressBar.h"
 #include "RawlogSink.h"
+#include "Worker.h"
 #include "map_sinks.h"
 #include "overlay.h"
 #include "text_sinks.h"
@@ -60,104 +58,6 @@ using Sinks = std::vector<std::unique_ptr<Sink>>;
     }
     return sinks;
 }
-
-/** Frame after frame through the odometry; complaints about single frames. */
-class Estimator
-{
- public:
-    Estimator(const OdometryParams& params, bool keepFeatures)
-        : odometry_(params), keepFeatures_(keepFeatures)
-    {
-    }
-
-    /** \param problem receives a line about a frame that cannot be used */
-    [[nodiscard]] OutputItem process(
-        SourceItem source, const std::function<void(const std::string&)>& problem)
-    {
-        OutputItem item;
-        if (source.converted)
-        {
-            item.frame.emplace();
-            const ConvertedFrame& converted = *source.converted;
-            FrameRecord& record = *item.frame;
-            const bool usable = converted.problem.empty();
-            record.result = odometry_.process(converted.frame);
-            record.motion = usable ? trajectory_.add(record.result, converted.T_robot_cam)
-                                   : trajectory_.add(record.result);
-            if (!usable)
-            {
-                record.motion.reason = converted.problem;
-                problem(frameName(source) + ": " + converted.problem);
-            }
-            else if (numFrames_ > 0 && converted.frame.stamp <= stamp_)
-            {
-                problem(
-                    frameName(source) + ": its time stamp is not after that of the frame before");
-            }
-            stamp_ = std::max(stamp_, converted.frame.stamp);
-            ++numFrames_;
-            if (keepFeatures_)
-            {
-                record.features = odometry_.features();
-            }
-        }
-        item.source = std::move(source);
-        return item;
-    }
-
- private:
-    [[nodiscard]] static std::string frameName(const SourceItem& source)
-    {
-        return "frame " + std::to_string(source.frameIndex) + " of " +
-               source.observation->sensorLabel;
-    }
-
-    Odometry odometry_;
-    RobotTrajectory trajectory_;
-    bool keepFeatures_;
-    std::size_t numFrames_{0};
-    double stamp_{0};
-};
-
-/** Runs `work` on a thread of its own and keeps its exception. */
-class Worker
-{
- public:
-    explicit Worker(std::function<void()> work)
-        : thread_(
-              [this, work = std::move(work)]
-              {
-                  try
-                  {
-                      work();
-                  }
-                  catch (...)
-                  {
-                      error_ = std::current_exception();
-                  }
-              })
-    {
-    }
-    void join()
-    {
-        if (thread_.joinable())
-        {
-            thread_.join();
-        }
-    }
-    /** After join(). */
-    void rethrow() const
-    {
-        if (error_)
-        {
-            std::rethrow_exception(error_);
-        }
-    }
-
- private:
-    std::exception_ptr error_;
-    std::thread thread_;
-};
 
 /** The run, in one thread or in three. */
 class Run
@@ -343,7 +243,7 @@ class Run
     std::ostream& err_;
     FrameSource source_;
     Sinks sinks_;
-    Estimator estimator_;
+    FrameEstimator estimator_;
     std::optional<ProgressBar> bar_;
     RunSummary summary_;
 };
