@@ -8,6 +8,7 @@
 #include "command.h"
 #include "input_options.h"
 #include "result_output.h"
+#include "trajectory_report.h"
 
 namespace pointplane
 {
@@ -19,6 +20,7 @@ struct AteCommand
     AteOptions options;
     InputOptions input;
     OutputFiles files;
+    ReportOptions report;
     bool verbose{false};
     double maxRmse{-1};
 
@@ -53,6 +55,7 @@ void AteCommand::addTo(CLI::App& command)
         ->group("Output");
     input.addTo(command);
     files.addTo(command);
+    report.addTo(command);
 }
 
 /** What evaluate_ate.py --verbose prints. */
@@ -69,19 +72,25 @@ void printScriptLines(const Statistics& s, std::ostream& out)
 
 void AteCommand::run(CommandContext& context) const
 {
-    const Trajectory truth = input.loadTruthOfBody(groundTruth, context);
-    const Trajectory estimated = input.loadEstimate(estimate, context);
-    const AteResult result = absoluteTrajectoryError(truth, estimated, options);
+    ReportedRun run;
+    run.groundTruth = input.loadTruth(groundTruth, context);
+    run.estimate = input.loadEstimate(estimate, context);
+    run.rpe.offset = run.nees.offset = options.offset;
+    run.rpe.scale = options.scale;
+    run.nees.T_truth_body = input.T_truth_body();
+    run.intervals = {{1, DeltaUnit::Frames}, {1, DeltaUnit::Seconds}};
+    const AteResult result = absoluteTrajectoryError(
+        withBody(run.groundTruth, run.nees.T_truth_body), run.estimate, options);
 
     ScoredResult scored;
     scored.title = "Absolute trajectory error";
-    scored.protocol = describe(options, result, estimated.size());
+    scored.protocol = describe(options, result, run.estimate.size());
     scored.groundTruth = groundTruth;
     scored.estimate = estimate;
     scored.rows = {{"translation", "m", result.translation}};
     scored.details = {
         {"poses", result.errors.size()},
-        {"estimatePoses", estimated.size()},
+        {"estimatePoses", run.estimate.size()},
         {"coverage", result.coverage},
         {"maxDifference", options.maxDifference},
         {"offset", options.offset},
@@ -91,6 +100,10 @@ void AteCommand::run(CommandContext& context) const
         printScriptLines(result.translation, context.out);
     }
     writeResult(scored, files, context.out, !verbose);
+    if (!report.directory.empty())
+    {
+        context.err << "report: " << writeTrajectoryReport(run, report) << "\n";
+    }
     checkThreshold("RMSE", scored.rows[0], maxRmse, context);
 }
 }  // namespace

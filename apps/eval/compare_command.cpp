@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/evaluation/compare.h>
+#include <pointplane/evaluation/trajectory_charts.h>
 
 #include <memory>
 #include <ostream>
@@ -8,6 +9,7 @@
 #include "input_options.h"
 #include "result_output.h"
 #include "rpe_options.h"
+#include "trajectory_report.h"
 
 namespace pointplane
 {
@@ -23,6 +25,7 @@ struct CompareCommand
     BootstrapOptions bootstrap;
     InputOptions input;
     OutputFiles files;
+    std::string report;
 
     void addTo(CLI::App& command);
     void run(CommandContext& context);
@@ -41,6 +44,9 @@ void CompareCommand::addTo(CLI::App& command)
         ->group("Protocol");
     input.addTo(command);
     files.addTo(command);
+    command.add_option("--report", report, "Write DIR/index.html: one file, with charts")
+        ->type_name("DIR")
+        ->group("Output");
 }
 
 std::string behindText(const std::optional<BootstrapInterval>& behind, bool best, double unit)
@@ -158,6 +164,68 @@ std::string toCsv(const Comparison& c)
     return out;
 }
 
+std::string toHtml(
+    const Comparison& c,
+    const std::string& protocol,
+    const RpeOptions& rpe,
+    const Trajectory& truth,
+    const std::vector<Trajectory>& estimates)
+{
+    HtmlReport report(format("Comparison of %zu runs", c.runs.size()), protocol);
+    std::vector<std::vector<std::string>> rows;
+    std::vector<Chart> paths;
+    Chart translation;
+    Chart rotation;
+    for (std::size_t k = 0; k < c.runs.size(); ++k)
+    {
+        const ComparedRun& r = c.runs[k];
+        rows.push_back(
+            {r.name,
+             format("%.3f", 1000 * r.translation.value),
+             behindText(r.translationBehindBest, k == c.bestTranslation, 1000),
+             format("%.4f", kDegrees * r.rotation.value),
+             behindText(r.rotationBehindBest, k == c.bestRotation, kDegrees),
+             format("%.3f", 1000 * r.ate.translation.rmse),
+             format("%.1f %%", 100 * r.rpe.coverage)});
+        const Chart errors = relativeErrorChart(estimates[k], rpe, r.rpe);
+        translation.title = errors.title + ", translation";
+        rotation.title = errors.title + ", rotation";
+        translation.xLabel = rotation.xLabel = errors.xLabel;
+        translation.yLabel = errors.yLabel;
+        rotation.yLabel = errors.yRightLabel;
+        translation.series.push_back(errors.series[0]);
+        rotation.series.push_back(errors.series[1]);
+        rotation.series.back().rightAxis = false;
+        translation.series.back().name = rotation.series.back().name = r.name;
+
+        Trajectory withoutEllipses = estimates[k];
+        withoutEllipses.covs.clear();
+        const std::vector<Chart> path = pathCharts(truth, withoutEllipses, r.ate);
+        paths = k == 0 ? path : paths;
+        for (std::size_t p = 0; p < path.size(); ++p)
+        {
+            if (k == 0)
+            {
+                paths[p].series.pop_back();
+            }
+            paths[p].series.push_back(path[p].series.back());
+            paths[p].series.back().name = r.name;
+            paths[p].series.back().colour.clear();  // one of the palette for each run
+        }
+    }
+    report.addTable(
+        "RPE and ATE RMSE",
+        {"run", "mm", "behind the best", "deg", "behind the best", "ATE mm", "coverage"},
+        rows);
+    for (const Chart& path : paths)
+    {
+        report.addChart(path);
+    }
+    report.addChart(translation);
+    report.addChart(rotation);
+    return report.html();
+}
+
 void CompareCommand::run(CommandContext& context)
 {
     rpe.rpe.fixedDelta = true;  // the bootstrap needs pairs in time order
@@ -184,6 +252,11 @@ void CompareCommand::run(CommandContext& context)
         printTable(comparison, protocol, context.out);
     }
     files.write(toJson(comparison, protocol), toCsv(comparison), context.out);
+    if (!report.empty())
+    {
+        const std::string html = toHtml(comparison, protocol, resolved, truth, loaded);
+        context.err << "report: " << writeReportFile(html, report) << "\n";
+    }
 }
 }  // namespace
 

@@ -163,6 +163,10 @@ void ReproduceCommand::run(CommandContext& context) const
     {
         context.err << "report: " << writeReportFile(toHtml(result), report) << "\n";
     }
+    for (const OdometryScore& score : result.scores)
+    {
+        context.exitCode = score.rpe ? context.exitCode : kExitIncomplete;
+    }
 }
 }  // namespace
 

@@ -68,6 +68,25 @@ void printScriptLines(const RpeResult& result, std::ostream& out)
     print("rotational_error", scaled(result.rotation, kDegreesPerRadian), "deg");
 }
 
+/** Poses of a rawlog are usually in MRPT's axes and TUM ground truth in optical ones; forgetting
+ * --body-from-gt then gives errors that look like a bad odometry. */
+void hintAtAxes(
+    const ReportedRun& run, const RpeOptions& rpe, const RpeResult& result, std::ostream& err)
+{
+    const Eigen::Isometry3d T_truth_optical = poseFromOption("optical").inverse();
+    const double optical =
+        relativePoseError(withBody(run.groundTruth, T_truth_optical), run.estimate, rpe)
+            .translation.rmse;
+    if (optical < 0.5 * result.translation.rmse)
+    {
+        err << format(
+            "pointplane-eval: hint: with --body-from-gt optical the RMSE would be %.6f m; are the "
+            "poses of '%s' in other axes than the ground truth?\n",
+            optical,
+            run.estimate.name.c_str());
+    }
+}
+
 void RpeCommand::run(CommandContext& context) const
 {
     const RpeOptions rpe = options.resolved();
@@ -98,6 +117,10 @@ void RpeCommand::run(CommandContext& context) const
         {"deltaUnit", nameOf(rpe.unit)},
         {"offset", rpe.offset},
         {"scale", rpe.scale}};
+    if (input.bodyFromTruth.empty() && !run.estimate.covs.empty())  // out of MRPT's files
+    {
+        hintAtAxes(run, rpe, result, context.err);
+    }
     if (verbose)
     {
         printScriptLines(result, context.out);

@@ -108,6 +108,45 @@ TEST_F(EvalApp, jsonAndCsv)
     EXPECT_THAT(row, HasSubstr(",translation,m,51,0.0735"));
 }
 
+TEST_F(EvalApp, compareMarksTheBest)
+{
+    const std::string worse = writeFile(files, "worse.txt", straightLine(1.1));
+    const CommandRun r = run(
+        {"compare",
+         truth,
+         worse,
+         estimate,
+         "--report",
+         files / "report",
+         "--json",
+         files / "out.json"});
+    EXPECT_EQ(r.code, 0) << r.err;
+    EXPECT_THAT(r.out, HasSubstr("100.000  +50.000 [+50.000, +50.000]"));
+    EXPECT_THAT(r.out, HasSubstr("50.000* best"));
+    const auto json = nlohmann::json::parse(test::readBytes(files / "out.json"));
+    EXPECT_EQ(json["bestTranslation"], estimate);
+    EXPECT_NEAR(json["runs"][0]["translationBehindBest"]["value"], 0.05, 1e-9);
+    EXPECT_THAT(test::readBytes(files / "report/index.html"), HasSubstr("Comparison of 2 runs"));
+    EXPECT_EQ(run({"compare", truth}).code, 2);
+}
+
+TEST_F(EvalApp, reportsOfOneRun)
+{
+    for (const char* command : {"rpe", "ate"})
+    {
+        const std::string directory = files / command;
+        const CommandRun r = run({command, truth, estimate, "--report", directory});
+        EXPECT_EQ(r.code, 0) << r.err;
+        EXPECT_THAT(r.err, HasSubstr("index.html"));
+        EXPECT_THAT(test::readBytes(directory + "/index.html"), HasSubstr("Path from above"));
+    }
+    const CommandRun noTable =
+        run({"rpe", truth, estimate, "--report", files / "r", "--diagnostics", files / "none.csv"});
+    EXPECT_EQ(noTable.code, 2);
+    EXPECT_THAT(noTable.err, HasSubstr("none.csv"));
+    EXPECT_EQ(run({"rpe", truth, estimate, "--report", truth}).code, 3);  // a file, no folder
+}
+
 TEST_F(EvalApp, failuresSayWhyAndSetTheExitCode)
 {
     EXPECT_EQ(run({}).code, 2);

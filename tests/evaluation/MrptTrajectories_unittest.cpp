@@ -282,4 +282,8 @@ TEST(MrptTrajectories, opticalGroundTruthOfAnEstimateInMrptAxes)
     EXPECT_NE(rmse(optical, {}), rmse(writeTruth(dir), {}));
     EXPECT_EQ(
         run({"rpe", optical, dir / "a.rawlog", "--body-from-gt", "0,0,0,1"}).code, kExitBadInput);
+    EXPECT_THAT(
+        run({"rpe", optical, dir / "a.rawlog", "--fixed-delta"}).err,
+        HasSubstr("hint: with --body-from-gt optical"));
+    EXPECT_EQ(run({"rpe", writeTruth(dir), dir / "a.rawlog", "--fixed-delta"}).err, "");
 }

@@ -172,7 +172,7 @@ TEST_F(FakePrograms, reproduceWritesTheTablesAndWhatIsMissing)
          dir / "report",
          "--json",
          dir / "out.json"});
-    EXPECT_EQ(r.code, 0) << r.err;
+    EXPECT_EQ(r.code, 1) << r.err;  // one run failed
     EXPECT_THAT(r.out, HasSubstr("| fr1/desk       | 10.0 mm / 0.00 deg | 43 / 2.3  | 10.0 mm"));
     EXPECT_THAT(r.out, HasSubstr("### Table 2"));
     EXPECT_THAT(r.out, HasSubstr("| 1.1   | 100.0 mm / 0.00 deg | 100.0 mm"));
