@@ -10,14 +10,6 @@
 
 namespace pointplane
 {
-[[nodiscard]] VideoMode videoModeOf(const openni::VideoMode& mode);
-
-/** The serial number, or empty. */
-[[nodiscard]] std::string serialOf(openni::Device& device);
-
-/** One line of OpenNI2's last error. */
-[[nodiscard]] std::string openNi2Error();
-
 /** A device or an .oni file through OpenNI2's C++ interface.
  *
  * Frames are always awaited with a time limit: at the end of a file, and after a device is

@@ -4,6 +4,7 @@
 
 #include "OpenNi2Camera.h"
 #include "drivers.h"
+#include "openni2_formats.h"
 #include <dlfcn.h>
 
 namespace pointplane
