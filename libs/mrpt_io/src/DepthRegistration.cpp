@@ -26,7 +26,7 @@ DepthRegistration::DepthRegistration(
     const PinholeCamera& source,
     const PinholeCamera& target,
     const Eigen::Isometry3d& T_target_source)
-    : source_(source), target_(target), T_target_source_(T_target_source)
+    : source_(source), target_(target), translation_(T_target_source.translation())
 {
     source_.depthAtUndistortedPixel = false;
     rays_.reserve(static_cast<std::size_t>(source.width) * static_cast<std::size_t>(source.height));
@@ -34,7 +34,8 @@ DepthRegistration::DepthRegistration(
     {
         for (int u = 0; u < source.width; ++u)
         {
-            rays_.push_back(source_.normalisedOfDepth({u, v}).cast<float>());
+            const Eigen::Vector3d ray = source_.normalisedOfDepth({u, v}).homogeneous();
+            rays_.push_back((T_target_source.linear() * ray).cast<float>());
         }
     }
 }
@@ -45,16 +46,16 @@ void DepthRegistration::splat(const cv::Mat& depth, int u, int v, cv::Mat& out) 
     const std::size_t index =
         static_cast<std::size_t>(v) * static_cast<std::size_t>(source_.width) +
         static_cast<std::size_t>(u);
-    const Eigen::Vector3d p =
-        T_target_source_ * (static_cast<double>(z) * rays_[index].homogeneous().cast<double>());
+    const Eigen::Vector3d p = static_cast<double>(z) * rays_[index].cast<double>() + translation_;
     if (!(p.z() > 1e-3))
     {
         return;
     }
-    const double centreU = target_.fx * p.x() / p.z() + target_.cx;
-    const double centreV = target_.fy * p.y() / p.z() + target_.cy;
+    const double inverse = 1 / p.z();
+    const double centreU = target_.fx * p.x() * inverse + target_.cx;
+    const double centreV = target_.fy * p.y() * inverse + target_.cy;
     // Size of one source pixel in the target, a little more against rounding at shared borders.
-    const double zoom = static_cast<double>(z) / p.z();
+    const double zoom = static_cast<double>(z) * inverse;
     const double sizeU = 1.01 * std::abs(target_.fx / source_.fx) * zoom;
     const double sizeV = 1.01 * std::abs(target_.fy / source_.fy) * zoom;
     const int firstU = std::max(0, static_cast<int>(std::ceil(centreU - sizeU / 2)));
@@ -77,7 +78,7 @@ void DepthRegistration::splat(const cv::Mat& depth, int u, int v, cv::Mat& out) 
         auto* line = out.ptr<float>(row);
         for (int col = firstU; col <= lastU; ++col)
         {
-            const double q = 1 / p.z() + perU * (col - centreU) + perV * (row - centreV);
+            const double q = inverse + perU * (col - centreU) + perV * (row - centreV);
             const auto rendered = static_cast<float>(1 / q);
             if (rendered > 0 && !(line[col] <= rendered))  // also true where nothing is yet
             {

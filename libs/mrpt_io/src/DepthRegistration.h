@@ -35,7 +35,8 @@ class DepthRegistration
 
     PinholeCamera source_;
     PinholeCamera target_;
-    Eigen::Isometry3d T_target_source_;
-    std::vector<Eigen::Vector2f> rays_;  // normalised coordinates of each source pixel
+    Eigen::Vector3d translation_;  // of the source in the target [m]
+    std::vector<Eigen::Vector3f>
+        rays_;  // of each source pixel, turned into the target; z = 1 before
 };
 }  // namespace pointplane
