@@ -37,9 +37,9 @@ function(pointplane_add_app name)
 endfunction()
 
 # pointplane_add_test(LIB Concept [LINK lib ...]): tests/LIB/Concept_unittest.cpp as a gtest binary;
-# each TEST is one ctest entry named LIB/Suite.name.
+# each TEST is one ctest entry named LIB/Suite.name. REAL_TIME: runs with no other test beside it.
 function(pointplane_add_test lib concept)
-  cmake_parse_arguments(ARG "" "" "LINK;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "REAL_TIME" "" "LINK;LABELS" ${ARGN})
   set(target test_${lib}_${concept})
   add_executable(${target} ${CMAKE_CURRENT_SOURCE_DIR}/${concept}_unittest.cpp)
   target_link_libraries(${target} PRIVATE ${ARG_LINK} GTest::gtest GTest::gmock GTest::gtest_main)
@@ -47,5 +47,6 @@ function(pointplane_add_test lib concept)
   pointplane_target_defaults(${target})
   set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   gtest_discover_tests(${target} TEST_PREFIX "${lib}/" DISCOVERY_TIMEOUT 60
-                       PROPERTIES TIMEOUT 300 LABELS "${lib};${ARG_LABELS}")
+                       PROPERTIES TIMEOUT 300 RUN_SERIAL ${ARG_REAL_TIME}
+                                  LABELS "${lib};${ARG_LABELS}")
 endfunction()

@@ -23,8 +23,8 @@ class ShutterCalibrator
         double readoutDepth{0};
         double depthDelay{0};
         bool selfCalibrate{true};
-        double sigmaPrior{0.01};
-        double informationGain{0.1};
+        double sigmaPrior{0.03};
+        double informationGain{1.0};
 
         template <class V>
         void visit(V&& v)

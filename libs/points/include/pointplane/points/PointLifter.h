@@ -29,7 +29,7 @@ class PointLifter
     struct TParams
     {
         std::string depthModel{"mixture"};   //!< nearest | mixture
-        double maxEdgeSigmas{0};             //!< 0: keep all
+        double maxEdgeSigmas{20};            //!< 0: keep all
         int minValidPixels{5};               //!< of 9
         double minDepth{0.3}, maxDepth{10};  //!< [m]
 
