@@ -33,6 +33,7 @@ class ObjectScanner
     struct Resolution
     {
         std::uint32_t rows{0}, cols{0};
+        bool isKnown{false};
     };
 
     explicit ObjectScanner(GzInput& in) : in_(in) {}

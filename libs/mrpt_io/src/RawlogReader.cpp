@@ -52,8 +52,11 @@ void restoreResolutions(
         if (auto* scan = dynamic_cast<mrpt::obs::CObservation3DRangeScan*>(&o);
             scan != nullptr && i < resolutions.size())
         {
-            scan->cameraParams.nrows = resolutions[i].rows;
-            scan->cameraParams.ncols = resolutions[i].cols;
+            if (resolutions[i].isKnown)
+            {
+                scan->cameraParams.nrows = resolutions[i].rows;
+                scan->cameraParams.ncols = resolutions[i].cols;
+            }
             ++i;
         }
     };

@@ -93,7 +93,14 @@ void ObjectScanner::rangeImage(int version)
     if (version >= 2)
     {
         copyObject("TCamera");
-        exchangeResolution(range);
+        if (version >= 9)
+        {
+            exchangeResolution(range);
+        }
+        else
+        {
+            resolutions_.emplace_back();  // rows and columns were swapped; MRPT's repair is right
+        }
     }
     if (version >= 4)
     {
@@ -104,13 +111,15 @@ void ObjectScanner::rangeImage(int version)
 
 void ObjectScanner::exchangeResolution(const Resolution& range)
 {
-    Resolution camera;
+    std::uint32_t size[2];  // rows, columns
     std::uint8_t* at = bytes_->data() + cameraResolutionAt_;
-    std::memcpy(&camera, at, sizeof(camera));
-    resolutions_.push_back(camera);
+    std::memcpy(size, at, sizeof(size));
+    resolutions_.push_back({size[0], size[1], true});
     if (range.rows > 0 && range.cols > 0)
     {
-        std::memcpy(at, &range, sizeof(range));
+        size[0] = range.rows;
+        size[1] = range.cols;
+        std::memcpy(at, size, sizeof(size));
     }
 }
 
