@@ -2,6 +2,7 @@
 #include "OdometryRuns.h"
 
 #include <pointplane/evaluation/trajectory_text.h>
+#include <pointplane/evaluation/units.h>
 #include <pointplane/mrpt_io/errors.h>
 
 #include <algorithm>
@@ -18,8 +19,6 @@ namespace pointplane
 {
 namespace
 {
-constexpr double kDegrees = 180 / 3.14159265358979323846;
-
 OdometryScore scoreOf(
     const OdometryRun& run,
     const std::string& trajectory,
@@ -92,7 +91,7 @@ std::string scoreText(const OdometryScore& score)
     return score.rpe ? format(
                            "%.1f mm / %.2f deg",
                            1000 * score.rpe->translation.rmse,
-                           kDegrees * score.rpe->rotation.rmse)
+                           kDegreesPerRadian * score.rpe->rotation.rmse)
                      : "failed";
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/evaluation/compare.h>
 #include <pointplane/evaluation/trajectory_charts.h>
+#include <pointplane/evaluation/units.h>
 
 #include <memory>
 #include <ostream>
@@ -15,8 +16,6 @@ namespace pointplane
 {
 namespace
 {
-constexpr double kDegrees = 180 / 3.14159265358979323846;
-
 struct CompareCommand
 {
     std::string groundTruth;
@@ -93,9 +92,9 @@ void printTable(const Comparison& c, const std::string& protocol, std::ostream& 
             1000 * r.translation.value,
             k == c.bestTranslation ? "*" : " ",
             behindText(r.translationBehindBest, k == c.bestTranslation, 1000).c_str(),
-            kDegrees * r.rotation.value,
+            kDegreesPerRadian * r.rotation.value,
             k == c.bestRotation ? "*" : " ",
-            behindText(r.rotationBehindBest, k == c.bestRotation, kDegrees).c_str(),
+            behindText(r.rotationBehindBest, k == c.bestRotation, kDegreesPerRadian).c_str(),
             1000 * r.ate.translation.rmse,
             k == c.bestAte ? "*" : " ",
             r.rpe.translation.count,
@@ -127,7 +126,7 @@ nlohmann::ordered_json toJson(const Comparison& c, const std::string& protocol)
         run["pairs"] = r.rpe.translation.count;
         run["coverage"] = r.rpe.coverage;
         run["rpeTranslation"] = intervalJson(r.translation, 1);
-        run["rpeRotation"] = intervalJson(r.rotation, kDegrees);
+        run["rpeRotation"] = intervalJson(r.rotation, kDegreesPerRadian);
         run["ate"] = r.ate.translation.rmse;
         if (r.translationBehindBest)
         {
@@ -135,7 +134,7 @@ nlohmann::ordered_json toJson(const Comparison& c, const std::string& protocol)
         }
         if (r.rotationBehindBest)
         {
-            run["rotationBehindBest"] = intervalJson(*r.rotationBehindBest, kDegrees);
+            run["rotationBehindBest"] = intervalJson(*r.rotationBehindBest, kDegreesPerRadian);
         }
         json["runs"].push_back(run);
     }
@@ -156,9 +155,9 @@ std::string toCsv(const Comparison& c)
                                       r.translation.value,
                                       r.translation.lower,
                                       r.translation.upper,
-                                      r.rotation.value * kDegrees,
-                                      r.rotation.lower * kDegrees,
-                                      r.rotation.upper * kDegrees,
+                                      r.rotation.value * kDegreesPerRadian,
+                                      r.rotation.lower * kDegreesPerRadian,
+                                      r.rotation.upper * kDegreesPerRadian,
                                       r.ate.translation.rmse);
     }
     return out;
@@ -183,8 +182,8 @@ std::string toHtml(
             {r.name,
              format("%.3f", 1000 * r.translation.value),
              behindText(r.translationBehindBest, k == c.bestTranslation, 1000),
-             format("%.4f", kDegrees * r.rotation.value),
-             behindText(r.rotationBehindBest, k == c.bestRotation, kDegrees),
+             format("%.4f", kDegreesPerRadian * r.rotation.value),
+             behindText(r.rotationBehindBest, k == c.bestRotation, kDegreesPerRadian),
              format("%.3f", 1000 * r.ate.translation.rmse),
              format("%.1f %%", 100 * r.rpe.coverage)});
         const Chart errors = relativeErrorChart(estimates[k], rpe, r.rpe);

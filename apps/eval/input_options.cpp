@@ -2,6 +2,7 @@
 #include "input_options.h"
 
 #include <pointplane/evaluation/nees.h>
+#include <pointplane/evaluation/units.h>
 
 #include <array>
 #include <cmath>
@@ -54,11 +55,10 @@ Eigen::Isometry3d poseFromOption(const std::string& text)
     {
         throw std::invalid_argument("'" + text + "' has more than six numbers for a pose");
     }
-    constexpr double kRadians = 3.14159265358979323846 / 180;
     Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-    pose.linear() = (Eigen::AngleAxisd(v[3] * kRadians, Eigen::Vector3d::UnitZ()) *
-                     Eigen::AngleAxisd(v[4] * kRadians, Eigen::Vector3d::UnitY()) *
-                     Eigen::AngleAxisd(v[5] * kRadians, Eigen::Vector3d::UnitX()))
+    pose.linear() = (Eigen::AngleAxisd(v[3] / kDegreesPerRadian, Eigen::Vector3d::UnitZ()) *
+                     Eigen::AngleAxisd(v[4] / kDegreesPerRadian, Eigen::Vector3d::UnitY()) *
+                     Eigen::AngleAxisd(v[5] / kDegreesPerRadian, Eigen::Vector3d::UnitX()))
                         .toRotationMatrix();
     pose.translation() << v[0], v[1], v[2];
     return pose;

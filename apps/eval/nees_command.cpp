@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/evaluation/nees.h>
+#include <pointplane/evaluation/units.h>
 
 #include <memory>
 #include <ostream>
@@ -14,8 +15,6 @@ namespace pointplane
 {
 namespace
 {
-constexpr double kRadians = 3.14159265358979323846 / 180;
-
 struct NeesCommand
 {
     std::vector<std::string> files;
@@ -88,7 +87,7 @@ void NeesCommand::run(CommandContext& context) const
         throw std::invalid_argument("--report is of one run; give one ground truth and estimate");
     }
     NeesOptions resolved = options;
-    resolved.truthSigmaRotation = sigmaRotationDeg * kRadians;
+    resolved.truthSigmaRotation = sigmaRotationDeg / kDegreesPerRadian;
     resolved.truthAt = nearest ? TruthAt::NearestStamp : TruthAt::Interpolated;
     resolved.T_truth_body = input.T_truth_body();
 

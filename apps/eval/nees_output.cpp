@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nees_output.h"
 
+#include <pointplane/evaluation/units.h>
+
 #include <array>
 #include <cmath>
 #include <ostream>
@@ -9,11 +11,13 @@ namespace pointplane
 {
 namespace
 {
-constexpr double kDegrees = 180 / 3.14159265358979323846;
 constexpr std::array<const char*, 6> kAxes{"x", "y", "z", "rx", "ry", "rz"};
 
 /** Shown in mm or deg. */
-double shown(double value, std::size_t axis) { return value * (axis < 3 ? 1000 : kDegrees); }
+double shown(double value, std::size_t axis)
+{
+    return value * (axis < 3 ? 1000 : kDegreesPerRadian);
+}
 
 std::string word(const ConsistencyTest& test)
 {
@@ -96,7 +100,7 @@ std::string describe(const NeesReport& report)
         report.files.size() / 2,
         report.options.truthAt == TruthAt::Interpolated ? "interpolated" : "at the nearest stamp",
         report.options.truthSigmaTranslation,
-        report.options.truthSigmaRotation * kDegrees);
+        report.options.truthSigmaRotation * kDegreesPerRadian);
 }
 
 void printTable(const NeesReport& report, std::ostream& out)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reproduce_output.h"
 
+#include <pointplane/evaluation/units.h>
+
 #include <algorithm>
 
 #include "reproduce_tables.h"
@@ -11,8 +13,6 @@ namespace pointplane
 {
 namespace
 {
-constexpr double kDegrees = 180 / 3.14159265358979323846;
-
 /** What the paper evaluates and this folder does not hold, or holds only a part of. */
 std::string missing(const Reproduction& result)
 {
@@ -120,7 +120,7 @@ nlohmann::ordered_json toJson(const Reproduction& result)
         if (result.scores[k].rpe)
         {
             run["translation"] = result.scores[k].rpe->translation.rmse;
-            run["rotationDeg"] = result.scores[k].rpe->rotation.rmse * kDegrees;
+            run["rotationDeg"] = result.scores[k].rpe->rotation.rmse * kDegreesPerRadian;
             run["pairs"] = result.scores[k].rpe->translation.count;
             run["coverage"] = result.scores[k].rpe->coverage;
         }
@@ -148,7 +148,7 @@ std::string toCsv(const Reproduction& result)
                                 score.rpe->translation.count,
                                 score.rpe->coverage,
                                 score.rpe->translation.rmse,
-                                score.rpe->rotation.rmse * kDegrees)
+                                score.rpe->rotation.rmse * kDegreesPerRadian)
                           : ",,,,," + csvField(score.failure) + "\n");
     }
     return out;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/evaluation/units.h>
+
 #include <memory>
 #include <ostream>
 
@@ -12,7 +14,6 @@ namespace pointplane
 {
 namespace
 {
-constexpr double kDegreesPerRadian = 180 / 3.14159265358979323846;
 constexpr std::int64_t kScriptMaxPairs = 10000;
 
 struct RpeCommand

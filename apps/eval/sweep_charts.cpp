@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sweep_charts.h"
 
+#include <pointplane/evaluation/units.h>
+
 #include <charconv>
 #include <limits>
 
@@ -8,8 +10,6 @@ namespace pointplane
 {
 namespace
 {
-constexpr double kDegrees = 180 / 3.14159265358979323846;
-
 std::vector<double> positions(const std::vector<std::string>& values)
 {
     std::vector<double> numbers;
@@ -56,7 +56,7 @@ std::vector<Chart> sweepCharts(
                 series.y.push_back(
                     !rpe     ? std::numeric_limits<double>::quiet_NaN()
                     : c == 0 ? 1000 * rpe->translation.rmse
-                             : kDegrees * rpe->rotation.rmse);
+                             : kDegreesPerRadian * rpe->rotation.rmse);
             }
             charts[c].series.push_back(std::move(series));
         }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/evaluation/HtmlReport.h>
+#include <pointplane/evaluation/units.h>
 
 #include <cmath>
 #include <filesystem>
@@ -18,8 +19,6 @@ namespace pointplane
 {
 namespace
 {
-constexpr double kDegrees = 180 / 3.14159265358979323846;
-
 struct SweepCommand
 {
     std::string parameter;  //!< Section.key
@@ -179,7 +178,7 @@ nlohmann::ordered_json toJson(const SweepResult& sweep)
             if (score.rpe)
             {
                 item["translation"] = score.rpe->translation.rmse;
-                item["rotationDeg"] = score.rpe->rotation.rmse * kDegrees;
+                item["rotationDeg"] = score.rpe->rotation.rmse * kDegreesPerRadian;
                 item["pairs"] = score.rpe->translation.count;
             }
             else
@@ -206,7 +205,7 @@ std::string toCsv(const SweepResult& sweep)
                                     ",%zu,%.9g,%.9g,\n",
                                     score.rpe->translation.count,
                                     score.rpe->translation.rmse,
-                                    score.rpe->rotation.rmse * kDegrees)
+                                    score.rpe->rotation.rmse * kDegreesPerRadian)
                               : ",,,," + csvField(score.failure) + "\n");
         }
     }

@@ -2,6 +2,7 @@
 #include "trajectory_report.h"
 
 #include <pointplane/evaluation/trajectory_charts.h>
+#include <pointplane/evaluation/units.h>
 #include <pointplane/mrpt_io/errors.h>
 
 #include <algorithm>
@@ -15,7 +16,6 @@ namespace pointplane
 {
 namespace
 {
-constexpr double kDegrees = 180 / 3.14159265358979323846;
 constexpr std::size_t kWorstFrames = 4;
 
 std::vector<std::string> statisticsCells(const std::string& name, const Statistics& s)
@@ -36,7 +36,7 @@ void addScores(
         "Relative pose error: " + describe(run.rpe, rpe),
         header,
         {statisticsCells("translation [mm]", scaled(rpe.translation, 1000)),
-         statisticsCells("rotation [deg]", scaled(rpe.rotation, kDegrees))});
+         statisticsCells("rotation [deg]", scaled(rpe.rotation, kDegreesPerRadian))});
     report.addTable(
         "Absolute trajectory error: " + describe(AteOptions(), ate, run.estimate.size()),
         header,
@@ -86,7 +86,7 @@ void addConsistency(HtmlReport& report, const ReportedRun& run)
         format(
             "NEES per degree of freedom (1 is consistent), ground-truth noise %g m and %g deg",
             run.nees.truthSigmaTranslation,
-            run.nees.truthSigmaRotation * kDegrees),
+            run.nees.truthSigmaRotation * kDegreesPerRadian),
         {"increments of",
          "verdict",
          "independent",
@@ -144,7 +144,7 @@ void addWorstFrames(
                 frame,
                 stamp - run.estimate.stamps.front(),
                 1000 * pair.translation,
-                kDegrees * pair.rotation),
+                kDegreesPerRadian * pair.rotation),
             folder + format("/%06zu.png", frame));
     }
 }

@@ -50,8 +50,9 @@ function equalScales(chart) {
 }
 const number = v => Number(v.toPrecision(5)).toString();
 charts.forEach((c, index) => {
-  const datasets = c.series.map((s, k) => {
-    const colour = s.colour || palette[k % palette.length];
+  let next = 0;
+  const datasets = c.series.map(s => {
+    const colour = s.colour || palette[next++ % palette.length];
     const points = s.style === 'points';
     return {label: s.name, data: s.x.map((x, i) => ({x: x, y: s.y[i] === null ? NaN : s.y[i]})),
       showLine: !points, stepped: s.style === 'steps', borderDash: s.style === 'dashed' ? [6, 4] : [],
@@ -62,7 +63,7 @@ charts.forEach((c, index) => {
   const axis = (label, log) => ({type: log ? 'logarithmic' : 'linear',
     title: {display: true, text: label}, ticks: {maxRotation: 0, autoSkipPadding: 14}});
   const scales = {x: axis(c.xLabel, c.logX), y: axis(c.yLabel, c.logY)};
-  scales.x.bounds = 'data'; scales.x.ticks.includeBounds = false;
+  if (c.equalScales) scales.x.ticks.includeBounds = scales.y.ticks.includeBounds = false;
   if (c.yRightLabel) {
     scales.y2 = axis(c.yRightLabel, false);
     scales.y2.position = 'right';

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/evaluation/rpe.h>
+#include <pointplane/evaluation/units.h>
 
 #include <cstdio>
 #include <future>
@@ -13,8 +14,6 @@ namespace pointplane
 {
 namespace
 {
-constexpr double kDegreesPerRadian = 180 / 3.14159265358979323846;
-
 /** The estimate's poses in the unit of delta. */
 std::vector<double> indexOf(const Trajectory& estimate, DeltaUnit unit)
 {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/evaluation/chi_square.h>
 #include <pointplane/evaluation/trajectory_charts.h>
+#include <pointplane/evaluation/units.h>
 
 #include <cmath>
 #include <limits>
@@ -9,7 +10,6 @@ namespace pointplane
 {
 namespace
 {
-constexpr double kDegrees = 180 / 3.14159265358979323846;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* kGrey = "#868e96";
 constexpr const char* kOrange = "#f08c00";
@@ -50,7 +50,7 @@ Chart relativeErrorChart(
         translation.x.push_back(t);
         translation.y.push_back(1000 * pair.translation);
         rotation.x.push_back(t);
-        rotation.y.push_back(kDegrees * pair.rotation);
+        rotation.y.push_back(kDegreesPerRadian * pair.rotation);
     }
     chart.series = {translation, rotation};
     return chart;
