@@ -51,6 +51,9 @@ class TempDir
 
 inline void writeBytes(const std::string& path, const std::string& bytes)
 {
+    // A new file: rewriting one in place makes ext4 wait for the disk at each close.
+    std::error_code ignored;
+    std::filesystem::remove(path, ignored);
     std::ofstream file(path, std::ios::binary);
     file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
 }
