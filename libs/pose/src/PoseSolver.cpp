@@ -219,6 +219,8 @@ void PoseSolver::TParams::check() const
     POINTPLANE_CHECK(
         planeStudentDof >= 0, "planeStudentDof = " << planeStudentDof << " is negative");
     POINTPLANE_CHECK(
+        covarianceFactor > 0, "covarianceFactor = " << covarianceFactor << " is not positive");
+    POINTPLANE_CHECK(
         maxIterations >= 1 && maxIterations <= 1000,
         "maxIterations = " << maxIterations << " is not in 1..1000");
 }
@@ -275,14 +277,20 @@ PoseEstimate PoseSolver::solve(
     const Normal& m = system.planes();
     const Matrix6d H = p.H + m.H + prior.info + 1e-9 * Matrix6d::Identity();
     const Matrix6d Hinv = H.ldlt().solve(Matrix6d::Identity());
+    out.pointChi2PerDof = p.weightSum > 0 ? p.weightedChi2 / (3 * p.weightSum) : 0;
+    out.planeChi2PerDof = m.weightSum > 0 ? m.weightedChi2 / (3 * m.weightSum) : 0;
     // gain^2 Sigma with the true Sigma a factor larger than the propagated one.
-    const Matrix6d M = params_.pointVarianceFactor * p.M + params_.planeVarianceFactor * m.M +
+    const auto excess = [&](double chi2PerDof)
+    {
+        return params_.covarianceFactor *
+               (params_.residualCovariance ? std::max(1.0, chi2PerDof) : 1.0);
+    };
+    const Matrix6d M = excess(out.pointChi2PerDof) * params_.pointVarianceFactor * p.M +
+                       excess(out.planeChi2PerDof) * params_.planeVarianceFactor * m.M +
                        prior.info + 1e-9 * Matrix6d::Identity();
     out.T_base_cur = {T, propagate(Hinv, M)};
     out.infoPoints = p.H;
     out.infoPlanes = params_.alpha > 0 ? Matrix6d(m.H / params_.alpha) : m.H;
-    out.pointChi2PerDof = p.weightSum > 0 ? p.weightedChi2 / (3 * p.weightSum) : 0;
-    out.planeChi2PerDof = m.weightSum > 0 ? m.weightedChi2 / (3 * m.weightSum) : 0;
     out.numPointInliers = p.numInliers;
     return out;
 }

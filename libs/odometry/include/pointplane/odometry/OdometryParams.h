@@ -68,7 +68,7 @@ struct OdometryParams
     PointLifter::TParams pointLifter;
     PlaneExtractor::TParams planeExtractor;
     PlaneMatcher::TParams planeMatcher;
-    PoseSolver::TParams poseSolver;
+    PoseSolver::TParams poseSolver = calibratedSolver();
     MotionModel::TParams motionModel;
     ReferenceWindow::TParams reference;
 
@@ -93,5 +93,15 @@ struct OdometryParams
 
     /** \throws std::invalid_argument naming section and key */
     void check() const;
+
+ private:
+    /** The solver alone trusts its pairs; real frames have errors in common (docs/theory.md). */
+    [[nodiscard]] static PoseSolver::TParams calibratedSolver()
+    {
+        PoseSolver::TParams out;
+        out.residualCovariance = true;
+        out.covarianceFactor = 4;
+        return out;
+    }
 };
 }  // namespace pointplane

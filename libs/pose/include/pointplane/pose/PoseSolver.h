@@ -39,6 +39,8 @@ class PoseSolver
         double planeVarianceFactor{1.0};
         double tukeySigmas{4.7};
         double planeStudentDof{5.0};
+        bool residualCovariance{false};
+        double covarianceFactor{1.0};
         int maxIterations{20};
 
         template <class V>
@@ -65,8 +67,20 @@ class PoseSolver
               tukeySigmas,
               "-",
               "points farther than this many robust sigmas have no weight; 0 = no M-estimator");
-            v("planeStudentDof", planeStudentDof, "-",
-              "degrees of freedom of Student's t for planes; small = robust, 0 = Gaussian (the paper)");
+            v("planeStudentDof",
+              planeStudentDof,
+              "-",
+              "degrees of freedom of Student's t for planes; small = robust, 0 = Gaussian (the "
+              "paper)");
+            v("residualCovariance",
+              residualCovariance,
+              "-",
+              "the covariance takes the residuals' own variance where it is above the propagated "
+              "one");
+            v("covarianceFactor",
+              covarianceFactor,
+              "-",
+              "of the measured part of the covariance, for errors that residuals cannot show");
             v("maxIterations", maxIterations, "-", "Levenberg-Marquardt iterations");
         }
         void check() const;
