@@ -56,6 +56,65 @@ Eigen::Matrix3d rowLever(const CellCluster& cluster, const CellGrid& grid, int h
     return cluster.moments.rayMatrix().inverse() * weighted;
 }
 
+/** Which cells a cluster's plane is fitted to: those that do not touch another cluster, because a
+ * cell across an edge mixes two surfaces and yet looks planar (as the erosion of Feng et al. 2014).
+ * All cells where hardly any would be left; none for a strip that is nothing but such cells. */
+class EdgeErosion
+{
+ public:
+    EdgeErosion(const std::vector<CellCluster>& clusters, const CellGrid& grid)
+        : grid_(grid), clusterOfCell_(grid.moments.size(), -1)
+    {
+        for (size_t i = 0; i < clusters.size(); ++i)
+        {
+            for (const int cell : clusters[i].cells)
+            {
+                clusterOfCell_[static_cast<size_t>(cell)] = static_cast<int>(i);
+            }
+        }
+    }
+
+    [[nodiscard]] CellCluster eroded(const CellCluster& cluster) const
+    {
+        CellCluster out;
+        out.fit = cluster.fit;
+        for (const int cell : cluster.cells)
+        {
+            if (!touchesAnother(cell))
+            {
+                out.cells.push_back(cell);
+                out.moments += grid_.moments[static_cast<size_t>(cell)];
+            }
+        }
+        return out.cells.empty() || out.moments.n > kMinFraction * cluster.moments.n ? out
+                                                                                     : cluster;
+    }
+
+ private:
+    static constexpr double kMinFraction = 0.25;
+
+    [[nodiscard]] bool touchesAnother(int cell) const
+    {
+        const int own = clusterOfCell_[static_cast<size_t>(cell)];
+        const int col = cell % grid_.cols, row = cell / grid_.cols;
+        for (int r = std::max(0, row - 1); r <= std::min(grid_.rows - 1, row + 1); ++r)
+        {
+            for (int c = std::max(0, col - 1); c <= std::min(grid_.cols - 1, col + 1); ++c)
+            {
+                const int other = clusterOfCell_[static_cast<size_t>(r * grid_.cols + c)];
+                if (other >= 0 && other != own)
+                {
+                    return true;
+                }
+            }
+        }
+        return false;
+    }
+
+    const CellGrid& grid_;
+    std::vector<int> clusterOfCell_;  //!< -1 = none
+};
+
 /** Paints whole cells with their cluster's label, then, pixel by pixel, the cells at the clusters'
  * borders, which straddle two surfaces: each pixel goes to the nearest adjacent plane it fits. */
 class LabelPainter
@@ -203,30 +262,30 @@ PlaneSet PlaneExtractor::extract(const cv::Mat& depth, const PinholeCamera& came
 
     PlaneSet out;
     std::vector<CellCluster> kept;
+    const EdgeErosion erosion(clusters, grid_);
     for (CellCluster& cluster : clusters)
     {
+        CellCluster core = erosion.eroded(cluster);
         std::optional<PlaneGaussian> plane;
         if (params_.ransac || params_.fitWeights == "sigmaZ")
         {
-            std::vector<Eigen::Vector3d> points = clusterPoints(cluster, grid_, depth, camera);
+            std::vector<Eigen::Vector3d> points = clusterPoints(core, grid_, depth, camera);
             if (params_.ransac)
             {
                 points = ransacInliers(points, noise_, 3, 50, 1);
             }
             plane = fitWeightedLeastSquares(points, noise_);
-            cluster.moments.n = static_cast<double>(points.size());
+            core.moments.n = static_cast<double>(points.size());
         }
         else
         {
-            plane = fitInverseDepth(cluster.moments, noise_);
+            plane = fitInverseDepth(core.moments, noise_);
         }
         if (plane && plane->theta_m.norm() > 1e-3 && plane->cov_m.allFinite())
         {
             plane->cov_m *= params_.correlatedPixels;
             out.planes.push_back(
-                {*plane,
-                 static_cast<int>(cluster.moments.n),
-                 rowLever(cluster, grid_, depth.rows)});
+                {*plane, static_cast<int>(core.moments.n), rowLever(core, grid_, depth.rows)});
             kept.push_back(std::move(cluster));
         }
     }
