@@ -1,3 +1,4 @@
+# shellcheck shell=bash disable=SC2034
 # Sourced by ./demo and ./test: Debian packages, build, job count. Needs bash; changes to the clone.
 
 set -euo pipefail
