@@ -222,6 +222,7 @@ OdometryResult Odometry::Impl::process(const RgbdFrame& frame)
         result.status = TrackingStatus::Predicted;
         keepUnmatched(frame);
     }
+    result.diagnostics.numPoints = static_cast<int>(features.points.size());
     result.diagnostics.msTotal = total.ms();
     return result;
 }

@@ -24,7 +24,7 @@ enum class TrackingStatus
 /** What happened inside one frame. */
 struct FrameDiagnostics
 {
-    int numPoints{0};               //!< key points with depth
+    int numPoints{0};               //!< points with depth, found again or new
     int numPlanes{0};               //!< planes extracted
     int numPointPairs{0};           //!< matched to a reference
     int numPlanePairs{0};           //!< matched to a reference
