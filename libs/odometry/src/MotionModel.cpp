@@ -21,47 +21,60 @@ void MotionModel::TParams::check() const
 {
     POINTPLANE_CHECK(decay >= 0 && decay <= 1, "decay = " << decay << " is not in [0, 1]");
     POINTPLANE_CHECK(
-        sigmaAcceleration > 0, "sigmaAcceleration = " << sigmaAcceleration << " is not positive");
+        velocityRandomWalk > 0,
+        "velocityRandomWalk = " << velocityRandomWalk << " is not positive");
     POINTPLANE_CHECK(
-        sigmaAngularAcceleration > 0,
-        "sigmaAngularAcceleration = " << sigmaAngularAcceleration << " is not positive");
+        angularVelocityRandomWalk > 0,
+        "angularVelocityRandomWalk = " << angularVelocityRandomWalk << " is not positive");
 }
 
-PoseGaussian MotionModel::predict(double dt) const
+MotionModel::MotionModel(const TParams& params) : params_(params) { reset(); }
+
+Vector6d MotionModel::density() const
 {
-    // The velocity is known for the middle of the latest increment.
-    const double span = dt + coasting_ + 0.5 * kFramePeriod;
-    double sigmaV = params_.sigmaAcceleration * span;
-    double sigmaW = params_.sigmaAngularAcceleration * span;
-    if (measured_ == 0)
-    {
-        sigmaV = kUnknownVelocity;
-        sigmaW = kUnknownAngularVelocity;
-    }
-    PoseGaussian out;
-    out.mean = se3Exp(velocity_ * dt);
-    out.cov.diagonal() << Eigen::Vector3d::Constant(sigmaV * sigmaV * dt * dt),
-        Eigen::Vector3d::Constant(sigmaW * sigmaW * dt * dt);
+    Vector6d out;
+    out << Eigen::Vector3d::Constant(params_.velocityRandomWalk),
+        Eigen::Vector3d::Constant(params_.angularVelocityRandomWalk);
+    return out.cwiseAbs2();
+}
+
+MotionGaussian MotionModel::predict(double dt) const
+{
+    MotionGaussian out;
+    out.mean = {se3Exp(velocity_ * dt), velocity_};
+    const Matrix6d Q = density().asDiagonal();
+    out.cov << dt * dt * cov_ + dt * dt * dt / 3 * Q, dt * cov_ + dt * dt / 2 * Q,
+        dt * cov_ + dt * dt / 2 * Q, cov_ + dt * Q;
     return out;
 }
 
-void MotionModel::update(const Eigen::Isometry3d& T_prev_cur, double dt)
+Vector6d MotionModel::update(const MotionGaussian& measured, double dt)
 {
-    velocity_ = se3Log(T_prev_cur) / dt;
-    ++measured_;
-    coasting_ = 0;
+    const MotionGaussian predicted = predict(dt);
+    Eigen::Matrix<double, 12, 6> covWithVelocity;  // of the predicted motion with velocity_
+    covWithVelocity << dt * cov_, cov_;
+    Vector12d innovation;
+    innovation << leftError(measured.mean.T_base_cur, predicted.mean.T_base_cur),
+        measured.mean.velocity - predicted.mean.velocity;
+    const Vector6d smoothed =
+        velocity_ + covWithVelocity.transpose() * predicted.cov.ldlt().solve(innovation);
+    velocity_ = measured.mean.velocity;
+    cov_ = measured.cov.bottomRightCorner<6, 6>();
+    return smoothed;
 }
 
 void MotionModel::coast(double dt)
 {
     velocity_ *= std::pow(params_.decay, dt / kFramePeriod);
-    coasting_ = std::min(coasting_ + dt, 1.0);
+    cov_.diagonal() += std::min(dt, 1.0) * density();
+    cov_ = cov_.cwiseMin(1e6);
 }
 
 void MotionModel::reset()
 {
     velocity_.setZero();
-    measured_ = 0;
-    coasting_ = 0;
+    cov_.setZero();
+    cov_.diagonal() << Eigen::Vector3d::Constant(kUnknownVelocity * kUnknownVelocity),
+        Eigen::Vector3d::Constant(kUnknownAngularVelocity * kUnknownAngularVelocity);
 }
 }  // namespace pointplane

@@ -31,9 +31,6 @@ constexpr double kUnknownStep = 1.0 / 30;  // [s]
 /** Search radius when too little is found again around the prediction, over the usual one. */
 constexpr double kWideSearch = 5;
 
-/** Rounds of estimation: the velocity that undoes the rolling shutter is the estimate's own. */
-constexpr int kShutterRounds = 2;
-
 class Stopwatch
 {
  public:
@@ -128,15 +125,20 @@ struct Odometry::Impl
     [[nodiscard]] std::vector<Association> associate(
         const RgbdFrame& frame, const Eigen::Isometry3d& T_prev_cur, double radiusFactor) const;
     [[nodiscard]] double overlapWithNewest(const std::vector<Association>& associations) const;
-    [[nodiscard]] FrameVelocities velocities(const Eigen::Isometry3d& T_prev_cur, double dt) const;
+    [[nodiscard]] int minMatches() const
+    {
+        return params.pipeline.degeneracy == "fuse" ? 1 : kMinMatches;
+    }
+    [[nodiscard]] MotionPrior priorFrom(const MotionGaussian& predicted) const;
     [[nodiscard]] PoseEstimate estimate(
         const RgbdFrame& frame,
         const std::vector<Association>& associations,
-        const PoseGaussian& predicted,
-        double dt,
+        const MotionGaussian& predicted,
         FrameDiagnostics& diagnostics);
     void judge(
-        const PoseEstimate& estimate, const PoseGaussian& predicted, OdometryResult& result) const;
+        const PoseEstimate& estimate,
+        const MotionGaussian& predicted,
+        OdometryResult& result) const;
     void advance(const RgbdFrame& frame, const std::vector<Association>& associations);
     void finish(const PoseGaussian& T_prev_cur, OdometryResult& result);
 
@@ -235,21 +237,20 @@ bool Odometry::Impl::track(const RgbdFrame& frame, OdometryResult& result)
     {
         motion.reset();
     }
-    const PoseGaussian predicted = motion.predict(dt);
+    const MotionGaussian predicted = motion.predict(dt);
     const Stopwatch matching;
-    std::vector<Association> associations = associate(frame, predicted.mean, 1);
+    std::vector<Association> associations = associate(frame, predicted.mean.T_base_cur, 1);
     if (overlapWithNewest(associations) < params.reference.keyframeMinOverlap)
     {
         // A jerk that the motion model did not foresee: look farther, then closely again.
-        associations = associate(frame, predicted.mean, kWideSearch);
-        const PoseEstimate coarse =
-            estimate(frame, associations, predicted, dt, result.diagnostics);
-        associations = associate(frame, coarse.T_base_cur.mean, 1);
+        associations = associate(frame, predicted.mean.T_base_cur, kWideSearch);
+        const PoseEstimate coarse = estimate(frame, associations, predicted, result.diagnostics);
+        associations = associate(frame, coarse.motion.mean.T_base_cur, 1);
     }
     result.diagnostics.msMatching = matching.ms();
 
     // 3. Pose from both, each weighted by its uncertainty, and its validation.
-    const PoseEstimate estimated = estimate(frame, associations, predicted, dt, result.diagnostics);
+    const PoseEstimate estimated = estimate(frame, associations, predicted, result.diagnostics);
     judge(estimated, predicted, result);
     if (result.status != TrackingStatus::Tracked)
     {
@@ -257,16 +258,14 @@ bool Odometry::Impl::track(const RgbdFrame& frame, OdometryResult& result)
     }
 
     // 4. The frame becomes a reference.
-    const FrameVelocities v = velocities(estimated.T_base_cur.mean, dt);
-    window.refinePreviousVelocity(v.previous);
-    current.velocity = v.current;
+    current.velocity = estimated.motion.mean.velocity;
     shutter.update(
         PairBuilder(window.previous(), current, frame.camera.height),
         associations,
-        v,
-        estimated.T_base_cur.mean);
-    finish(estimated.T_base_cur, result);
-    motion.update(estimated.T_base_cur.mean, dt);
+        estimated.motion.mean,
+        priorFrom(predicted));
+    window.refinePreviousVelocity(motion.update(estimated.motion, dt));
+    finish(estimated.motion.pose(), result);
     advance(frame, associations);
     return true;
 }
@@ -373,7 +372,7 @@ OdometryResult Odometry::Impl::coast(double stamp, const std::string& reason, Od
     {
         motion.reset();
     }
-    result.increment = motion.predict(dt);
+    result.increment = motion.predict(dt).pose();
     motion.coast(dt);
     pose = compose(pose, result.increment);
     result.pose = pose;
@@ -415,47 +414,31 @@ std::vector<Association> Odometry::Impl::associate(
     return out;
 }
 
-/** The mean velocity over an increment is that of its middle: extrapolated to the current frame,
- * interpolated at the previous one. */
-FrameVelocities Odometry::Impl::velocities(const Eigen::Isometry3d& T_prev_cur, double dt) const
+/** The paper's gate wants to know what the frame alone says. */
+MotionPrior Odometry::Impl::priorFrom(const MotionGaussian& predicted) const
 {
-    const Vector6d mean = se3Log(T_prev_cur) / dt;
-    if (!motion.hasVelocity())
-    {
-        return {mean, mean};
-    }
-    return {0.5 * (mean + motion.velocity()), 1.5 * mean - 0.5 * motion.velocity()};
+    return params.pipeline.degeneracy == "fuse" ? MotionPrior::from(predicted)
+                                                : MotionPrior::velocityGivenPose(predicted);
 }
 
 PoseEstimate Odometry::Impl::estimate(
     const RgbdFrame& frame,
     const std::vector<Association>& associations,
-    const PoseGaussian& predicted,
-    double dt,
+    const MotionGaussian& predicted,
     FrameDiagnostics& diagnostics)
 {
     const Stopwatch watch;
-    const PairBuilder builder(window.previous(), current, frame.camera.height);
-    const bool fuse = params.pipeline.degeneracy == "fuse";
     std::vector<PointPair> points;
     std::vector<PlanePair> planes;
+    PairBuilder(window.previous(), current, frame.camera.height)
+        .build(associations, shutter, points, planes);
     PoseEstimate out;
-    out.T_base_cur = predicted;
-    for (int round = 0; round < kShutterRounds; ++round)
+    out.motion = predicted;
+    if (static_cast<int>(points.size() + planes.size()) >= minMatches())
     {
-        const FrameVelocities v = velocities(out.T_base_cur.mean, dt);
-        builder.build(associations, v, shutter, points, planes);
-        if (static_cast<int>(points.size() + planes.size()) < (fuse ? 1 : kMinMatches))
-        {
-            break;
-        }
-        out = solver.solve(
-            points,
-            planes,
-            out.T_base_cur.mean,
-            fuse ? std::optional<PoseGaussian>(predicted) : std::nullopt);
-        diagnostics.iterations += out.iterations;
+        out = solver.solve(points, planes, predicted.mean, priorFrom(predicted));
     }
+    diagnostics.iterations += out.iterations;
     diagnostics.numPointPairs = static_cast<int>(points.size());
     diagnostics.numPlanePairs = static_cast<int>(planes.size());
     diagnostics.numPointInliers = out.numPointInliers;
@@ -467,21 +450,21 @@ PoseEstimate Odometry::Impl::estimate(
 }
 
 void Odometry::Impl::judge(
-    const PoseEstimate& estimate, const PoseGaussian& predicted, OdometryResult& result) const
+    const PoseEstimate& estimate, const MotionGaussian& predicted, OdometryResult& result) const
 {
     FrameDiagnostics& d = result.diagnostics;
     d.observableDirections =
-        observableDirections(estimate.infoPoints + estimate.infoPlanes, predicted.cov);
+        observableDirections(estimate.infoPoints + estimate.infoPlanes, predicted.pose().cov);
     const bool fuse = params.pipeline.degeneracy == "fuse";
     const int matches = d.numPointPairs + d.numPlanePairs;
     std::ostringstream reason;
-    if (matches < (fuse ? 1 : kMinMatches))
+    if (matches < minMatches())
     {
         reason << matches << " point and plane matches";
     }
-    else if (!fuse && maxSigma(estimate.T_base_cur.cov) > params.pipeline.gateSigma)
+    else if (!fuse && maxSigma(estimate.motion.pose().cov) > params.pipeline.gateSigma)
     {
-        reason << "largest standard deviation " << maxSigma(estimate.T_base_cur.cov)
+        reason << "largest standard deviation " << maxSigma(estimate.motion.pose().cov)
                << " is above the gate";
     }
     else if (

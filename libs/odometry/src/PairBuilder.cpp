@@ -8,7 +8,6 @@ namespace pointplane
 {
 void PairBuilder::build(
     const std::vector<Association>& associations,
-    const FrameVelocities& velocities,
     const ShutterCalibrator& shutter,
     std::vector<PointPair>& points,
     std::vector<PlanePair>& planes) const
@@ -19,8 +18,6 @@ void PairBuilder::build(
     for (const Association& association : associations)
     {
         const Reference& reference = *association.reference;
-        const bool isPrevious = reference.id == previous_.id;
-        const Vector6d& velocity = isPrevious ? velocities.previous : reference.velocity;
         const ShutterCorrection past(shutter.complete(reference.shutter), imageHeight_);
         const Eigen::Isometry3d T_base_ref =
             previous_.T_world_cam.inverse() * reference.T_world_cam;
@@ -28,19 +25,23 @@ void PairBuilder::build(
         {
             const PlaneFeature& ref = reference.planes.planes[static_cast<size_t>(match.ref)];
             const PlaneFeature& cur = current_.planes.planes[static_cast<size_t>(match.cur)];
+            PlaneGaussian past_ref = ref.plane_cam;
+            past_ref.theta_m += past.planeJacobian(ref) * reference.velocity;
             planes.push_back(
-                {transformed(T_base_ref, past.plane(ref, velocity)),
-                 current.plane(cur, velocities.current)});
+                {transformed(T_base_ref, past_ref), cur.plane_cam, current.planeJacobian(cur)});
         }
         for (const PointTrack& track : association.points)
         {
             const PointFeature& ref = reference.points.points[static_cast<size_t>(track.ref)];
             const PointFeature& cur = track.cur;
+            const double row = ref.uv_px.y();
             PointPair pair;
-            pair.base.mean = T_base_ref * past.point(ref.p_cam.mean, ref.uv_px.y(), velocity);
+            pair.base.mean =
+                T_base_ref *
+                (ref.p_cam.mean + past.pointJacobian(ref.p_cam.mean, row) * reference.velocity);
             pair.base.cov = propagate(T_base_ref.linear(), ref.p_cam.cov);
-            pair.cur.mean = current.point(cur.p_cam.mean, cur.uv_px.y(), velocities.current);
-            pair.cur.cov = cur.p_cam.cov;
+            pair.cur = cur.p_cam;
+            pair.dCur_dV = current.pointJacobian(cur.p_cam.mean, cur.uv_px.y());
             points.push_back(pair);
         }
     }

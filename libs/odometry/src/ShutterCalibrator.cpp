@@ -17,26 +17,34 @@ constexpr double kStep = 1e-3;     //!< of the numeric derivative [s]
 constexpr double kMaxTime = 0.05;  //!< no camera is slower [s]
 constexpr double kStudentDof = 3;  //!< residuals have outliers
 
-using Matrix63d = Eigen::Matrix<double, 6, 3>;
+using Matrix123d = Eigen::Matrix<double, 12, 3>;
 
-/** Normal equations of pose and shutter. */
+/** Normal equations of motion and shutter. */
 struct JointNormal
 {
-    Matrix6d Hxx{Matrix6d::Identity() * 1e-3};
-    Matrix63d Hxs{Matrix63d::Zero()};
+    Matrix12d Hxx;
+    Matrix123d Hxs{Matrix123d::Zero()};
     Eigen::Matrix3d Hss{Eigen::Matrix3d::Zero()};
-    Vector6d gx{Vector6d::Zero()};
+    Vector12d gx;
     Eigen::Vector3d gs{Eigen::Vector3d::Zero()};
+
+    JointNormal(const MotionPrior& prior, const Motion& motion)
+        : Hxx(prior.information), gx(-prior.information * prior.residual(motion))
+    {
+        Hxx.diagonal().array() += 1e-3;
+    }
 
     void add(const Residual& residual, const Eigen::Matrix3d& Js)
     {
         const Eigen::Matrix3d cov_inverse = residual.cov.inverse();
         const double norm2 = residual.r.dot(cov_inverse * residual.r);
         const Eigen::Matrix3d W = (kStudentDof + 3) / (kStudentDof + norm2) * cov_inverse;
-        Hxx += residual.J.transpose() * W * residual.J;
-        Hxs += residual.J.transpose() * W * Js;
+        Eigen::Matrix<double, 3, 12> Jx;
+        Jx << residual.J, residual.J_V;
+        Hxx += Jx.transpose() * W * Jx;
+        Hxs += Jx.transpose() * W * Js;
         Hss += Js.transpose() * W * Js;
-        gx += residual.J.transpose() * W * residual.r;
+        gx += Jx.transpose() * W * residual.r;
         gs += Js.transpose() * W * residual.r;
     }
 };
@@ -80,8 +88,8 @@ ShutterModel ShutterCalibrator::complete(const ShutterModel& source) const
 void ShutterCalibrator::update(
     const PairBuilder& builder,
     const std::vector<Association>& associations,
-    const FrameVelocities& velocities,
-    const Eigen::Isometry3d& T_base_cur)
+    const Motion& motion,
+    const MotionPrior& prior)
 {
     if (!params_.selfCalibrate)
     {
@@ -98,29 +106,29 @@ void ShutterCalibrator::update(
         {
             shifted.estimate_[k - 1] += kStep;
         }
-        builder.build(associations, velocities, shifted, points[k], planes[k]);
+        builder.build(associations, shifted, points[k], planes[k]);
     }
-    JointNormal normal;
+    JointNormal normal(prior, motion);
     Eigen::Matrix3d Js;
     for (size_t i = 0; i < points[0].size(); ++i)
     {
-        const Residual residual = pointResidual(points[0][i], T_base_cur);
+        const Residual residual = pointResidual(points[0][i], motion);
         for (int k = 0; k < 3; ++k)
         {
-            Js.col(k) = (pointResidual(points[k + 1][i], T_base_cur).r - residual.r) / kStep;
+            Js.col(k) = (pointResidual(points[k + 1][i], motion).r - residual.r) / kStep;
         }
         normal.add(residual, Js);
     }
     for (size_t i = 0; i < planes[0].size(); ++i)
     {
-        const Residual residual = planeResidualMinimal(planes[0][i], T_base_cur);
+        const Residual residual = planeResidualMinimal(planes[0][i], motion);
         for (int k = 0; k < 3; ++k)
         {
-            Js.col(k) = (planeResidualMinimal(planes[k + 1][i], T_base_cur).r - residual.r) / kStep;
+            Js.col(k) = (planeResidualMinimal(planes[k + 1][i], motion).r - residual.r) / kStep;
         }
         normal.add(residual, Js);
     }
-    const Matrix63d eliminated = normal.Hxx.ldlt().solve(normal.Hxs);
+    const Matrix123d eliminated = normal.Hxx.ldlt().solve(normal.Hxs);
     const Eigen::Matrix3d information =
         params_.informationGain * (normal.Hss - normal.Hxs.transpose() * eliminated);
     const Eigen::Vector3d gradient =

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/se3.h>
 #include <pointplane/odometry/ShutterCorrection.h>
 
 #include <cmath>
@@ -16,25 +17,21 @@ ShutterCorrection::ShutterCorrection(const ShutterModel& shutter, int imageHeigh
 {
 }
 
-Eigen::Vector3d ShutterCorrection::point(
-    const Eigen::Vector3d& P, double row, const Vector6d& V) const
+Matrix36d ShutterCorrection::pointJacobian(const Eigen::Vector3d& P, double row) const
 {
     const double f = row / height_ - 0.5;
     const double sColour = f * shutter_.readoutColour;
     const double sDepth = shutter_.depthDelay + f * shutter_.readoutDepth;
-    const auto velocity = [&V](const Eigen::Vector3d& p) -> Eigen::Vector3d
-    { return V.head<3>() + V.tail<3>().cross(p); };
-    const double z = P.z() - (sColour - sDepth) * velocity(P).z();
-    const Eigen::Vector3d P_colour = P * (z / P.z());
-    return P_colour + sColour * velocity(P_colour);
+    Matrix36d velocity;  // of the point in the camera's frame, from V
+    velocity << Eigen::Matrix3d::Identity(), -hat(P);
+    return sColour * velocity - (sColour - sDepth) / P.z() * P * velocity.row(2);
 }
 
-PlaneGaussian ShutterCorrection::plane(const PlaneFeature& plane, const Vector6d& V) const
+Matrix36d ShutterCorrection::planeJacobian(const PlaneFeature& plane) const
 {
-    PlaneGaussian out = plane.plane_cam;
     const Eigen::Vector3d& theta = plane.plane_cam.theta_m;
-    const Eigen::Vector3d g = theta.cross(V.tail<3>()) - theta.dot(V.head<3>()) * theta;
-    out.theta_m -= shutter_.depthDelay * g + shutter_.readoutDepth * (plane.rowLever * g);
-    return out;
+    Matrix36d g;
+    g << -theta * theta.transpose(), hat(theta);
+    return -(shutter_.depthDelay * g + shutter_.readoutDepth * (plane.rowLever * g));
 }
 }  // namespace pointplane

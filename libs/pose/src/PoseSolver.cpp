@@ -21,6 +21,9 @@ constexpr double kUnweightedSigma = 0.01;
 /** Steps below a thousandth of a millimetre or of a milliradian end the search. */
 constexpr double kStepTolerance = 1e-6;
 
+/** Keeps what nothing determines finite. */
+constexpr double kDamping = 1e-9;
+
 /** The median of chi-square with 3 degrees of freedom. */
 constexpr double kMedianChi2Of3 = 2.366;
 
@@ -36,19 +39,19 @@ double tukeyCost(double squaredNorm, double limit)
     return limit * limit / 3 * (1 - (1 - u) * (1 - u) * (1 - u));
 }
 
-/** Normal equations of one feature type: H = J^T w W J, g = J^T w W r, and for the sandwich
- * M = J^T w^2 W Sigma W J. */
+/** Normal equations of one feature type in pose and velocity: H = J^T w W J, g = J^T w W r, and for
+ * the sandwich M = J^T w^2 W Sigma W J. */
 struct Normal
 {
-    Matrix6d H{Matrix6d::Zero()};
-    Matrix6d M{Matrix6d::Zero()};
-    Vector6d g{Vector6d::Zero()};
+    Matrix12d H{Matrix12d::Zero()};
+    Matrix12d M{Matrix12d::Zero()};
+    Vector12d g{Vector12d::Zero()};
     double cost{0};
     double weightedChi2{0}, weightSum{0};
     int numInliers{0};
 };
 
-/** One evaluation of all residuals at a pose. */
+/** One evaluation of all residuals at a motion. */
 class System
 {
  public:
@@ -60,20 +63,20 @@ class System
     {
     }
 
-    /** \param updateScale re-estimates the robust scale of the points at this pose */
-    void evaluate(const Eigen::Isometry3d& T, bool updateScale)
+    /** \param updateScale re-estimates the robust scale of the points at this motion */
+    void evaluate(const Motion& motion, bool updateScale)
     {
         residuals_.clear();
         squaredNorms_.clear();
         for (const PointPair& pair : points_)
         {
-            push(pointResidual(pair, T));
+            push(pointResidual(pair, motion));
         }
         for (const PlanePair& pair : planes_)
         {
             push(
-                params_.planeResidual == "minimal" ? planeResidualMinimal(pair, T)
-                                                   : planeResidualClosestPoint(pair, T));
+                params_.planeResidual == "minimal" ? planeResidualMinimal(pair, motion)
+                                                   : planeResidualClosestPoint(pair, motion));
         }
         if (updateScale)
         {
@@ -147,8 +150,10 @@ class System
         normal.numInliers += w > 0.5 ? 1 : 0;
         if (w > 0)
         {
-            const Eigen::Matrix<double, 6, 3> JtW = residual.J.transpose() * W;
-            normal.H += gain * w * JtW * residual.J;
+            Eigen::Matrix<double, 3, 12> J;
+            J << residual.J, residual.J_V;
+            const Eigen::Matrix<double, 12, 3> JtW = J.transpose() * W;
+            normal.H += gain * w * JtW * J;
             normal.g += gain * w * JtW * residual.r;
             normal.M += gain * gain * w * w * JtW * residual.cov * JtW.transpose();
         }
@@ -178,25 +183,6 @@ class System
     std::vector<double> squaredNorms_;
     double scale_{1};
     Normal normalPoints_, normalPlanes_;
-};
-
-/** The prior as one more residual: r = log(prior T^-1), dr/dxi = -I to first order. */
-struct Prior
-{
-    explicit Prior(const std::optional<PoseGaussian>& prior)
-    {
-        if (prior)
-        {
-            mean = prior->mean;
-            info = prior->cov.ldlt().solve(Matrix6d::Identity());
-        }
-    }
-    [[nodiscard]] Vector6d residual(const Eigen::Isometry3d& T) const
-    {
-        return se3Log(mean * T.inverse());
-    }
-    Eigen::Isometry3d mean{Eigen::Isometry3d::Identity()};
-    Matrix6d info{Matrix6d::Zero()};
 };
 }  // namespace
 
@@ -231,39 +217,56 @@ PoseEstimate PoseSolver::solve(
     const std::vector<PointPair>& points,
     const std::vector<PlanePair>& planes,
     const Eigen::Isometry3d& start,
-    const std::optional<PoseGaussian>& priorGaussian) const
+    const std::optional<PoseGaussian>& prior) const
 {
-    const Prior prior(priorGaussian);
+    MotionPrior motionPrior = MotionPrior::fixedVelocity({start, Vector6d::Zero()});
+    if (prior)
+    {
+        motionPrior.mean.T_base_cur = prior->mean;
+        motionPrior.information.topLeftCorner<6, 6>() =
+            prior->cov.ldlt().solve(Matrix6d::Identity());
+    }
+    return solve(points, planes, Motion{start, Vector6d::Zero()}, motionPrior);
+}
+
+PoseEstimate PoseSolver::solve(
+    const std::vector<PointPair>& points,
+    const std::vector<PlanePair>& planes,
+    const Motion& start,
+    const MotionPrior& prior) const
+{
     System system(params_, points, planes);
     PoseEstimate out;
-    Eigen::Isometry3d T = start;
+    Motion x = start;
     double lambda = 1e-6;
-    const auto totalCost = [&](const Eigen::Isometry3d& pose)
+    const auto totalCost = [&](const Motion& motion)
     {
-        const Vector6d r = prior.residual(pose);
-        return system.points().cost + system.planes().cost + r.dot(prior.info * r);
+        const Vector12d r = prior.residual(motion);
+        return system.points().cost + system.planes().cost + r.dot(prior.information * r);
     };
     for (out.iterations = 0; out.iterations < params_.maxIterations && !out.converged;)
     {
-        system.evaluate(T, true);
-        const double cost = totalCost(T);
-        const Matrix6d H = system.points().H + system.planes().H + prior.info;
-        const Vector6d g = system.points().g + system.planes().g - prior.info * prior.residual(T);
+        system.evaluate(x, true);
+        const double cost = totalCost(x);
+        const Matrix12d H = system.points().H + system.planes().H + prior.information;
+        const Vector12d g =
+            system.points().g + system.planes().g - prior.information * prior.residual(x);
         for (bool accepted = false; !accepted && out.iterations < params_.maxIterations;)
         {
             ++out.iterations;
-            Matrix6d damped = H;
-            damped.diagonal() += lambda * H.diagonal() + Vector6d::Constant(1e-9);
-            const Vector6d step = -damped.ldlt().solve(g);
-            const Eigen::Isometry3d candidate = se3Exp(step) * T;
+            Matrix12d damped = H;
+            damped.diagonal() += lambda * H.diagonal() + Vector12d::Constant(kDamping);
+            const Vector12d step = -damped.ldlt().solve(g);
+            const Motion candidate{
+                se3Exp(step.head<6>()) * x.T_base_cur, x.velocity + step.tail<6>()};
             system.evaluate(candidate, false);
             accepted = step.allFinite() && totalCost(candidate) <= cost * (1 + 1e-12);
-            out.converged =
-                step.head<3>().norm() < kStepTolerance && step.tail<3>().norm() < kStepTolerance;
+            out.converged = step.head<3>().norm() < kStepTolerance &&
+                            step.segment<3>(3).norm() < kStepTolerance;
             lambda = accepted ? std::max(1e-9, lambda * 0.1) : lambda * 10;
             if (accepted)
             {
-                T = orthonormalised(candidate);
+                x = {orthonormalised(candidate.T_base_cur), candidate.velocity};
             }
             else if (out.converged || lambda > 1e8)
             {
@@ -272,11 +275,11 @@ PoseEstimate PoseSolver::solve(
             }
         }
     }
-    system.evaluate(T, true);
+    system.evaluate(x, true);
     const Normal& p = system.points();
     const Normal& m = system.planes();
-    const Matrix6d H = p.H + m.H + prior.info + 1e-9 * Matrix6d::Identity();
-    const Matrix6d Hinv = H.ldlt().solve(Matrix6d::Identity());
+    const Matrix12d H = p.H + m.H + prior.information + kDamping * Matrix12d::Identity();
+    const Matrix12d Hinv = H.ldlt().solve(Matrix12d::Identity());
     out.pointChi2PerDof = p.weightSum > 0 ? p.weightedChi2 / (3 * p.weightSum) : 0;
     out.planeChi2PerDof = m.weightSum > 0 ? m.weightedChi2 / (3 * m.weightSum) : 0;
     // gain^2 Sigma with the true Sigma a factor larger than the propagated one.
@@ -285,12 +288,16 @@ PoseEstimate PoseSolver::solve(
         return params_.covarianceFactor *
                (params_.residualCovariance ? std::max(1.0, chi2PerDof) : 1.0);
     };
-    const Matrix6d M = excess(out.pointChi2PerDof) * params_.pointVarianceFactor * p.M +
-                       excess(out.planeChi2PerDof) * params_.planeVarianceFactor * m.M +
-                       prior.info + 1e-9 * Matrix6d::Identity();
-    out.T_base_cur = {T, propagate(Hinv, M)};
-    out.infoPoints = p.H;
-    out.infoPlanes = params_.alpha > 0 ? Matrix6d(m.H / params_.alpha) : m.H;
+    const Matrix12d M = excess(out.pointChi2PerDof) * params_.pointVarianceFactor * p.M +
+                        excess(out.planeChi2PerDof) * params_.planeVarianceFactor * m.M +
+                        prior.information + kDamping * Matrix12d::Identity();
+    out.motion = {x, propagate(Hinv, M)};
+    out.infoPoints = p.H.topLeftCorner<6, 6>();
+    out.infoPlanes = m.H.topLeftCorner<6, 6>();
+    if (params_.alpha > 0)
+    {
+        out.infoPlanes /= params_.alpha;
+    }
     out.numPointInliers = p.numInliers;
     return out;
 }

@@ -20,6 +20,21 @@ struct ClosestPoint
     Eigen::Matrix3d J;
 };
 
+/** theta_a = s u with u = R theta_b, s = 1 / (1 - u . t), and d theta_a / d theta_b. */
+struct PlaneTransform
+{
+    PlaneTransform(const Eigen::Isometry3d& T_a_b, const Eigen::Vector3d& theta_b)
+    {
+        const Eigen::Vector3d u = T_a_b.linear() * theta_b;
+        const double s = 1 / (1 - u.dot(T_a_b.translation()));
+        theta = s * u;
+        J = s * (Eigen::Matrix3d::Identity() + s * u * T_a_b.translation().transpose()) *
+            T_a_b.linear();
+    }
+    Eigen::Vector3d theta;
+    Eigen::Matrix3d J;
+};
+
 /** d theta_a / d xi for theta_a = exp(xi) applied to a plane already in frame a. */
 Matrix36d jacobianOfTransform(const Eigen::Vector3d& theta_a)
 {
@@ -29,44 +44,48 @@ Matrix36d jacobianOfTransform(const Eigen::Vector3d& theta_a)
 }
 }  // namespace
 
-Residual pointResidual(const PointPair& pair, const Eigen::Isometry3d& T_base_cur)
+Residual pointResidual(const PointPair& pair, const Motion& motion)
 {
     Residual out;
-    const Eigen::Vector3d p_base = T_base_cur * pair.cur.mean;
+    const Eigen::Matrix3d R = motion.T_base_cur.linear();
+    const Eigen::Vector3d p_base =
+        motion.T_base_cur * (pair.cur.mean + pair.dCur_dV * motion.velocity);
     out.r = pair.base.mean - p_base;  // [P17 Eq. 8]
-    out.cov = pair.base.cov + propagate(T_base_cur.linear(), pair.cur.cov);
+    out.cov = pair.base.cov + propagate(R, pair.cur.cov);
     out.J << -Eigen::Matrix3d::Identity(), hat(p_base);
+    out.J_V = -R * pair.dCur_dV;
     return out;
 }
 
 PlaneGaussian transformed(const Eigen::Isometry3d& T_a_b, const PlaneGaussian& plane_b)
 {
-    const Eigen::Vector3d u = T_a_b.linear() * plane_b.theta_m;
-    const double s = 1 / (1 - u.dot(T_a_b.translation()));
-    const Eigen::Matrix3d J =
-        s * (Eigen::Matrix3d::Identity() + s * u * T_a_b.translation().transpose()) *
-        T_a_b.linear();
-    return {s * u, propagate(J, plane_b.cov_m)};
+    const PlaneTransform plane_a(T_a_b, plane_b.theta_m);
+    return {plane_a.theta, propagate(plane_a.J, plane_b.cov_m)};
 }
 
-Residual planeResidualMinimal(const PlanePair& pair, const Eigen::Isometry3d& T_base_cur)
+Residual planeResidualMinimal(const PlanePair& pair, const Motion& motion)
 {
-    const PlaneGaussian plane_base = transformed(T_base_cur, pair.cur);
+    const PlaneTransform cur(
+        motion.T_base_cur, pair.cur.theta_m + pair.dCur_dV * motion.velocity);
     Residual out;
-    out.r = pair.base.theta_m - plane_base.theta_m;
-    out.cov = pair.base.cov_m + plane_base.cov_m;
-    out.J = -jacobianOfTransform(plane_base.theta_m);
+    out.r = pair.base.theta_m - cur.theta;
+    out.cov = pair.base.cov_m + propagate(cur.J, pair.cur.cov_m);
+    out.J = -jacobianOfTransform(cur.theta);
+    out.J_V = -cur.J * pair.dCur_dV;
     return out;
 }
 
-Residual planeResidualClosestPoint(const PlanePair& pair, const Eigen::Isometry3d& T_base_cur)
+Residual planeResidualClosestPoint(const PlanePair& pair, const Motion& motion)
 {
-    const PlaneGaussian plane_base = transformed(T_base_cur, pair.cur);
-    const ClosestPoint measured(plane_base.theta_m), reference(pair.base.theta_m);
+    const Residual minimal = planeResidualMinimal(pair, motion);
+    const Eigen::Vector3d theta_cur = pair.base.theta_m - minimal.r;
+    const ClosestPoint measured(theta_cur), reference(pair.base.theta_m);
     Residual out;
     out.r = reference.C - measured.C;  // [P17 Eq. 9], up to the sign of both
-    out.cov = propagate(reference.J, pair.base.cov_m) + propagate(measured.J, plane_base.cov_m);
-    out.J = -measured.J * jacobianOfTransform(plane_base.theta_m);
+    out.cov = propagate(reference.J, pair.base.cov_m) +
+              propagate(measured.J, minimal.cov - pair.base.cov_m);
+    out.J = measured.J * minimal.J;
+    out.J_V = measured.J * minimal.J_V;
     return out;
 }
 }  // namespace pointplane

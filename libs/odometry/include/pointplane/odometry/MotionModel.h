@@ -2,54 +2,58 @@
 #pragma once
 
 #include <pointplane/core/Parameters.h>
-#include <pointplane/core/PoseGaussian.h>
+#include <pointplane/pose/MotionGaussian.h>
 
 namespace pointplane
 {
-/** Decaying velocity model (Klein & Murray 2007, quoted in [P17, section Pose estimation]): the
- * camera keeps a fraction of its velocity; the velocity's change is white. */
+/** What is known of the next frame's motion: constant velocity with white acceleration (a Wiener
+ * velocity model, e.g. Anderson and Barfoot 2015), and without measurements the decaying velocity of
+ * Klein & Murray 2007, quoted in [P17, section Pose estimation]. */
 class MotionModel
 {
  public:
     struct TParams
     {
         double decay{0.9};
-        double sigmaAcceleration{3.0};
-        double sigmaAngularAcceleration{10.0};
+        double velocityRandomWalk{0.55};
+        double angularVelocityRandomWalk{1.8};
 
         template <class V>
         void visit(V&& v)
         {
             v("decay", decay, "-", "of the velocity kept over 1/30 s when a frame is not measured");
-            v("sigmaAcceleration", sigmaAcceleration, "m/s^2", "of a hand-held camera, per axis");
-            v("sigmaAngularAcceleration", sigmaAngularAcceleration, "rad/s^2", "per axis");
+            v("velocityRandomWalk",
+              velocityRandomWalk,
+              "m/s/sqrt(s)",
+              "change of velocity of a hand-held camera, per axis");
+            v("angularVelocityRandomWalk",
+              angularVelocityRandomWalk,
+              "rad/s/sqrt(s)",
+              "change of angular velocity, per axis");
         }
         void check() const;
     };
 
-    explicit MotionModel(const TParams& params) : params_(params) {}
+    explicit MotionModel(const TParams& params);
 
-    /** Predicted T_prev_cur over `dt` [s] with its covariance. \pre dt > 0 */
-    [[nodiscard]] PoseGaussian predict(double dt) const;
+    /** Motion over `dt` [s] from the latest measured frame: T_prev_cur and the velocity after it.
+     * \pre dt > 0 */
+    [[nodiscard]] MotionGaussian predict(double dt) const;
 
-    /** A measured increment. */
-    void update(const Eigen::Isometry3d& T_prev_cur, double dt);
+    /** A measured motion over `dt`. \return the velocity at its start, now that its end is known
+     * (Rauch-Tung-Striebel) */
+    Vector6d update(const MotionGaussian& measured, double dt);
 
     /** No measurement over `dt`: the velocity decays, its uncertainty grows. */
     void coast(double dt);
 
-    /** An increment has been measured since the start or reset(). */
-    [[nodiscard]] bool hasVelocity() const { return measured_ > 0; }
-
-    /** Mean body velocity of the latest increment. */
-    [[nodiscard]] const Vector6d& velocity() const { return velocity_; }
-
     void reset();
 
  private:
+    [[nodiscard]] Vector6d density() const;
+
     TParams params_;
-    Vector6d velocity_{Vector6d::Zero()};
-    int measured_{0};     //!< increments in a row
-    double coasting_{0};  //!< time since the latest measurement [s]
+    Vector6d velocity_;
+    Matrix6d cov_;
 };
 }  // namespace pointplane

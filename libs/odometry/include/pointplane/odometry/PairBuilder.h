@@ -20,15 +20,8 @@ struct Association
     std::vector<PointTrack> points;
 };
 
-/** Body velocities that undo the rolling shutter. */
-struct FrameVelocities
-{
-    Vector6d previous{Vector6d::Zero()};
-    Vector6d current{Vector6d::Zero()};
-};
-
-/** Turns associations into pairs in the base frame (the camera at the previous frame), freed from
- * the rolling shutter. */
+/** Turns associations into pairs in the base frame (the camera at the previous frame). References
+ * are freed from the rolling shutter; how the current frame depends on its velocity is told. */
 class PairBuilder
 {
  public:
@@ -39,7 +32,6 @@ class PairBuilder
 
     void build(
         const std::vector<Association>& associations,
-        const FrameVelocities& velocities,
         const ShutterCalibrator& shutter,
         std::vector<PointPair>& points,
         std::vector<PlanePair>& planes) const;

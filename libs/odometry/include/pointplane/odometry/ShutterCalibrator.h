@@ -3,6 +3,7 @@
 
 #include <pointplane/core/Parameters.h>
 #include <pointplane/odometry/PairBuilder.h>
+#include <pointplane/pose/MotionGaussian.h>
 #include <pointplane/sensor/RgbdFrame.h>
 
 #include <vector>
@@ -13,7 +14,7 @@ namespace pointplane
  *
  * Residuals that remain at the estimated pose depend on the readout times and on the delay of the
  * depth image through the velocity, which differs between frames. Their information on the shutter,
- * with the pose eliminated (Schur complement), is summed over frames. */
+ * with the motion eliminated (Schur complement), is summed over frames. */
 class ShutterCalibrator
 {
  public:
@@ -61,12 +62,12 @@ class ShutterCalibrator
      * stamps, the estimate is added. */
     [[nodiscard]] ShutterModel complete(const ShutterModel& source) const;
 
-    /** Takes in the residuals of a measured frame. */
+    /** Takes in the residuals of a measured frame. \param prior of its motion */
     void update(
         const PairBuilder& builder,
         const std::vector<Association>& associations,
-        const FrameVelocities& velocities,
-        const Eigen::Isometry3d& T_base_cur);
+        const Motion& motion,
+        const MotionPrior& prior);
 
     /** readoutColour, readoutDepth, depthDelay [s]. */
     [[nodiscard]] const Eigen::Vector3d& estimate() const { return estimate_; }

@@ -19,15 +19,15 @@ class ShutterCorrection
     /** Unknown times count as zero. */
     ShutterCorrection(const ShutterModel& shutter, int imageHeight);
 
-    /** A point whose pixel is from the colour image and whose depth is from the depth image:
-     * P_c = P - (s_c - s_d) (rho + omega x P)_z (x, y, 1), then P_c + s_c (rho + omega x P_c).
-     * \param row of the pixel \param V body velocity [m/s, rad/s] */
-    [[nodiscard]] Eigen::Vector3d point(
-        const Eigen::Vector3d& P, double row, const Vector6d& V) const;
+    /** dP / dV of a point whose pixel is from the colour image and whose depth is from the depth
+     * image: what was at P when it was seen is at P + (dP / dV) V at the frame's instant, to first
+     * order P - (s_c - s_d) (rho + omega x P)_z (x, y, 1) + s_c (rho + omega x P).
+     * \param row of the pixel */
+    [[nodiscard]] Matrix36d pointJacobian(const Eigen::Vector3d& P, double row) const;
 
-    /** A plane: theta_m - (delay I + readout L) g with g = theta x omega - (theta . rho) theta and
-     * L the plane's rowLever; derivation in docs/theory.md. The covariance is kept. */
-    [[nodiscard]] PlaneGaussian plane(const PlaneFeature& plane, const Vector6d& V) const;
+    /** dtheta_m / dV of a plane: theta_m - (delay I + readout L) g with g = theta x omega - (theta .
+     * rho) theta and L the plane's rowLever; derivation in docs/theory.md. */
+    [[nodiscard]] Matrix36d planeJacobian(const PlaneFeature& plane) const;
 
  private:
     ShutterModel shutter_;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <pointplane/core/Parameters.h>
-#include <pointplane/core/PoseGaussian.h>
+#include <pointplane/pose/MotionGaussian.h>
 #include <pointplane/pose/pairs.h>
 
 #include <optional>
@@ -14,8 +14,8 @@ namespace pointplane
 /** What the solver found. */
 struct PoseEstimate
 {
-    PoseGaussian T_base_cur;  //!< left perturbation; cov is H^-1 M H^-1, see docs/theory.md
-    Matrix6d infoPoints{Matrix6d::Zero()};  //!< J^T W J of the points at the solution
+    MotionGaussian motion;  //!< cov is H^-1 M H^-1, see docs/theory.md
+    Matrix6d infoPoints{Matrix6d::Zero()};  //!< J^T W J of the points on the pose
     Matrix6d infoPlanes{Matrix6d::Zero()};  //!< of the planes, alpha not included
     double pointChi2PerDof{0};  //!< mean squared Mahalanobis norm / 3 of points, Tukey-weighted
     double planeChi2PerDof{0};  //!< mean squared Mahalanobis norm / 3 of planes
@@ -88,7 +88,16 @@ class PoseSolver
 
     explicit PoseSolver(const TParams& params);
 
-    /** \param start initial T_base_cur
+    /** Pose and velocity. \param start initial motion \param prior what is known without the pairs
+     * \pre prior and pairs must fix all directions or the covariance is that of a minimally damped
+     * system */
+    [[nodiscard]] PoseEstimate solve(
+        const std::vector<PointPair>& points,
+        const std::vector<PlanePair>& planes,
+        const Motion& start,
+        const MotionPrior& prior) const;
+
+    /** The pose alone, pairs taken at rest. \param start initial T_base_cur
      * \param prior what is known without the pairs (left covariance); absent = nothing
      * \pre without a prior, pairs must fix all six directions or the covariance is that of a
      * minimally damped system */

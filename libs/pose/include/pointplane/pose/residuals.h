@@ -2,21 +2,23 @@
 #pragma once
 
 #include <pointplane/core/types.h>
+#include <pointplane/pose/MotionGaussian.h>
 #include <pointplane/pose/pairs.h>
 
 namespace pointplane
 {
-/** A 3-vector residual at a pose T_base_cur, linearised for the LEFT perturbation exp(xi)
- * T_base_cur, xi = [translation; rotation]. */
+/** A 3-vector residual at a motion, linearised for the LEFT perturbation exp(xi) T_base_cur, xi =
+ * [translation; rotation], and for a change of the velocity. */
 struct Residual
 {
     Eigen::Vector3d r;
     Eigen::Matrix3d cov;  //!< first-order propagation of both features' covariances
     Matrix36d J;          //!< dr / dxi
+    Matrix36d J_V;        //!< dr / dV
 };
 
 /** r = P' - (R P + t) [P17 Eq. 8]: P' in base, P in the current camera [m]. */
-[[nodiscard]] Residual pointResidual(const PointPair& pair, const Eigen::Isometry3d& T_base_cur);
+[[nodiscard]] Residual pointResidual(const PointPair& pair, const Motion& motion);
 
 /** Transforms the minimal form: theta_a = R theta_b / (1 - (R theta_b) . t), and its covariance. */
 [[nodiscard]] PlaneGaussian transformed(
@@ -24,10 +26,10 @@ struct Residual
 
 /** r = theta_m' - theta_m(T): difference of the minimal forms in base [1/m]. */
 [[nodiscard]] Residual planeResidualMinimal(
-    const PlanePair& pair, const Eigen::Isometry3d& T_base_cur);
+    const PlanePair& pair, const Motion& motion);
 
 /** r = C' - C(T) in metres, C = d n being the plane's point closest to the origin up to sign
  * [P17 Eq. 9]. */
 [[nodiscard]] Residual planeResidualClosestPoint(
-    const PlanePair& pair, const Eigen::Isometry3d& T_base_cur);
+    const PlanePair& pair, const Motion& motion);
 }  // namespace pointplane
