@@ -30,19 +30,11 @@ void MotionModel::TParams::check() const
 
 MotionModel::MotionModel(const TParams& params) : params_(params) { reset(); }
 
-Vector6d MotionModel::density() const
-{
-    Vector6d out;
-    out << Eigen::Vector3d::Constant(params_.velocityRandomWalk),
-        Eigen::Vector3d::Constant(params_.angularVelocityRandomWalk);
-    return out.cwiseAbs2();
-}
-
 MotionGaussian MotionModel::predict(double dt) const
 {
     MotionGaussian out;
     out.mean = {se3Exp(velocity_ * dt), velocity_};
-    const Matrix6d Q = density().asDiagonal();
+    const Matrix6d Q = density_.asDiagonal();
     out.cov << dt * dt * cov_ + dt * dt * dt / 3 * Q, dt * cov_ + dt * dt / 2 * Q,
         dt * cov_ + dt * dt / 2 * Q, cov_ + dt * Q;
     return out;
@@ -58,21 +50,46 @@ Vector6d MotionModel::update(const MotionGaussian& measured, double dt)
         measured.mean.velocity - predicted.mean.velocity;
     const Vector6d smoothed =
         velocity_ + covWithVelocity.transpose() * predicted.cov.ldlt().solve(innovation);
+    adapt(predicted, measured, innovation, dt);
     velocity_ = measured.mean.velocity;
     cov_ = measured.cov.bottomRightCorner<6, 6>();
     return smoothed;
 }
 
+/** One step of expectation-maximisation, averaged over time: the mean square of the velocity's
+ * change given the measurement. */
+void MotionModel::adapt(const MotionGaussian& predicted, const MotionGaussian& measured, const Vector12d& innovation, double dt)
+{
+    const Matrix6d Q = density_.asDiagonal();
+    Eigen::Matrix<double, 12, 6> covWithChange;
+    covWithChange << dt * dt / 2 * Q, dt * Q;
+    const Eigen::Matrix<double, 12, 6> gain = predicted.cov.ldlt().solve(covWithChange);
+    const Vector6d change = gain.transpose() * innovation;
+    const Vector6d var = (dt * Q - gain.transpose() * (predicted.cov - measured.cov) * gain).diagonal();
+    const Vector6d meanSquare = (change.cwiseAbs2() + var.cwiseMax(0)) / dt;
+    const double rate = 1 - std::exp(-dt / params_.timeConstant);
+    const double floors[] = {params_.velocityRandomWalk, params_.angularVelocityRandomWalk};
+    for (int k = 0; k < 2; ++k)
+    {
+        auto block = density_.segment<3>(3 * k);
+        const double value = block[0] + rate * (meanSquare.segment<3>(3 * k).mean() - block[0]);
+        block.setConstant(std::max(value, floors[k] * floors[k]));
+    }
+}
+
 void MotionModel::coast(double dt)
 {
     velocity_ *= std::pow(params_.decay, dt / kFramePeriod);
-    cov_.diagonal() += std::min(dt, 1.0) * density();
+    cov_.diagonal() += std::min(dt, 1.0) * density_;
     cov_ = cov_.cwiseMin(1e6);
 }
 
 void MotionModel::reset()
 {
     velocity_.setZero();
+    density_ << Eigen::Vector3d::Constant(params_.velocityRandomWalk),
+        Eigen::Vector3d::Constant(params_.angularVelocityRandomWalk);
+    density_ = density_.cwiseAbs2();
     cov_.setZero();
     cov_.diagonal() << Eigen::Vector3d::Constant(kUnknownVelocity * kUnknownVelocity),
         Eigen::Vector3d::Constant(kUnknownAngularVelocity * kUnknownAngularVelocity);

@@ -148,6 +148,7 @@ struct Odometry::Impl
     PointStage pointStage;
     PoseSolver solver;
     MotionModel motion;
+    NoiseScale noise;
     ShutterCalibrator shutter;
     ReferenceWindow window;
 
@@ -171,6 +172,7 @@ Odometry::Impl::Impl(const OdometryParams& p)
           p.points, p.pointTracker, p.pointDetector, p.pointMatcher, p.pointLifter, p.depthNoise),
       solver(p.poseSolver),
       motion(p.motionModel),
+      noise(p.noiseScale),
       shutter(p.shutter),
       window(p.reference)
 {
@@ -265,6 +267,7 @@ bool Odometry::Impl::track(const RgbdFrame& frame, OdometryResult& result)
         estimated.motion.mean,
         priorFrom(predicted));
     window.refinePreviousVelocity(motion.update(estimated.motion, dt));
+    noise.update(estimated, dt);
     finish(estimated.motion.pose(), result);
     advance(frame, associations);
     return true;
@@ -436,7 +439,7 @@ PoseEstimate Odometry::Impl::estimate(
     out.motion = predicted;
     if (static_cast<int>(points.size() + planes.size()) >= minMatches())
     {
-        out = solver.solve(points, planes, predicted.mean, priorFrom(predicted));
+        out = solver.solve(points, planes, predicted.mean, priorFrom(predicted), noise.factors());
     }
     diagnostics.iterations += out.iterations;
     diagnostics.numPointPairs = static_cast<int>(points.size());

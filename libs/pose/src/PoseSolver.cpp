@@ -58,8 +58,13 @@ class System
     System(
         const PoseSolver::TParams& params,
         const std::vector<PointPair>& points,
-        const std::vector<PlanePair>& planes)
-        : params_(params), points_(points), planes_(planes)
+        const std::vector<PlanePair>& planes,
+        const NoiseFactors& noise)
+        : params_(params),
+          points_(points),
+          planes_(planes),
+          noise_{
+              noise.points * params.pointVarianceFactor, noise.planes * params.planeVarianceFactor}
     {
     }
 
@@ -140,7 +145,7 @@ class System
         return {1, squaredNorm};
     }
 
-    void add(Normal& normal, size_t i, bool isPoint, double gain) const
+    void add(Normal& normal, size_t i, bool isPoint, double gain, double factor) const
     {
         const auto& [residual, W] = residuals_[i];
         const auto [w, cost] = robust(squaredNorms_[i], isPoint);
@@ -155,7 +160,7 @@ class System
             const Eigen::Matrix<double, 12, 3> JtW = J.transpose() * W;
             normal.H += gain * w * JtW * J;
             normal.g += gain * w * JtW * residual.r;
-            normal.M += gain * gain * w * w * JtW * residual.cov * JtW.transpose();
+            normal.M += factor * gain * gain * w * w * JtW * residual.cov * JtW.transpose();
         }
     }
 
@@ -167,11 +172,11 @@ class System
         {
             if (i < points_.size())
             {
-                add(normalPoints_, i, true, 1 / params_.pointVarianceFactor);
+                add(normalPoints_, i, true, 1 / noise_.points, noise_.points);
             }
             else
             {
-                add(normalPlanes_, i, false, params_.alpha / params_.planeVarianceFactor);
+                add(normalPlanes_, i, false, params_.alpha / noise_.planes, noise_.planes);
             }
         }
     }
@@ -179,6 +184,7 @@ class System
     const PoseSolver::TParams& params_;
     const std::vector<PointPair>& points_;
     const std::vector<PlanePair>& planes_;
+    NoiseFactors noise_;
     std::vector<std::pair<Residual, Eigen::Matrix3d>> residuals_;
     std::vector<double> squaredNorms_;
     double scale_{1};
@@ -205,13 +211,31 @@ void PoseSolver::TParams::check() const
     POINTPLANE_CHECK(
         planeStudentDof >= 0, "planeStudentDof = " << planeStudentDof << " is negative");
     POINTPLANE_CHECK(
-        covarianceFactor > 0, "covarianceFactor = " << covarianceFactor << " is not positive");
+        priorStudentDof >= 0, "priorStudentDof = " << priorStudentDof << " is negative");
     POINTPLANE_CHECK(
         maxIterations >= 1 && maxIterations <= 1000,
         "maxIterations = " << maxIterations << " is not in 1..1000");
 }
 
 PoseSolver::PoseSolver(const TParams& params) : params_(params) { params_.check(); }
+
+double PoseSolver::priorWeight(const MotionPrior& prior, const Motion& motion) const
+{
+    const Vector12d r = prior.residual(motion);
+    const double dof = params_.priorStudentDof;
+    return dof > 0 ? std::min(1.0,(dof + 12) / (dof + r.dot(prior.information * r))) : 1;
+}
+
+double PoseSolver::priorCost(const MotionPrior& prior, const Motion& motion) const
+{
+    const Vector12d r = prior.residual(motion);
+    const double dof = params_.priorStudentDof, norm2 = r.dot(prior.information * r);
+    if (dof <= 0 || norm2 <= 12)
+    {
+        return norm2;
+    }
+    return 12 + (dof + 12) * std::log((dof + norm2) / (dof + 12));
+}
 
 PoseEstimate PoseSolver::solve(
     const std::vector<PointPair>& points,
@@ -233,24 +257,25 @@ PoseEstimate PoseSolver::solve(
     const std::vector<PointPair>& points,
     const std::vector<PlanePair>& planes,
     const Motion& start,
-    const MotionPrior& prior) const
+    const MotionPrior& prior,
+    const NoiseFactors& noise) const
 {
-    System system(params_, points, planes);
+    System system(params_, points, planes, noise);
     PoseEstimate out;
     Motion x = start;
     double lambda = 1e-6;
     const auto totalCost = [&](const Motion& motion)
     {
-        const Vector12d r = prior.residual(motion);
-        return system.points().cost + system.planes().cost + r.dot(prior.information * r);
+        return system.points().cost + system.planes().cost + priorCost(prior, motion);
     };
     for (out.iterations = 0; out.iterations < params_.maxIterations && !out.converged;)
     {
         system.evaluate(x, true);
         const double cost = totalCost(x);
-        const Matrix12d H = system.points().H + system.planes().H + prior.information;
+        const Matrix12d priorInformation = priorWeight(prior, x) * prior.information;
+        const Matrix12d H = system.points().H + system.planes().H + priorInformation;
         const Vector12d g =
-            system.points().g + system.planes().g - prior.information * prior.residual(x);
+            system.points().g + system.planes().g - priorInformation * prior.residual(x);
         for (bool accepted = false; !accepted && out.iterations < params_.maxIterations;)
         {
             ++out.iterations;
@@ -278,19 +303,12 @@ PoseEstimate PoseSolver::solve(
     system.evaluate(x, true);
     const Normal& p = system.points();
     const Normal& m = system.planes();
-    const Matrix12d H = p.H + m.H + prior.information + kDamping * Matrix12d::Identity();
+    const Matrix12d priorInformation = priorWeight(prior, x) * prior.information;
+    const Matrix12d H = p.H + m.H + priorInformation + kDamping * Matrix12d::Identity();
     const Matrix12d Hinv = H.ldlt().solve(Matrix12d::Identity());
     out.pointChi2PerDof = p.weightSum > 0 ? p.weightedChi2 / (3 * p.weightSum) : 0;
     out.planeChi2PerDof = m.weightSum > 0 ? m.weightedChi2 / (3 * m.weightSum) : 0;
-    // gain^2 Sigma with the true Sigma a factor larger than the propagated one.
-    const auto excess = [&](double chi2PerDof)
-    {
-        return params_.covarianceFactor *
-               (params_.residualCovariance ? std::max(1.0, chi2PerDof) : 1.0);
-    };
-    const Matrix12d M = excess(out.pointChi2PerDof) * params_.pointVarianceFactor * p.M +
-                        excess(out.planeChi2PerDof) * params_.planeVarianceFactor * m.M +
-                        prior.information + kDamping * Matrix12d::Identity();
+    const Matrix12d M = p.M + m.M + priorInformation + kDamping * Matrix12d::Identity();
     out.motion = {x, propagate(Hinv, M)};
     out.infoPoints = p.H.topLeftCorner<6, 6>();
     out.infoPlanes = m.H.topLeftCorner<6, 6>();

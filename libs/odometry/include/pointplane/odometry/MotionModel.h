@@ -15,8 +15,9 @@ class MotionModel
     struct TParams
     {
         double decay{0.9};
-        double velocityRandomWalk{0.55};
-        double angularVelocityRandomWalk{1.8};
+        double velocityRandomWalk{0.1};
+        double angularVelocityRandomWalk{0.5};
+        double timeConstant{1.0};
 
         template <class V>
         void visit(V&& v)
@@ -30,6 +31,7 @@ class MotionModel
               angularVelocityRandomWalk,
               "rad/s/sqrt(s)",
               "change of angular velocity, per axis");
+            v("timeConstant", timeConstant, "s", "both adapt to the motion over this time, and are never below the above");
         }
         void check() const;
     };
@@ -50,9 +52,10 @@ class MotionModel
     void reset();
 
  private:
-    [[nodiscard]] Vector6d density() const;
+    void adapt(const MotionGaussian& predicted, const MotionGaussian& measured, const Vector12d& innovation, double dt);
 
     TParams params_;
+    Vector6d density_;  //!< of the white acceleration [m^2/s^3, rad^2/s^3]
     Vector6d velocity_;
     Matrix6d cov_;
 };

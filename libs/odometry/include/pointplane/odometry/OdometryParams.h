@@ -3,6 +3,7 @@
 
 #include <pointplane/core/Parameters.h>
 #include <pointplane/odometry/MotionModel.h>
+#include <pointplane/odometry/NoiseScale.h>
 #include <pointplane/odometry/PointStage.h>
 #include <pointplane/odometry/Reference.h>
 #include <pointplane/odometry/ShutterCalibrator.h>
@@ -68,7 +69,8 @@ struct OdometryParams
     PointLifter::TParams pointLifter;
     PlaneExtractor::TParams planeExtractor;
     PlaneMatcher::TParams planeMatcher;
-    PoseSolver::TParams poseSolver = calibratedSolver();
+    PoseSolver::TParams poseSolver;
+    NoiseScale::TParams noiseScale;
     MotionModel::TParams motionModel;
     ReferenceWindow::TParams reference;
 
@@ -87,21 +89,12 @@ struct OdometryParams
         f("PlaneExtractor", planeExtractor);
         f("PlaneMatcher", planeMatcher);
         f("PoseSolver", poseSolver);
+        f("NoiseScale", noiseScale);
         f("MotionModel", motionModel);
         f("Reference", reference);
     }
 
     /** \throws std::invalid_argument naming section and key */
     void check() const;
-
- private:
-    /** The solver alone trusts its pairs; real frames have errors in common (docs/theory.md). */
-    [[nodiscard]] static PoseSolver::TParams calibratedSolver()
-    {
-        PoseSolver::TParams out;
-        out.residualCovariance = true;
-        out.covarianceFactor = 4;
-        return out;
-    }
 };
 }  // namespace pointplane

@@ -11,6 +11,13 @@
 
 namespace pointplane
 {
+/** True variance of the features over the propagated one. */
+struct NoiseFactors
+{
+    double points{1};
+    double planes{1};
+};
+
 /** What the solver found. */
 struct PoseEstimate
 {
@@ -39,8 +46,7 @@ class PoseSolver
         double planeVarianceFactor{1.0};
         double tukeySigmas{4.7};
         double planeStudentDof{5.0};
-        bool residualCovariance{false};
-        double covarianceFactor{1.0};
+        double priorStudentDof{5.0};
         int maxIterations{20};
 
         template <class V>
@@ -72,15 +78,10 @@ class PoseSolver
               "-",
               "degrees of freedom of Student's t for planes; small = robust, 0 = Gaussian (the "
               "paper)");
-            v("residualCovariance",
-              residualCovariance,
+            v("priorStudentDof",
+              priorStudentDof,
               "-",
-              "the covariance takes the residuals' own variance where it is above the propagated "
-              "one");
-            v("covarianceFactor",
-              covarianceFactor,
-              "-",
-              "of the measured part of the covariance, for errors that residuals cannot show");
+              "degrees of freedom of Student's t for the predicted motion, 0 = Gaussian");
             v("maxIterations", maxIterations, "-", "Levenberg-Marquardt iterations");
         }
         void check() const;
@@ -95,7 +96,8 @@ class PoseSolver
         const std::vector<PointPair>& points,
         const std::vector<PlanePair>& planes,
         const Motion& start,
-        const MotionPrior& prior) const;
+        const MotionPrior& prior,
+        const NoiseFactors& noise = {}) const;
 
     /** The pose alone, pairs taken at rest. \param start initial T_base_cur
      * \param prior what is known without the pairs (left covariance); absent = nothing
@@ -108,6 +110,9 @@ class PoseSolver
         const std::optional<PoseGaussian>& prior) const;
 
  private:
+    [[nodiscard]] double priorWeight(const MotionPrior& prior, const Motion& motion) const;
+    [[nodiscard]] double priorCost(const MotionPrior& prior, const Motion& motion) const;
+
     TParams params_;
 };
 }  // namespace pointplane
