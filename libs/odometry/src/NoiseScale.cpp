@@ -41,7 +41,7 @@ void NoiseScale::update(const PoseEstimate& estimate, double dt)
             factor += gain * (std::clamp(chi2PerDof, kMin, kMax) - factor);
         }
     };
-    follow(factors_.points, estimate.pointChi2PerDof);
-    follow(factors_.planes, estimate.planeChi2PerDof);
+    follow(factors_.points, estimate.pointScale);
+    follow(factors_.planes, estimate.planeScale);
 }
 }  // namespace pointplane

@@ -420,8 +420,12 @@ std::vector<Association> Odometry::Impl::associate(
 /** The paper's gate wants to know what the frame alone says. */
 MotionPrior Odometry::Impl::priorFrom(const MotionGaussian& predicted) const
 {
-    return params.pipeline.degeneracy == "fuse" ? MotionPrior::from(predicted)
-                                                : MotionPrior::velocityGivenPose(predicted);
+    MotionPrior prior = MotionPrior::from(predicted);
+    if (params.pipeline.degeneracy == "gate")
+    {
+        prior.pose.setZero();
+    }
+    return prior;
 }
 
 PoseEstimate Odometry::Impl::estimate(

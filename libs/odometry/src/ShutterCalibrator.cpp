@@ -29,7 +29,7 @@ struct JointNormal
     Eigen::Vector3d gs{Eigen::Vector3d::Zero()};
 
     JointNormal(const MotionPrior& prior, const Motion& motion)
-        : Hxx(prior.information), gx(-prior.information * prior.residual(motion))
+        : Hxx(prior.velocityGivenPose), gx(-prior.velocityGivenPose * prior.residual(motion))
     {
         Hxx.diagonal().array() += 1e-3;
     }

@@ -14,22 +14,19 @@ constexpr double kFixedSigma = 1e-6;  // [m/s, rad/s]
 
 MotionPrior MotionPrior::from(const MotionGaussian& predicted)
 {
-    return {predicted.mean, predicted.cov.ldlt().solve(Matrix12d::Identity())};
-}
-
-MotionPrior MotionPrior::velocityGivenPose(const MotionGaussian& predicted)
-{
-    MotionPrior out = from(predicted);
-    // The joint information without that of the marginal of the pose.
-    const Matrix6d cov = predicted.cov.topLeftCorner<6, 6>();
-    out.information.topLeftCorner<6, 6>() -= cov.ldlt().solve(Matrix6d::Identity());
+    MotionPrior out;
+    out.mean = predicted.mean;
+    out.pose = predicted.pose().cov.ldlt().solve(Matrix6d::Identity());
+    out.velocityGivenPose = predicted.cov.ldlt().solve(Matrix12d::Identity());
+    out.velocityGivenPose.topLeftCorner<6, 6>() -= out.pose;
     return out;
 }
 
 MotionPrior MotionPrior::fixedVelocity(const Motion& motion)
 {
-    MotionPrior out{motion, Matrix12d::Zero()};
-    out.information.bottomRightCorner<6, 6>().diagonal().setConstant(
+    MotionPrior out;
+    out.mean = motion;
+    out.velocityGivenPose.bottomRightCorner<6, 6>().diagonal().setConstant(
         1 / (kFixedSigma * kFixedSigma));
     return out;
 }

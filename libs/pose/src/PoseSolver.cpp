@@ -93,7 +93,7 @@ class System
     [[nodiscard]] const Normal& points() const { return normalPoints_; }
     [[nodiscard]] const Normal& planes() const { return normalPlanes_; }
 
- private:
+ public:
     void push(const Residual& residual)
     {
         Eigen::Matrix3d W;
@@ -219,22 +219,26 @@ void PoseSolver::TParams::check() const
 
 PoseSolver::PoseSolver(const TParams& params) : params_(params) { params_.check(); }
 
-double PoseSolver::priorWeight(const MotionPrior& prior, const Motion& motion) const
+Matrix12d PoseSolver::priorInformation(const MotionPrior& prior, const Motion& motion) const
 {
-    const Vector12d r = prior.residual(motion);
+    const Vector6d r = prior.residual(motion).head<6>();
     const double dof = params_.priorStudentDof;
-    return dof > 0 ? std::min(1.0,(dof + 12) / (dof + r.dot(prior.information * r))) : 1;
+    Matrix12d out = prior.velocityGivenPose;
+    out.topLeftCorner<6, 6>() +=
+        (dof > 0 ? std::min(1.0, (dof + 6) / (dof + r.dot(prior.pose * r))) : 1.0) * prior.pose;
+    return out;
 }
 
 double PoseSolver::priorCost(const MotionPrior& prior, const Motion& motion) const
 {
     const Vector12d r = prior.residual(motion);
-    const double dof = params_.priorStudentDof, norm2 = r.dot(prior.information * r);
-    if (dof <= 0 || norm2 <= 12)
+    const double dof = params_.priorStudentDof;
+    double norm2 = r.head<6>().dot(prior.pose * r.head<6>());
+    if (dof > 0 && norm2 > 6)
     {
-        return norm2;
+        norm2 = 6 + (dof + 6) * std::log((dof + norm2) / (dof + 6));
     }
-    return 12 + (dof + 12) * std::log((dof + norm2) / (dof + 12));
+    return norm2 + r.dot(prior.velocityGivenPose * r);
 }
 
 PoseEstimate PoseSolver::solve(
@@ -247,8 +251,7 @@ PoseEstimate PoseSolver::solve(
     if (prior)
     {
         motionPrior.mean.T_base_cur = prior->mean;
-        motionPrior.information.topLeftCorner<6, 6>() =
-            prior->cov.ldlt().solve(Matrix6d::Identity());
+        motionPrior.pose = prior->cov.ldlt().solve(Matrix6d::Identity());
     }
     return solve(points, planes, Motion{start, Vector6d::Zero()}, motionPrior);
 }
@@ -272,10 +275,10 @@ PoseEstimate PoseSolver::solve(
     {
         system.evaluate(x, true);
         const double cost = totalCost(x);
-        const Matrix12d priorInformation = priorWeight(prior, x) * prior.information;
-        const Matrix12d H = system.points().H + system.planes().H + priorInformation;
+        const Matrix12d information = priorInformation(prior, x);
+        const Matrix12d H = system.points().H + system.planes().H + information;
         const Vector12d g =
-            system.points().g + system.planes().g - priorInformation * prior.residual(x);
+            system.points().g + system.planes().g - information * prior.residual(x);
         for (bool accepted = false; !accepted && out.iterations < params_.maxIterations;)
         {
             ++out.iterations;
@@ -301,14 +304,16 @@ PoseEstimate PoseSolver::solve(
         }
     }
     system.evaluate(x, true);
+    {auto v=system.squaredNorms_; size_t np=points.size(); auto med=[](std::vector<double> a,double q){ if(a.empty()) return 0.0; std::sort(a.begin(),a.end()); return a[size_t(q*(a.size()-1))];}; std::vector<double> a(v.begin(),v.begin()+np),b(v.begin()+np,v.end());  out.pointScale=med(a,.5)/2.366;out.planeScale=med(b,.5)/2.366;}
+    if (getenv("MEDS")) { auto v=system.squaredNorms_; size_t np=points.size(); auto med=[](std::vector<double> a,double q){ if(a.empty()) return 0.0; std::sort(a.begin(),a.end()); return a[size_t(q*(a.size()-1))];}; std::vector<double> a(v.begin(),v.begin()+np),b(v.begin()+np,v.end()); fprintf(stderr,"MED %zu %zu pts %.3f %.3f %.3f pl %.3f %.3f %.3f prior %.2f noise %.2f %.2f\n",a.size(),b.size(),med(a,.25)/1.213,med(a,.5)/2.366,med(a,.75)/4.108,med(b,.25)/1.213,med(b,.5)/2.366,med(b,.75)/4.108,prior.residual(x).head<6>().dot(prior.pose*prior.residual(x).head<6>()),noise.points,noise.planes); }
     const Normal& p = system.points();
     const Normal& m = system.planes();
-    const Matrix12d priorInformation = priorWeight(prior, x) * prior.information;
-    const Matrix12d H = p.H + m.H + priorInformation + kDamping * Matrix12d::Identity();
+    const Matrix12d information = priorInformation(prior, x);
+    const Matrix12d H = p.H + m.H + information + kDamping * Matrix12d::Identity();
     const Matrix12d Hinv = H.ldlt().solve(Matrix12d::Identity());
     out.pointChi2PerDof = p.weightSum > 0 ? p.weightedChi2 / (3 * p.weightSum) : 0;
     out.planeChi2PerDof = m.weightSum > 0 ? m.weightedChi2 / (3 * m.weightSum) : 0;
-    const Matrix12d M = p.M + m.M + priorInformation + kDamping * Matrix12d::Identity();
+    const Matrix12d M = p.M + m.M + information + kDamping * Matrix12d::Identity();
     out.motion = {x, propagate(Hinv, M)};
     out.infoPoints = p.H.topLeftCorner<6, 6>();
     out.infoPlanes = m.H.topLeftCorner<6, 6>();

@@ -25,18 +25,18 @@ struct MotionGaussian
     }
 };
 
-/** What is known of a motion without the current frame: E = |e|^2 with weight `information`, e =
- * [log(T_mean T^-1); V_mean - V]. Positive semidefinite: a direction without information is free. */
+/** What is known of a motion without the current frame, with e = [log(T_mean T^-1); V_mean - V] and
+ * its first half e_T: how good a pose is, and which velocity goes with it. The information is that
+ * of the joint Gaussian, split because either may be doubted alone. Positive semidefinite: a
+ * direction without information is free. */
 struct MotionPrior
 {
     Motion mean;
-    Matrix12d information{Matrix12d::Zero()};
+    Matrix6d pose{Matrix6d::Zero()};                //!< information of e_T
+    Matrix12d velocityGivenPose{Matrix12d::Zero()};  //!< information of e beyond that
 
     /** All that the prediction says. */
     [[nodiscard]] static MotionPrior from(const MotionGaussian& predicted);
-
-    /** Only the velocity that goes with a pose; of the pose itself, nothing. */
-    [[nodiscard]] static MotionPrior velocityGivenPose(const MotionGaussian& predicted);
 
     /** The velocity is given, of the pose nothing is known. */
     [[nodiscard]] static MotionPrior fixedVelocity(const Motion& motion);

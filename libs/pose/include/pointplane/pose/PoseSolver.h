@@ -26,6 +26,7 @@ struct PoseEstimate
     Matrix6d infoPlanes{Matrix6d::Zero()};  //!< of the planes, alpha not included
     double pointChi2PerDof{0};  //!< mean squared Mahalanobis norm / 3 of points, Tukey-weighted
     double planeChi2PerDof{0};  //!< mean squared Mahalanobis norm / 3 of planes
+    double pointScale{0},planeScale{0};
     int numPointInliers{0};     //!< points with a Tukey weight above 1/2
     int iterations{0};
     bool converged{false};
@@ -110,7 +111,7 @@ class PoseSolver
         const std::optional<PoseGaussian>& prior) const;
 
  private:
-    [[nodiscard]] double priorWeight(const MotionPrior& prior, const Motion& motion) const;
+    [[nodiscard]] Matrix12d priorInformation(const MotionPrior& prior, const Motion& motion) const;
     [[nodiscard]] double priorCost(const MotionPrior& prior, const Motion& motion) const;
 
     TParams params_;
