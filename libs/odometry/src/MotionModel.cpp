@@ -51,6 +51,7 @@ Vector6d MotionModel::update(const MotionGaussian& measured, double dt)
     const Vector6d smoothed =
         velocity_ + covWithVelocity.transpose() * predicted.cov.ldlt().solve(innovation);
     adapt(predicted, measured, innovation, dt);
+    if (getenv("QDBG")) fprintf(stderr,"q %.3f %.3f\n",std::sqrt(density_[0]),std::sqrt(density_[3]));
     velocity_ = measured.mean.velocity;
     cov_ = measured.cov.bottomRightCorner<6, 6>();
     return smoothed;

@@ -137,5 +137,6 @@ void ShutterCalibrator::update(
     informationVector_ += information * estimate_ - gradient;
     estimate_ =
         information_.ldlt().solve(informationVector_).cwiseMax(-kMaxTime).cwiseMin(kMaxTime);
+    if (getenv("SDBG")) {static int n=0; if(++n%50==0||n%150==147) fprintf(stderr,"shutter %d %.1f %.1f %.1f\n",n,1e3*estimate_[0],1e3*estimate_[1],1e3*estimate_[2]);}
 }
 }  // namespace pointplane
