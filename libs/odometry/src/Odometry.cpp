@@ -265,7 +265,8 @@ bool Odometry::Impl::track(const RgbdFrame& frame, OdometryResult& result)
         PairBuilder(window.previous(), current, frame.camera.height),
         associations,
         estimated.motion.mean,
-        priorFrom(predicted));
+        priorFrom(predicted),
+        noise.factors());
     window.refinePreviousVelocity(motion.update(estimated.motion, dt));
     noise.update(estimated, dt);
     finish(estimated.motion.pose(), result);

@@ -34,9 +34,9 @@ struct JointNormal
         Hxx.diagonal().array() += 1e-3;
     }
 
-    void add(const Residual& residual, const Eigen::Matrix3d& Js)
+    void add(const Residual& residual, const Eigen::Matrix3d& Js, double factor)
     {
-        const Eigen::Matrix3d cov_inverse = residual.cov.inverse();
+        const Eigen::Matrix3d cov_inverse = residual.cov.inverse() / factor;
         const double norm2 = residual.r.dot(cov_inverse * residual.r);
         const Eigen::Matrix3d W = (kStudentDof + 3) / (kStudentDof + norm2) * cov_inverse;
         Eigen::Matrix<double, 3, 12> Jx;
@@ -89,7 +89,8 @@ void ShutterCalibrator::update(
     const PairBuilder& builder,
     const std::vector<Association>& associations,
     const Motion& motion,
-    const MotionPrior& prior)
+    const MotionPrior& prior,
+    const NoiseFactors& noise)
 {
     if (!params_.selfCalibrate)
     {
@@ -117,7 +118,7 @@ void ShutterCalibrator::update(
         {
             Js.col(k) = (pointResidual(points[k + 1][i], motion).r - residual.r) / kStep;
         }
-        normal.add(residual, Js);
+        normal.add(residual, Js, noise.points);
     }
     for (size_t i = 0; i < planes[0].size(); ++i)
     {
@@ -126,7 +127,7 @@ void ShutterCalibrator::update(
         {
             Js.col(k) = (planeResidualMinimal(planes[k + 1][i], motion).r - residual.r) / kStep;
         }
-        normal.add(residual, Js);
+        normal.add(residual, Js, noise.planes);
     }
     const Matrix123d eliminated = normal.Hxx.ldlt().solve(normal.Hxs);
     const Eigen::Matrix3d information =

@@ -63,8 +63,7 @@ class System
         : params_(params),
           points_(points),
           planes_(planes),
-          noise_{
-              noise.points * params.pointVarianceFactor, noise.planes * params.planeVarianceFactor}
+          noise_(noise)
     {
     }
 
@@ -201,12 +200,6 @@ void PoseSolver::TParams::check() const
         planeResidual == "minimal" || planeResidual == "closestPoint",
         "planeResidual = " << planeResidual << " is neither minimal nor closestPoint");
     POINTPLANE_CHECK(alpha >= 0, "alpha = " << alpha << " is negative");
-    POINTPLANE_CHECK(
-        pointVarianceFactor > 0,
-        "pointVarianceFactor = " << pointVarianceFactor << " is not positive");
-    POINTPLANE_CHECK(
-        planeVarianceFactor > 0,
-        "planeVarianceFactor = " << planeVarianceFactor << " is not positive");
     POINTPLANE_CHECK(tukeySigmas >= 0, "tukeySigmas = " << tukeySigmas << " is negative");
     POINTPLANE_CHECK(
         planeStudentDof >= 0, "planeStudentDof = " << planeStudentDof << " is negative");

@@ -16,6 +16,8 @@ class NoiseScale
         bool adaptive{true};
         double timeConstant{1.0};
         double initial{4.0};
+        double pointFactor{4.0};
+        double planeFactor{4.0};
 
         template <class V>
         void visit(V&& v)
@@ -25,6 +27,8 @@ class NoiseScale
               "-",
               "the variance of points and planes follows that of their residuals");
             v("timeConstant", timeConstant, "s", "of the average over frames");
+            v("pointFactor", pointFactor, "-", "true variance over that of the residuals, points");
+            v("planeFactor", planeFactor, "-", "true variance over that of the residuals, planes");
             v("initial", initial, "-", "true variance over the propagated one, at the start");
         }
         void check() const;
@@ -35,7 +39,7 @@ class NoiseScale
     /** Takes in the reduced chi-squares of a measured frame, `dt` [s] after the one before. */
     void update(const PoseEstimate& estimate, double dt);
 
-    [[nodiscard]] const NoiseFactors& factors() const { return factors_; }
+    [[nodiscard]] NoiseFactors factors() const { return {factors_.points * params_.pointFactor, factors_.planes * params_.planeFactor}; }
 
  private:
     TParams params_;

@@ -3,7 +3,7 @@
 
 #include <pointplane/core/Parameters.h>
 #include <pointplane/odometry/PairBuilder.h>
-#include <pointplane/pose/MotionGaussian.h>
+#include <pointplane/pose/PoseSolver.h>
 #include <pointplane/sensor/RgbdFrame.h>
 
 #include <vector>
@@ -67,7 +67,8 @@ class ShutterCalibrator
         const PairBuilder& builder,
         const std::vector<Association>& associations,
         const Motion& motion,
-        const MotionPrior& prior);
+        const MotionPrior& prior,
+        const NoiseFactors& noise);
 
     /** readoutColour, readoutDepth, depthDelay [s]. */
     [[nodiscard]] const Eigen::Vector3d& estimate() const { return estimate_; }

@@ -43,8 +43,6 @@ class PoseSolver
         std::string weighting{"full"};
         std::string planeResidual{"minimal"};
         double alpha{1.0};
-        double pointVarianceFactor{1.0};
-        double planeVarianceFactor{1.0};
         double tukeySigmas{4.7};
         double planeStudentDof{5.0};
         double priorStudentDof{5.0};
@@ -62,14 +60,6 @@ class PoseSolver
               "-",
               "minimal (difference of n/d) or closestPoint (the paper's difference of d n)");
             v("alpha", alpha, "-", "weight of the planes; 0 = points only");
-            v("pointVarianceFactor",
-              pointVarianceFactor,
-              "-",
-              "true variance of point residuals over the propagated one (correlated errors)");
-            v("planeVarianceFactor",
-              planeVarianceFactor,
-              "-",
-              "true variance of plane residuals over the propagated one (correlated errors)");
             v("tukeySigmas",
               tukeySigmas,
               "-",
