@@ -261,7 +261,8 @@ bool Odometry::Impl::track(const RgbdFrame& frame, OdometryResult& result)
 
     // 4. The frame becomes a reference.
     current.velocity = estimated.motion.mean.velocity;
-    shutter.update(
+    PoseGaussian measured = estimated.motion.pose();
+    measured.cov += shutter.update(
         PairBuilder(window.previous(), current, frame.camera.height),
         associations,
         estimated.motion.mean,
@@ -269,7 +270,7 @@ bool Odometry::Impl::track(const RgbdFrame& frame, OdometryResult& result)
         noise.factors());
     window.refinePreviousVelocity(motion.update(estimated.motion, dt));
     noise.update(estimated, dt);
-    finish(estimated.motion.pose(), result);
+    finish(measured, result);
     advance(frame, associations);
     return true;
 }

@@ -72,6 +72,7 @@ ShutterCalibrator::ShutterCalibrator(const TParams& params)
 {
     params_.check();
     information_ = Eigen::Matrix3d::Identity() / (params_.sigmaPrior * params_.sigmaPrior);
+    information_(2, 2) = 1 / (params_.sigmaDelay * params_.sigmaDelay);
     informationVector_ = information_ * estimate_;
 }
 
@@ -85,7 +86,7 @@ ShutterModel ShutterCalibrator::complete(const ShutterModel& source) const
         (std::isfinite(source.depthDelay) ? source.depthDelay : 0) + estimate_[2]};
 }
 
-void ShutterCalibrator::update(
+Matrix6d ShutterCalibrator::update(
     const PairBuilder& builder,
     const std::vector<Association>& associations,
     const Motion& motion,
@@ -94,7 +95,7 @@ void ShutterCalibrator::update(
 {
     if (!params_.selfCalibrate)
     {
-        return;
+        return Matrix6d::Zero();
     }
     // Residuals now, and with each of the three values a little larger. Readout times that the
     // source tells do not change with the estimate, and so take no part.
@@ -139,5 +140,10 @@ void ShutterCalibrator::update(
     estimate_ =
         information_.ldlt().solve(informationVector_).cwiseMax(-kMaxTime).cwiseMin(kMaxTime);
     if (getenv("SDBG")) {static int n=0; if(++n%50==0||n%150==147) fprintf(stderr,"shutter %d %.1f %.1f %.1f\n",n,1e3*estimate_[0],1e3*estimate_[1],1e3*estimate_[2]);}
+    static const double fl = getenv("SFLOOR") ? atof(getenv("SFLOOR")) : 0;
+    Eigen::Matrix3d cov = information_.inverse() + fl * fl * Eigen::Matrix3d::Identity();
+    if (getenv("SDBG")) {static int n=0; if(++n%50==0||n%150==147) fprintf(stderr,"sig %d %.2f %.2f %.2f\n",n,1e3*std::sqrt(cov(0,0)),1e3*std::sqrt(cov(1,1)),1e3*std::sqrt(cov(2,2)));}
+    const Eigen::Matrix<double, 6, 3> E = eliminated.topRows<6>();
+    return E * cov * E.transpose();
 }
 }  // namespace pointplane

@@ -20,11 +20,12 @@ class ShutterCalibrator
  public:
     struct TParams
     {
-        double readoutColour{0};
-        double readoutDepth{0};
+        double readoutColour{0.02};
+        double readoutDepth{0.02};
         double depthDelay{0};
         bool selfCalibrate{true};
-        double sigmaPrior{0.03};
+        double sigmaPrior{0.01};
+        double sigmaDelay{0.01};
         double informationGain{1.0};
 
         template <class V>
@@ -47,6 +48,7 @@ class ShutterCalibrator
               sigmaPrior,
               "s",
               "trust in the three values above when self-calibrating");
+            v("sigmaDelay", sigmaDelay, "s", "trust in depthDelay");
             v("informationGain",
               informationGain,
               "-",
@@ -63,7 +65,7 @@ class ShutterCalibrator
     [[nodiscard]] ShutterModel complete(const ShutterModel& source) const;
 
     /** Takes in the residuals of a measured frame. \param prior of its motion */
-    void update(
+    Matrix6d update(
         const PairBuilder& builder,
         const std::vector<Association>& associations,
         const Motion& motion,
