@@ -18,8 +18,8 @@ namespace
 /** Sigma of unweighted residuals; sets only the balance with the prior. */
 constexpr double kUnweightedSigma = 0.01;
 
-/** Steps below a thousandth of a millimetre or of a milliradian end the search. */
-constexpr double kStepTolerance = 1e-6;
+/** Steps below a hundredth of a millimetre or of a milliradian end the search. */
+constexpr double kStepTolerance = 1e-5;
 
 /** Keeps what nothing determines finite. */
 constexpr double kDamping = 1e-9;
