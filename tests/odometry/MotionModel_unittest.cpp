@@ -4,6 +4,7 @@
 #include <pointplane/odometry/MotionModel.h>
 
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "matchers.h"
@@ -106,6 +107,19 @@ TEST(MotionModel, coastingForHoursStaysFinite)
     EXPECT_LT(model.velocity().norm(), 1e-12);
     EXPECT_TRUE(isPositiveDefinite(model.predict(kFrame).cov));
     EXPECT_LT(std::sqrt(model.predict(kFrame).cov(0, 0)), 1);
+}
+
+TEST(MotionModel, anyStepStaysFinite)
+{
+    MotionModel model({});
+    for (const double dt : {1e4, 1e12, 1e300, std::numeric_limits<double>::infinity()})
+    {
+        const PoseGaussian predicted = model.predict(dt);
+        EXPECT_TRUE(predicted.mean.matrix().allFinite()) << dt;
+        EXPECT_TRUE(isPositiveDefinite(predicted.cov)) << dt;
+    }
+    // A day says nothing more than any longer time.
+    EXPECT_EQ(model.predict(1e6).cov, model.predict(1e12).cov);
 }
 
 TEST(MotionModel, resetForgets)

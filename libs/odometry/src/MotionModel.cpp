@@ -15,6 +15,9 @@ constexpr double kFramePeriod = 1.0 / 30;
 /** Until a velocity has been measured: as fast as hands move. */
 constexpr double kUnknownVelocity = 0.5;         // [m/s]
 constexpr double kUnknownAngularVelocity = 1.0;  // [rad/s]
+
+/** After a longer time nothing more can become unknown; stamps may be any number. */
+constexpr double kLongestStep = 24 * 3600.0;
 }  // namespace
 
 void MotionModel::TParams::check() const
@@ -29,8 +32,9 @@ void MotionModel::TParams::check() const
 
 PoseGaussian MotionModel::predict(double dt) const
 {
+    const double step = std::min(dt, kLongestStep);
     // The velocity is known for the middle of the latest increment.
-    const double span = dt + coasting_ + 0.5 * kFramePeriod;
+    const double span = step + coasting_ + 0.5 * kFramePeriod;
     double sigmaV = params_.sigmaAcceleration * span;
     double sigmaW = params_.sigmaAngularAcceleration * span;
     if (measured_ == 0)
@@ -39,9 +43,9 @@ PoseGaussian MotionModel::predict(double dt) const
         sigmaW = kUnknownAngularVelocity;
     }
     PoseGaussian out;
-    out.mean = se3Exp(velocity_ * dt);
-    out.cov.diagonal() << Eigen::Vector3d::Constant(sigmaV * sigmaV * dt * dt),
-        Eigen::Vector3d::Constant(sigmaW * sigmaW * dt * dt);
+    out.mean = se3Exp(velocity_ * step);
+    out.cov.diagonal() << Eigen::Vector3d::Constant(sigmaV * sigmaV * step * step),
+        Eigen::Vector3d::Constant(sigmaW * sigmaW * step * step);
     return out;
 }
 
