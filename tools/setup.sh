@@ -1,10 +1,11 @@
 # shellcheck shell=bash disable=SC2034
-# Sourced by ./demo and ./test: Debian packages, build, job count. Needs bash; changes to the clone.
+# Sourced by ./demo, ./test and the tools: Debian packages, build, job count. Needs bash; changes to
+# the clone. Who wants another build folder sets build_dir before.
 
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-readonly build_dir=build/release
+readonly build_dir=${build_dir:-build/release}
 
 # A question mark: not in every release. What it is for is left out, or its tests are skipped.
 readonly build_packages=(
@@ -13,8 +14,9 @@ readonly build_packages=(
     libmrpt-obs-dev libmrpt-graphslam-dev libcli11-dev nlohmann-json3-dev libgtest-dev libgmock-dev
     libopenni2-dev "libfreenect-dev?" libjs-chart.js
 )
-# MRPT's own programs and data sets, which the tests run on our output; a browser for the reports.
-readonly test_packages=(mrpt-apps mrpt-common "chromium?")
+# MRPT's own programs and data sets, which the tests run on our output; a browser for the reports;
+# the documentation of the code must be complete.
+readonly test_packages=(mrpt-apps mrpt-common doxygen "chromium?")
 
 say() { printf '\n== %s\n' "$*"; }
 die() {

@@ -3,18 +3,13 @@
 
 #include <pointplane/evaluation/association.h>
 #include <pointplane/mrpt_io/ObservationConverter.h>
-#include <pointplane/mrpt_io/RawlogWriter.h>
+#include <pointplane/mrpt_io/ScanWriter.h>
 #include <pointplane/mrpt_io/errors.h>
-#include <pointplane/mrpt_io/external_range.h>
-#include <pointplane/mrpt_io/mrpt_poses.h>
-
-#include <mrpt/obs/CObservation3DRangeScan.h>
-#include <mrpt/obs/CObservationComment.h>
+#include <pointplane/mrpt_io/rawlog_names.h>
 
 #include <opencv2/imgcodecs.hpp>
 
 #include <algorithm>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <optional>
@@ -29,7 +24,6 @@ namespace pointplane
 namespace
 {
 namespace fs = std::filesystem;
-using mrpt::obs::CObservation3DRangeScan;
 
 [[nodiscard]] std::vector<double> secondsOf(const std::vector<TumImage>& images)
 {
@@ -47,12 +41,6 @@ using mrpt::obs::CObservation3DRangeScan;
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());
     return *middle;
-}
-
-/** "dir/name" of "dir/name.rawlog". */
-[[nodiscard]] std::string stem(const std::string& rawlog)
-{
-    return (fs::path(rawlog).parent_path() / fs::path(rawlog).stem()).string();
 }
 
 [[nodiscard]] cv::Mat readImage(const std::string& path, int flags)
@@ -80,113 +68,24 @@ void requireSize(const cv::Mat& image, const PinholeCamera& camera, const std::s
     }
 }
 
-/** Builds the observations of one folder. */
-class ScanBuilder
+[[nodiscard]] RegisteredScan readScan(
+    const TumImage& colour, const TumImage& depth, const TumCamera& camera)
 {
- public:
-    ScanBuilder(const TumConverterOptions& options, const TumCamera& camera)
-        : options_(options), camera_(camera)
+    RegisteredScan scan;
+    scan.stamp = colour.stamp;
+    scan.camera = camera.camera;
+    scan.unitsPerMetre = camera.unitsPerMetre;
+    scan.depth = readImage(depth.path, cv::IMREAD_ANYDEPTH | cv::IMREAD_ANYCOLOR);
+    if (scan.depth.type() != CV_16UC1)
     {
-        if (options.external)
-        {
-            imagesDirectory_ = stem(options.output) + "_Images";
-            std::error_code error;
-            fs::create_directories(imagesDirectory_, error);
-            if (error)
-            {
-                throw EnvironmentError(
-                    "cannot create " + imagesDirectory_ + ": " + error.message());
-            }
-        }
+        throw InputError(depth.path + ": is not a 16 bit depth image");
     }
-
-    [[nodiscard]] CObservation3DRangeScan::Ptr build(
-        const TumImage& colour, const TumImage& depth) const
-    {
-        auto scan = CObservation3DRangeScan::Create();
-        scan->sensorLabel = options_.label;
-        scan->timestamp = colour.stamp;
-        scan->maxRange = 10.0F;
-        setCameras(*scan);
-        setDepth(*scan, depth);
-        setColour(*scan, colour);
-        return scan;
-    }
-
- private:
-    void setCameras(CObservation3DRangeScan& scan) const
-    {
-        const PinholeCamera& camera = camera_.camera;
-        auto& intensity = scan.cameraParamsIntensity;
-        intensity.ncols = static_cast<std::uint32_t>(camera.width);
-        intensity.nrows = static_cast<std::uint32_t>(camera.height);
-        intensity.setIntrinsicParamsFromValues(camera.fx, camera.fy, camera.cx, camera.cy);
-        // Registered depth knows the ideal pinhole only.
-        scan.cameraParams = intensity;
-        if (camera.isDistorted())
-        {
-            intensity.distortion = mrpt::img::DistortionModel::plumb_bob;
-            std::copy(camera.distortion.begin(), camera.distortion.end(), intensity.dist.begin());
-        }
-        scan.relativePoseIntensityWRTDepth = toMrpt(opticalInBody());
-    }
-
-    void setDepth(CObservation3DRangeScan& scan, const TumImage& image) const
-    {
-        const cv::Mat depth = readImage(image.path, cv::IMREAD_ANYDEPTH | cv::IMREAD_ANYCOLOR);
-        if (depth.type() != CV_16UC1)
-        {
-            throw InputError(image.path + ": is not a 16 bit depth image");
-        }
-        requireSize(depth, camera_.camera, image.path);
-        const double scale = options_.depthScale > 0 ? options_.depthScale : camera_.unitsPerMetre;
-        scan.hasRangeImage = true;
-        scan.rangeUnits = static_cast<float>(1.0 / scale);
-        scan.rangeImage_setSize(depth.rows, depth.cols);
-        for (int v = 0; v < depth.rows; ++v)
-        {
-            std::memcpy(
-                &scan.rangeImage(v, 0),
-                depth.ptr<std::uint16_t>(v),
-                static_cast<std::size_t>(depth.cols) * sizeof(std::uint16_t));
-        }
-        if (options_.external)
-        {
-            moveRangeToFile(scan, imagesDirectory_, stampText(scan.timestamp) + "_depth.bin");
-        }
-    }
-
-    void setColour(CObservation3DRangeScan& scan, const TumImage& image) const
-    {
-        const cv::Mat colour = readImage(image.path, cv::IMREAD_COLOR);
-        requireSize(colour, camera_.camera, image.path);
-        scan.hasIntensityImage = true;
-        scan.intensityImageChannel = CObservation3DRangeScan::CH_VISIBLE;
-        if (!options_.external)
-        {
-            scan.intensityImage = mrpt::img::CImage(colour, mrpt::img::DEEP_COPY);
-            return;
-        }
-        const std::string name =
-            stampText(scan.timestamp) + "_rgb" + fs::path(image.path).extension().string();
-        std::error_code error;
-        fs::copy_file(
-            image.path,
-            fs::path(imagesDirectory_) / name,
-            fs::copy_options::overwrite_existing,
-            error);
-        if (error)
-        {
-            throw EnvironmentError(
-                "cannot write " + imagesDirectory_ + "/" + name + ": " + error.message());
-        }
-        scan.intensityImage.setExternalStorage(name);
-    }
-
-    const TumConverterOptions& options_;
-    const TumCamera& camera_;
-    std::string imagesDirectory_;
-};
+    requireSize(scan.depth, camera.camera, depth.path);
+    scan.colour = readImage(colour.path, cv::IMREAD_COLOR);
+    requireSize(scan.colour, camera.camera, colour.path);
+    scan.colourFile = colour.path;
+    return scan;
+}
 
 /** \return where to, or empty if there is none */
 [[nodiscard]] std::string copyGroundTruth(const TumConverterOptions& options)
@@ -196,7 +95,7 @@ class ScanBuilder
     {
         return "";
     }
-    const std::string to = stem(options.output) + ".groundtruth.txt";
+    const std::string to = groundTruthOf(options.output);
     // Not copy_file: it would copy a write protection, too.
     std::ifstream in(from, std::ios::binary);
     std::ofstream out(to, std::ios::binary);
@@ -219,6 +118,10 @@ TumConversion convertTum(const TumConverterOptions& options, std::ostream& progr
     const std::vector<TumImage> colour = readTumListing(options.folder, "rgb.txt");
     const std::vector<TumImage> depth = readTumListing(options.folder, "depth.txt");
     TumCamera camera = loadTumCamera(options.camera, options.folder);
+    if (options.depthScale > 0)
+    {
+        camera.unitsPerMetre = options.depthScale;
+    }
     const auto pairs = associate(secondsOf(colour), secondsOf(depth), 0.0, options.maxDifference);
     if (pairs.empty())
     {
@@ -233,12 +136,9 @@ TumConversion convertTum(const TumConverterOptions& options, std::ostream& progr
     }
     camera.shutter.depthDelay = median(delays);
 
-    RawlogWriter writer(options.output);
-    mrpt::obs::CObservationComment comment;
-    comment.timestamp = colour[pairs.front().first].stamp;
-    comment.text = shutterComment(options.label, camera.shutter);
-    writer.write(comment);
-    const ScanBuilder builder(options, camera);
+    ScanWriter writer(options.output, options.label, options.external);
+    writer.writeComment(
+        colour[pairs.front().first].stamp, shutterComment(options.label, camera.shutter));
     std::optional<ProgressBar> bar;
     if (!options.quiet)
     {
@@ -247,7 +147,7 @@ TumConversion convertTum(const TumConverterOptions& options, std::ostream& progr
     TumConversion out;
     for (const auto& [c, d] : pairs)
     {
-        writer.write(*builder.build(colour[c], depth[d]));
+        writer.write(readScan(colour[c], depth[d], camera));
         ++out.numFrames;
         if (bar)
         {

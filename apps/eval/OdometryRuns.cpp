@@ -95,21 +95,6 @@ std::string scoreText(const OdometryScore& score)
                      : "failed";
 }
 
-std::string groundTruthBeside(const std::string& rawlog)
-{
-    std::string stem = rawlog;
-    for (const char* ending : {".gz", ".rawlog"})
-    {
-        const std::string text(ending);
-        if (stem.size() > text.size() &&
-            stem.compare(stem.size() - text.size(), text.size(), text) == 0)
-        {
-            stem.resize(stem.size() - text.size());
-        }
-    }
-    return stem + ".groundtruth.txt";
-}
-
 void OdometryRunner::addTo(CLI::App& command)
 {
     command

@@ -64,8 +64,4 @@ class WorkDirectory
 
 /** "12.3 mm / 0.456 deg", or "failed". */
 [[nodiscard]] std::string scoreText(const OdometryScore& score);
-
-/** Ground truth that pointplane-convert and -simulate put beside a rawlog:
- * <name>.groundtruth.txt. */
-[[nodiscard]] std::string groundTruthBeside(const std::string& rawlog);
 }  // namespace pointplane

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/mrpt_io/rawlog_names.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -90,7 +92,7 @@ void ReproduceCommand::convertAll(
     {
         const auto folderName = std::filesystem::path(s.folder).filename().string();
         s.rawlog = folder + "/" + folderName + ".rawlog";
-        s.groundTruth = groundTruthBeside(s.rawlog);
+        s.groundTruth = groundTruthOf(s.rawlog);
         const std::string program =
             convert.empty() ? siblingProgram("pointplane-convert") : convert;
         jobs.push_back({{program, "tum", s.folder, "-o", s.rawlog, "--quiet"}, s.rawlog + ".log"});

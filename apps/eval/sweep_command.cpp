@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/evaluation/HtmlReport.h>
 #include <pointplane/evaluation/units.h>
+#include <pointplane/mrpt_io/rawlog_names.h>
 
 #include <cmath>
 #include <filesystem>
@@ -119,7 +120,7 @@ std::vector<OdometryRun> SweepCommand::runs(const std::vector<std::string>& trie
     for (std::size_t s = 0; s < rawlogs.size(); ++s)
     {
         const std::string truth =
-            groundTruths.empty() ? groundTruthBeside(rawlogs[s]) : groundTruths[s];
+            groundTruths.empty() ? groundTruthOf(rawlogs[s]) : groundTruths[s];
         for (const std::string& file : {rawlogs[s], truth})
         {
             if (!std::filesystem::exists(file))

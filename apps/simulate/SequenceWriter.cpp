@@ -2,11 +2,12 @@
 #include "SequenceWriter.h"
 
 #include <pointplane/mrpt_io/ObservationConverter.h>
+#include <pointplane/mrpt_io/ScanWriter.h>
 #include <pointplane/mrpt_io/mrpt_poses.h>
+#include <pointplane/mrpt_io/rawlog_names.h>
 
 #include <algorithm>
 #include <deque>
-#include <filesystem>
 #include <future>
 #include <iomanip>
 #include <optional>
@@ -14,48 +15,45 @@
 #include <thread>
 
 #include "ProgressBar.h"
-#include "ScanWriter.h"
 #include "TextOutput.h"
 
 namespace pointplane
 {
 namespace
 {
-struct Rendered
-{
-    RgbdFrame frame;
-    cv::Mat colour;
-};
-
 /** Frames in order, rendered ahead by as many threads as there are processors. */
 class Renderers
 {
  public:
     explicit Renderers(const SimulatedSequence& sequence) : sequence_(sequence) {}
 
-    [[nodiscard]] Rendered next()
+    [[nodiscard]] RegisteredScan next()
     {
         const std::size_t ahead = std::max(1U, std::thread::hardware_concurrency());
         while (running_.size() < ahead && started_ < sequence_.numFrames())
         {
             const int frame = started_++;
-            running_.push_back(std::async(
-                std::launch::async,
-                [this, frame]
-                {
-                    Rendered out;
-                    out.frame = sequence_.frame(frame, &out.colour);
-                    return out;
-                }));
+            running_.push_back(
+                std::async(std::launch::async, [this, frame] { return render(frame); }));
         }
-        Rendered out = running_.front().get();
+        RegisteredScan out = running_.front().get();
         running_.pop_front();
         return out;
     }
 
  private:
+    [[nodiscard]] RegisteredScan render(int index) const
+    {
+        RegisteredScan out;
+        const RgbdFrame frame = sequence_.frame(index, &out.colour);
+        out.stamp = fromSeconds(frame.stamp);
+        out.camera = frame.camera;
+        out.depth = depthInUnits(frame.depth, out.unitsPerMetre);
+        return out;
+    }
+
     const SimulatedSequence& sequence_;
-    std::deque<std::future<Rendered>> running_;
+    std::deque<std::future<RegisteredScan>> running_;
     int started_{0};
 };
 
@@ -80,7 +78,7 @@ std::string tumLine(double stamp, const Eigen::Isometry3d& T)
 
 void writeGroundTruth(const SimulatedSequence& sequence, const SequenceOutput& output)
 {
-    TextOutput file(groundTruthPath(output.path));
+    TextOutput file(groundTruthOf(output.path));
     const bool robot = output.truthFrame == "robot";
     file.writeLine(
         robot ? "# exact pose in the world of the robot, axes x forward, y left, z up; its camera "
@@ -97,11 +95,6 @@ void writeGroundTruth(const SimulatedSequence& sequence, const SequenceOutput& o
 }
 }  // namespace
 
-std::string groundTruthPath(const std::string& rawlog)
-{
-    return std::filesystem::path(rawlog).replace_extension().string() + ".groundtruth.txt";
-}
-
 Eigen::Isometry3d robotFromCamera(const Eigen::Isometry3d& T_world_cam)
 {
     return T_world_cam * opticalInBody().inverse();
@@ -111,12 +104,12 @@ void writeSequence(
     const SimulatedSequence& sequence, const SequenceOutput& output, std::ostream& progress)
 {
     ScanWriter writer(output.path, output.label, output.external);
+    const auto start = fromSeconds(sequence.stamp(0));
     if (!output.hideShutter)
     {
-        writer.writeComment(
-            sequence.stamp(0), shutterComment(output.label, sequence.params().shutter()));
+        writer.writeComment(start, shutterComment(output.label, sequence.params().shutter()));
     }
-    writer.writeComment(sequence.stamp(0), output.description);
+    writer.writeComment(start, output.description);
     std::optional<ProgressBar> bar;
     if (!output.quiet)
     {
@@ -126,8 +119,7 @@ void writeSequence(
     const int numFrames = sequence.numFrames();
     for (int i = 0; i < numFrames; ++i)
     {
-        const Rendered rendered = renderers.next();
-        writer.write(rendered.frame, rendered.colour);
+        writer.write(renderers.next());
         if (bar)
         {
             bar->update(static_cast<double>(i + 1) / numFrames, static_cast<std::size_t>(i) + 1);

@@ -19,9 +19,6 @@ struct SequenceOutput
     std::string description;  //!< goes into a comment at the beginning, to render it again
 };
 
-/** `<path without extension>.groundtruth.txt` */
-[[nodiscard]] std::string groundTruthPath(const std::string& rawlog);
-
 /** Pose of the robot, MRPT axes (x forward, y left, z up), whose camera has sensorPose = identity:
  * what the odometry reports poses of. */
 [[nodiscard]] Eigen::Isometry3d robotFromCamera(const Eigen::Isometry3d& T_world_cam);

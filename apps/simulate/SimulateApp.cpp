@@ -3,6 +3,7 @@
 
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/params_ini.h>
+#include <pointplane/mrpt_io/rawlog_names.h>
 #include <pointplane/simulation/scenes.h>
 
 #include <cstdint>
@@ -128,7 +129,7 @@ int simulate(Arguments& args, std::ostream& out, std::ostream& err)
     args.output.description = describe(args, params);
     writeSequence(sequence, args.output, err);
     out << args.output.path << ": " << sequence.numFrames() << " frames\n"
-        << groundTruthPath(args.output.path) << ": ground truth\n";
+        << groundTruthOf(args.output.path) << ": ground truth\n";
     return kExitOk;
 }
 }  // namespace

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include "SmallDisk.h"
 #include "TempDir.h"
 #include "rawlog_samples.h"
 #include "tum_camera.h"
@@ -134,6 +135,32 @@ TEST_F(ConvertApp, cameraAndDelayReachTheFrame)
     EXPECT_TRUE(converted.frame.camera.depthAtUndistortedPixel);
     // Offsets -14.897 and +15.524 ms: the upper median.
     EXPECT_NEAR(converted.frame.shutter.depthDelay, 0.015524, 1e-6);
+}
+
+TEST_F(ConvertApp, aFullDiskIsExitCode3AndLeavesNothingThatLooksComplete)
+{
+    const std::string path = dir_ / "disk/out.rawlog";
+    for (const bool external : {false, true})
+    {
+        const auto code = test::onSmallDisk(
+            dir_ / "disk",
+            4,
+            [&]
+            {
+                std::vector<std::string> args{in_, "-o", path};
+                if (external)
+                {
+                    args.emplace_back("--external");
+                }
+                const int result = run(args);
+                return std::filesystem::exists(path) ? 99 : result;
+            });
+        if (!code)
+        {
+            GTEST_SKIP() << "this user may not mount a disk";
+        }
+        EXPECT_EQ(*code, kExitEnvironment) << external;
+    }
 }
 
 TEST_F(ConvertApp, externalFilesAreTheOriginalsAndGiveTheSameFrames)

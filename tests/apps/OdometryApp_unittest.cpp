@@ -8,7 +8,6 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include <algorithm>
-#include <csignal>
 #include <filesystem>
 #include <limits>
 #include <random>
@@ -20,8 +19,6 @@
 #include "rawlog_samples.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 namespace pointplane
 {
@@ -343,39 +340,6 @@ TEST_F(OdometryApp, externalFilesStayReachableFromTheOutput)
     EXPECT_THAT(outcome.err, HasSubstr("in_Images/1.bin: No such file"));
     EXPECT_THAT(outcome.err, HasSubstr("in_Images/2.png: is not an image, or damaged"));
     EXPECT_EQ(numPoses(out_), 3U);
-}
-
-TEST_F(OdometryApp, killedAtAnyMomentLeavesNothingThatLooksComplete)
-{
-    test::writeObservations(in_, 200);
-    writeBytes(out_, "the previous file");
-    std::mt19937 rng(11);
-    int numKilled = 0;
-    for (int i = 0; i < 10; ++i)
-    {
-        const pid_t child = fork();
-        ASSERT_GE(child, 0);
-        if (child == 0)
-        {
-            (void)run({in_, "-o", out_, "--jobs", "1"});
-            ::_exit(0);
-        }
-        ::usleep(static_cast<useconds_t>(1000 + rng() % 40000));
-        ::kill(child, SIGKILL);
-        int status = 0;
-        ASSERT_EQ(waitpid(child, &status, 0), child);
-        if (!WIFSIGNALED(status))
-        {
-            continue;  // it was faster
-        }
-        ++numKilled;
-        if (readBytes(out_) != "the previous file")
-        {
-            EXPECT_EQ(test::readAll(out_).ending.kind, RawlogEnd::Clean);  // killed after rename
-        }
-        writeBytes(out_, "the previous file");
-    }
-    EXPECT_GT(numKilled, 0);
 }
 
 TEST_F(OdometryApp, picturesOfEveryFrame)

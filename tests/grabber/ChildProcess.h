@@ -73,6 +73,8 @@ class ChildProcess
     ChildProcess(const ChildProcess&) = delete;
     ChildProcess& operator=(const ChildProcess&) = delete;
 
+    [[nodiscard]] pid_t pid() const { return pid_; }
+
     void signal(int number) const { ::kill(pid_, number); }
 
     /** \return exit code; 128 + signal number when killed; -1 when it does not end in time */

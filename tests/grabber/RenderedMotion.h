@@ -19,7 +19,8 @@ class RenderedMotion
  public:
     static constexpr double kFocal_px = 525.0;
 
-    explicit RenderedMotion(int numFrames) : sequence_("desk", params(numFrames), 3)
+    explicit RenderedMotion(int numFrames, int width = 640, int height = 480)
+        : sequence_("desk", params(numFrames, width, height), 3)
     {
         for (int k = 0; k < numFrames; ++k)
         {
@@ -63,10 +64,12 @@ class RenderedMotion
     }
 
  private:
-    static SimulationParams params(int numFrames)
+    static SimulationParams params(int numFrames, int width, int height)
     {
         SimulationParams p;
-        p.focalLengthPx = kFocal_px;
+        p.width = width;
+        p.height = height;
+        p.focalLengthPx = kFocal_px;  // of an image 640 px wide
         p.duration = (numFrames + 1) / p.fps;
         return p;
     }

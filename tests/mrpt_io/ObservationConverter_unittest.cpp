@@ -220,6 +220,23 @@ TEST_P(UnregisteredDepth, isRenderedIntoTheColourCamera)
 }
 INSTANTIATE_TEST_SUITE_P(ColourWidths, UnregisteredDepth, testing::Values(80, 160, 400));
 
+/** Intrinsics of a damaged file: whatever they are, registration ends, and soon. */
+TEST(ObservationConverter, unregisteredDepthWithAnyIntrinsics)
+{
+    for (const double focal_px : {1e-3, 1e-2, 1e8, 1e300, -1e300})
+    {
+        for (const double centre_px : {0.0, 1e30, -1e300})
+        {
+            const auto scan = sampleScan(0, 320, 240);
+            scan->cameraParams.setIntrinsicParamsFromValues(focal_px, focal_px, 16, 12);
+            scan->cameraParamsIntensity.setIntrinsicParamsFromValues(260, 260, centre_px, 120);
+            const ConvertedFrame converted = ObservationConverter().convert(*scan);
+            ASSERT_EQ(converted.problem, "");
+            EXPECT_EQ(converted.frame.depth.size(), cv::Size(320, 240));
+        }
+    }
+}
+
 TEST(ObservationConverter, nearSurfaceHidesTheFarOne)
 {
     const PlaneScene scene;

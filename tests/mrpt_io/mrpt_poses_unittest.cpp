@@ -144,6 +144,16 @@ TEST(MrptPoses, writtenCovarianceIsPositiveDefiniteWhateverComes)
     EXPECT_TRUE(isPositiveDefinite(Matrix6d(toMrpt(pose).cov.asEigen())));
 }
 
+TEST(MrptPoses, stampsOutsideOfTheClockStayInside)
+{
+    const auto earliest = mrpt::Clock::time_point::min(), latest = mrpt::Clock::time_point::max();
+    EXPECT_NEAR(toSeconds(earliest), -9.2e11, 1e10);
+    EXPECT_NEAR(toSeconds(latest), 9.1e11, 1e10);
+    EXPECT_EQ(stampText(earliest).front(), '-');
+    EXPECT_NEAR(toSeconds(fromSeconds(1e300)), 9e11, 1);
+    EXPECT_NEAR(toSeconds(fromSeconds(-1e300)), -9e11, 1);
+}
+
 TEST(MrptPoses, stampsAreExact)
 {
     EXPECT_EQ(stampText(stampFromText("1305031102.175304")), "1305031102.175304000");

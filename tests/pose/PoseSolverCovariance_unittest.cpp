@@ -2,7 +2,10 @@
 #include <pointplane/evaluation/chi_square.h>
 #include <pointplane/pose/PoseSolver.h>
 
+#include <Eigen/LU>
+
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "synthetic_pairs.h"
@@ -25,7 +28,8 @@ Consistency consistency(
     test::PairWorld& world,
     const PoseSolver::TParams& params,
     const std::optional<Matrix6d>& priorCov = std::nullopt,
-    double noiseScale = 1)
+    double noiseScale = 1,
+    const NoiseFactors& noise = {})
 {
     const PoseSolver solver(params);
     Consistency out;
@@ -33,20 +37,19 @@ Consistency consistency(
     Matrix6d meanCov = Matrix6d::Zero();
     for (int i = 0; i < kRuns; ++i)
     {
-        std::optional<PoseGaussian> prior;
-        Eigen::Isometry3d start = Eigen::Isometry3d::Identity();
+        MotionPrior prior = MotionPrior::fixedVelocity({});
         if (priorCov)
         {
             // truth = exp(xi) * mean
             const Vector6d xi = world.sampler().sample(*priorCov);
-            prior = PoseGaussian{se3Exp(-xi) * world.T_base_cur, *priorCov};
-            start = prior->mean;
+            prior.mean.T_base_cur = se3Exp(-xi) * world.T_base_cur;
+            prior.pose = priorCov->inverse();
         }
-        const PoseEstimate e =
-            solver.solve(world.drawPoints(noiseScale), world.drawPlanes(noiseScale), start, prior);
-        errors.push_back(leftError(world.T_base_cur, e.T_base_cur.mean));
-        out.nees += errors.back().dot(e.T_base_cur.cov.ldlt().solve(errors.back())) / kRuns;
-        meanCov += e.T_base_cur.cov / kRuns;
+        const PoseEstimate e = solver.solve(
+            world.drawPoints(noiseScale), world.drawPlanes(noiseScale), prior.mean, prior, noise);
+        errors.push_back(leftError(world.T_base_cur, e.pose().mean));
+        out.nees += errors.back().dot(e.pose().cov.ldlt().solve(errors.back())) / kRuns;
+        meanCov += e.pose().cov / kRuns;
     }
     out.shapeDifference = test::whitenedDifference(test::sampleCovariance(errors), meanCov);
     return out;
@@ -57,6 +60,7 @@ PoseSolver::TParams gaussian()
     PoseSolver::TParams params;
     params.tukeySigmas = 0;
     params.planeStudentDof = 0;
+    params.priorStudentDof = 0;
     return params;
 }
 
@@ -133,10 +137,8 @@ TEST(PoseSolverCovariance, ofSuboptimalWeights)
 TEST(PoseSolverCovariance, ofCorrelatedNoiseByItsFactor)
 {
     auto world = makeWorld(37, 25, 4);
-    PoseSolver::TParams params = gaussian();
-    params.pointVarianceFactor = params.planeVarianceFactor = 9;
     const Matrix6d cov = world.sampler().covariance<6>(1e-6, 2e-5);
-    expectConsistent(consistency(world, params, cov, 3));
+    expectConsistent(consistency(world, gaussian(), cov, 3, {9, 9}));
 }
 
 /** Down-weighting what is far out by chance costs efficiency, which the covariance must admit. */
@@ -154,5 +156,46 @@ TEST(PoseSolverCovariance, ofStudentsWeights)
     PoseSolver::TParams params = gaussian();
     params.planeStudentDof = PoseSolver::TParams{}.planeStudentDof;
     expectConsistent(consistency(world, params));
+}
+
+/** A rolling shutter tells the velocity, and what it leaves of it makes the pose uncertain. */
+TEST(PoseSolverCovariance, ofPoseAndVelocityTogether)
+{
+    auto world = makeWorld(39, 40, 3);
+    MotionGaussian predicted;
+    predicted.cov.diagonal() << Vector6d::Constant(1e-4), Vector6d::Constant(0.01);
+    predicted.cov.topRightCorner<6, 6>() = predicted.cov.bottomLeftCorner<6, 6>() =
+        5e-4 * Matrix6d::Identity();
+    const PoseSolver solver(gaussian());
+    Consistency c;
+    double velocityNees = 0, velocityGain = 0;
+    for (int i = 0; i < kRuns; ++i)
+    {
+        const Vector12d deviation = world.sampler().sample(predicted.cov);
+        predicted.mean.T_base_cur = se3Exp(-deviation.head<6>()) * world.T_base_cur;
+        const Vector6d velocity = predicted.mean.velocity + deviation.tail<6>();
+        auto points = world.drawPoints();
+        for (size_t k = 0; k < points.size(); ++k)
+        {
+            // Rows from top to bottom are exposed within 30 ms.
+            const double s = 0.03 * (static_cast<double>(k) / points.size() - 0.5);
+            Matrix36d D;
+            D << s * Eigen::Matrix3d::Identity(), -s * hat(points[k].cur.mean);
+            points[k].dCur_dV = D;
+            points[k].cur.mean -= D * velocity;
+        }
+        const PoseEstimate e =
+            solver.solve(points, world.drawPlanes(), predicted.mean, MotionPrior::from(predicted));
+        Vector12d error;
+        error << leftError(world.T_base_cur, e.pose().mean), velocity - e.motion.mean.velocity;
+        c.nees += error.dot(e.motion.cov.ldlt().solve(error)) / kRuns;
+        velocityNees += error.tail<6>().dot(
+                            e.motion.cov.bottomRightCorner<6, 6>().ldlt().solve(error.tail<6>())) /
+                        kRuns;
+        velocityGain += e.motion.cov(6, 6) / predicted.cov(6, 6) / kRuns;
+    }
+    EXPECT_NEAR(c.nees / 12, 1, 0.08);
+    EXPECT_NEAR(velocityNees / 6, 1, 0.12);
+    EXPECT_LT(velocityGain, 0.7);
 }
 }  // namespace pointplane

@@ -27,11 +27,27 @@ Eigen::Isometry3d randomPose(test::GaussianSampler& sampler)
     return se3Exp(0.3 * sampler.vector<6>());
 }
 
+Motion still(const Eigen::Isometry3d& T) { return {T, Vector6d::Zero()}; }
+
+Motion randomMotion(test::GaussianSampler& sampler)
+{
+    return {randomPose(sampler), sampler.vector<6>()};
+}
+
+Matrix36d randomMatrix36(test::GaussianSampler& sampler)
+{
+    Matrix36d out;
+    out << sampler.vector<6>().transpose(), sampler.vector<6>().transpose(),
+        sampler.vector<6>().transpose();
+    return out;
+}
+
 PointPair randomPointPair(test::GaussianSampler& sampler)
 {
     return {
         {sampler.vector<3>(), sampler.covariance<3>(1e-4, 1e-2)},
-        {sampler.vector<3>(), sampler.covariance<3>(1e-4, 1e-2)}};
+        {sampler.vector<3>(), sampler.covariance<3>(1e-4, 1e-2)},
+        0.02 * randomMatrix36(sampler)};
 }
 
 PlanePair randomPlanePair(test::GaussianSampler& sampler)
@@ -39,18 +55,23 @@ PlanePair randomPlanePair(test::GaussianSampler& sampler)
     const Eigen::Vector3d theta(sampler.uniform(-0.3, 0.3), sampler.uniform(-0.3, 0.3), -0.5);
     return {
         {theta + 0.05 * sampler.vector<3>(), sampler.covariance<3>(1e-8, 1e-6)},
-        {theta, sampler.covariance<3>(1e-8, 1e-6)}};
+        {theta, sampler.covariance<3>(1e-8, 1e-6)},
+        0.005 * randomMatrix36(sampler)};
 }
 
-/** J of any residual against central differences of the left perturbation. */
+/** J and J_V of any residual against central differences of the left perturbation and of the
+ * velocity. */
 template <class Pair, class F>
-void expectJacobian(const Pair& pair, const Eigen::Isometry3d& T, const F& residual)
+void expectJacobians(const Pair& pair, const Motion& motion, const F& residual)
 {
-    const auto r = [&](const Vector6d& xi) -> Eigen::Vector3d
-    { return residual(pair, Eigen::Isometry3d(se3Exp(xi) * T)).r; };
-    EXPECT_THAT(
-        residual(pair, T).J,
-        test::IsMatrixNear(test::numericJacobian(r, Vector6d::Zero().eval()), 1e-7));
+    const auto r = [&](const Vector12d& dx) -> Eigen::Vector3d
+    {
+        const Eigen::Isometry3d T = se3Exp(dx.head<6>()) * motion.T_base_cur;
+        return residual(pair, Motion{T, motion.velocity + dx.tail<6>()}).r;
+    };
+    Eigen::Matrix<double, 3, 12> J;
+    J << residual(pair, motion).J, residual(pair, motion).J_V;
+    EXPECT_THAT(J, test::IsMatrixNear(test::numericJacobian(r, Vector12d::Zero().eval()), 1e-7));
 }
 }  // namespace
 
@@ -62,7 +83,7 @@ TEST(Residuals, pointByHand)
     pair.cur.mean << 1, 0, 0;
     pair.cur.cov = Eigen::Vector3d(4, 5, 6).asDiagonal();
     // R P + t = (0, 1, 0) + (1, 2, 3); the turn swaps the first two variances.
-    const Residual r = pointResidual(pair, quarterTurn());
+    const Residual r = pointResidual(pair, still(quarterTurn()));
     EXPECT_THAT(r.r, test::IsMatrixNear(Eigen::Vector3d(0.5, 0, -1), 1e-15));
     const Eigen::Matrix3d cov = Eigen::Vector3d(6, 6, 9).asDiagonal();
     EXPECT_THAT(r.cov, test::IsMatrixNear(cov, 1e-14));
@@ -80,11 +101,11 @@ TEST(Residuals, planesByHand)
     Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
     T.translation().z() = 0.05;
     EXPECT_THAT(
-        planeResidualMinimal(pair, T).r,
+        planeResidualMinimal(pair, still(T)).r,
         test::IsMatrixNear(Eigen::Vector3d(0, 0, -1 / 2.1 + 1 / 2.05), 1e-15));
     // C = d n = -z n_z: metres.
     EXPECT_THAT(
-        planeResidualClosestPoint(pair, T).r,
+        planeResidualClosestPoint(pair, still(T)).r,
         test::IsMatrixNear(Eigen::Vector3d(0, 0, -2.1 + 2.05), 1e-14));
 }
 
@@ -106,31 +127,34 @@ TEST(Residuals, vanishAtTheTruth)
     test::GaussianSampler sampler(2);
     const Eigen::Isometry3d T = randomPose(sampler);
     PointPair points = randomPointPair(sampler);
-    points.base.mean = T * points.cur.mean;
-    EXPECT_LT(pointResidual(points, T).r.norm(), 1e-14);
+    const Motion motion{T, sampler.vector<6>()};
+    points.base.mean = T * (points.cur.mean + points.dCur_dV * motion.velocity);
+    EXPECT_LT(pointResidual(points, motion).r.norm(), 1e-14);
     PlanePair planes = randomPlanePair(sampler);
-    planes.base.theta_m = transformed(T, planes.cur).theta_m;
-    EXPECT_LT(planeResidualMinimal(planes, T).r.norm(), 1e-14);
-    EXPECT_LT(planeResidualClosestPoint(planes, T).r.norm(), 1e-13);
+    PlaneGaussian atRest = planes.cur;
+    atRest.theta_m += planes.dCur_dV * motion.velocity;
+    planes.base.theta_m = transformed(T, atRest).theta_m;
+    EXPECT_LT(planeResidualMinimal(planes, motion).r.norm(), 1e-14);
+    EXPECT_LT(planeResidualClosestPoint(planes, motion).r.norm(), 1e-13);
 }
 
-TEST(Residuals, jacobiansAreThoseOfTheLeftPerturbation)
+TEST(Residuals, jacobiansAreThoseOfTheLeftPerturbationAndOfTheVelocity)
 {
     test::GaussianSampler sampler(3);
     for (int i = 0; i < 50; ++i)
     {
-        const Eigen::Isometry3d T = randomPose(sampler);
-        expectJacobian(randomPointPair(sampler), T, pointResidual);
+        const Motion motion = randomMotion(sampler);
+        expectJacobians(randomPointPair(sampler), motion, pointResidual);
         const PlanePair planes = randomPlanePair(sampler);
-        expectJacobian(planes, T, planeResidualMinimal);
-        expectJacobian(planes, T, planeResidualClosestPoint);
+        expectJacobians(planes, motion, planeResidualMinimal);
+        expectJacobians(planes, motion, planeResidualClosestPoint);
     }
 }
 
 TEST(Residuals, covariancesAreThoseOfMonteCarlo)
 {
     test::GaussianSampler sampler(4);
-    const Eigen::Isometry3d T = randomPose(sampler);
+    const Motion T = randomMotion(sampler);
     const PointPair points = randomPointPair(sampler);
     const PlanePair planes = randomPlanePair(sampler);
     const Eigen::Vector3d pointMean = pointResidual(points, T).r;

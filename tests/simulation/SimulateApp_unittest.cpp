@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "SequenceWriter.h"
+#include "SmallDisk.h"
 #include "TempDir.h"
 #include "matchers.h"
 #include <gmock/gmock.h>
@@ -236,6 +237,36 @@ TEST(SimulateApp, unwritableOutputIsTheEnvironmentsFault)
     const Finished result = run({"corner", "-o", "/no/such/dir/a.rawlog", "--duration", "0"});
     EXPECT_EQ(result.code, 3);
     EXPECT_THAT(result.err, testing::HasSubstr("/no/such/dir/a.rawlog"));
+}
+
+TEST(SimulateApp, aFullDiskIsReportedAndLeavesNothingThatLooksComplete)
+{
+    const test::TempDir dir;
+    const std::string path = dir / "disk/a.rawlog";
+    for (const bool external : {false, true})
+    {
+        std::vector<std::string> args = smallRun(path);
+        if (external)
+        {
+            args.emplace_back("--external");
+        }
+        for (const int kilobytes : {4, 100, 300})
+        {
+            const auto code = test::onSmallDisk(
+                dir / "disk",
+                kilobytes,
+                [&]
+                {
+                    const Finished result = run(args);
+                    return std::filesystem::exists(path) ? 99 : result.code;
+                });
+            if (!code)
+            {
+                GTEST_SKIP() << "this user may not mount a disk";
+            }
+            EXPECT_EQ(*code, 3) << external << " with " << kilobytes << " kB";
+        }
+    }
 }
 
 TEST(SimulateApp, listsItsSettingsAndScenes)

@@ -4,10 +4,16 @@
 #include <pointplane/mrpt_io/RawlogReader.h>
 #include <pointplane/mrpt_io/RawlogWriter.h>
 
+#include <mrpt/io/CFileGZInputStream.h>
 #include <mrpt/obs/CActionCollection.h>
+#include <mrpt/obs/CActionRobotMovement2D.h>
 #include <mrpt/obs/CActionRobotMovement3D.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CObservationComment.h>
+#include <mrpt/obs/CObservationIMU.h>
+#include <mrpt/obs/CObservationImage.h>
+#include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <mrpt/obs/CSensoryFrame.h>
 
@@ -77,6 +83,50 @@ inline void writeActionsAndFrames(
         writer.write(frame);
     }
     writer.close();
+}
+
+/** One object of each class that robots commonly log beside RGB-D, in each of its forms. */
+[[nodiscard]] inline std::vector<mrpt::serialization::CSerializable::Ptr> otherSensors()
+{
+    auto imu = mrpt::obs::CObservationIMU::Create();
+    imu->sensorLabel = "IMU";
+    auto laser = mrpt::obs::CObservation2DRangeScan::Create();
+    laser->resizeScan(361);
+    auto brightLaser = mrpt::obs::CObservation2DRangeScan::Create();
+    brightLaser->resizeScan(7);
+    brightLaser->setScanHasIntensity(true);
+    auto camera = mrpt::obs::CObservationImage::Create();
+    camera->image.resize(8, 6, mrpt::img::CH_GRAY);
+    auto wheels = mrpt::obs::CObservationOdometry::Create();
+    auto fullWheels = mrpt::obs::CObservationOdometry::Create();
+    fullWheels->hasEncodersInfo = fullWheels->hasVelocities = true;
+    std::vector<mrpt::serialization::CSerializable::Ptr> out{
+        imu, laser, brightLaser, camera, wheels, fullWheels};
+    using Movement = mrpt::obs::CActionRobotMovement2D;
+    for (const auto method : {Movement::emOdometry, Movement::emScan2DMatching})
+    {
+        Movement movement;
+        movement.estimationMethod = method;
+        movement.hasVelocities = method == Movement::emOdometry;
+        movement.hasEncodersInfo = method == Movement::emScan2DMatching;
+        auto actions = mrpt::obs::CActionCollection::Create();
+        actions->insert(movement);
+        out.push_back(actions);
+    }
+    return out;
+}
+
+/** The decompressed bytes of a gz rawlog. */
+[[nodiscard]] inline std::string decompressed(const std::string& path)
+{
+    mrpt::io::CFileGZInputStream in(path);
+    std::string out;
+    char buffer[65536];
+    while (const std::size_t n = in.Read(buffer, sizeof(buffer)))
+    {
+        out.append(buffer, n);
+    }
+    return out;
 }
 
 /** Everything in a rawlog, and how it ended. */

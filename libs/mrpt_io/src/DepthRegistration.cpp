@@ -13,12 +13,21 @@ constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 /** Neighbours whose inverse depth differs by more lie on another surface: some 20 standard
  * deviations of a Kinect [1/m]. */
 constexpr float kMaxGradient = 0.03F;
+/** A reading that would cover more pixels of the target is next to its lens, or the intrinsics are
+ * nonsense. */
+constexpr double kMaxSplat_px = 50;
 
 /** Change of inverse depth per pixel between two neighbours, or 0 across an edge or a hole. */
 [[nodiscard]] float gradient(float before, float after)
 {
     const float difference = 0.5F * (1 / after - 1 / before);
     return std::abs(difference) <= kMaxGradient ? difference : 0.0F;  // false for NaN
+}
+
+/** x as a whole number of [low, high]; NaN is low. */
+[[nodiscard]] int indexWithin(int low, int high, double x)
+{
+    return static_cast<int>(std::fmin(std::fmax(x, low), high));
 }
 }  // namespace
 
@@ -58,11 +67,12 @@ void DepthRegistration::splat(const cv::Mat& depth, int u, int v, cv::Mat& out) 
     const double zoom = static_cast<double>(z) * inverse;
     const double sizeU = 1.01 * std::abs(target_.fx / source_.fx) * zoom;
     const double sizeV = 1.01 * std::abs(target_.fy / source_.fy) * zoom;
-    const int firstU = std::max(0, static_cast<int>(std::ceil(centreU - sizeU / 2)));
-    const int lastU = std::min(out.cols - 1, static_cast<int>(std::floor(centreU + sizeU / 2)));
-    const int firstV = std::max(0, static_cast<int>(std::ceil(centreV - sizeV / 2)));
-    const int lastV = std::min(out.rows - 1, static_cast<int>(std::floor(centreV + sizeV / 2)));
-    if (firstU > lastU || firstV > lastV)
+    const int firstU = indexWithin(0, out.cols, std::ceil(centreU - sizeU / 2));
+    const int lastU = indexWithin(-1, out.cols - 1, std::floor(centreU + sizeU / 2));
+    const int firstV = indexWithin(0, out.rows, std::ceil(centreV - sizeV / 2));
+    const int lastV = indexWithin(-1, out.rows - 1, std::floor(centreV + sizeV / 2));
+    const bool sensible = sizeU < kMaxSplat_px && sizeV < kMaxSplat_px;
+    if (!sensible || firstU > lastU || firstV > lastV)
     {
         return;
     }

@@ -202,7 +202,7 @@ void ObjectScanner::copyBody(const Header& header, int depth)
         const auto rows = copyValue<std::uint32_t>();
         copyArray(numPixels(copyValue<std::uint32_t>(), rows), sizeof(float));
     }
-    else
+    else if (!otherSensor(header, depth))
     {
         opaque(header);
         return;

@@ -16,8 +16,9 @@ namespace pointplane
  *
  * MRPT allocates what a length field says before it reads, unchecked: a flipped bit means gigabytes
  * or a crash. The scanner knows the layout of the classes of RGB-D rawlogs (observations, poses,
- * images, frames and actions, in the versions listed in the source) and grows its buffer only as
- * bytes arrive. Objects of other classes are measured by letting MRPT read them. */
+ * images, frames and actions, in the versions listed in the source) and of the sensors that robots
+ * commonly log beside, and grows its buffer only as bytes arrive. Objects of other classes are
+ * measured by letting MRPT read them: their length fields are believed. */
 class ObjectScanner
 {
  public:
@@ -79,6 +80,16 @@ class ObjectScanner
     void colourPixels(int version);
     void camera(int version);
     void pose3D(int version);
+
+    /** False when the class is none of them. */
+    bool otherSensor(const Header& header, int depth);
+    void rangeScan2D(int version);
+    void imu(int version);
+    void wheelOdometry();
+    void movement2D(int depth);
+    void velocities();
+    void wheels();
+
     void opaque(const Header& header);
 
     GzInput& in_;

@@ -53,7 +53,7 @@ mrpt::math::CMatrix_u16 readExternalRange(const std::string& path)
             path + ": " +
             (in.problem().empty() ? "has more than its " + sizeText + " readings" : in.problem()));
     }
-    mrpt::math::CMatrix_u16 out(static_cast<int>(size[0]), static_cast<int>(size[1]));
+    mrpt::math::CMatrix_u16 out(size[0], size[1]);
     std::memcpy(out.data(), readings.data(), readings.size() * sizeof(std::uint16_t));
     return out;
 }
@@ -63,13 +63,13 @@ void moveRangeToFile(
 {
     const std::string path = directory + "/" + name;
     const mrpt::math::CMatrix_u16 readings = scan.rangeImage;
-    scan.rangeImage_convertToExternalStorage(name, directory + "/");
     bool same = false;
     try
     {
+        scan.rangeImage_convertToExternalStorage(name, directory + "/");
         same = readExternalRange(path) == readings;
     }
-    catch (const InputError&)
+    catch (const std::exception&)  // MRPT's, when a large write fails
     {
     }
     if (!same)

@@ -20,9 +20,12 @@ constexpr std::int64_t kTicksPerSecond = 10'000'000;
 constexpr std::int64_t kTicksTo1970 = 116'444'736'000'000'000;  // MRPT counts from 1601
 constexpr int kTickDigits = 7;
 
+/** The stamp of a damaged file may be any number: the earliest ones are moved into the range. */
 [[nodiscard]] std::int64_t ticksSince1970(mrpt::Clock::time_point stamp)
 {
-    return stamp.time_since_epoch().count() - kTicksTo1970;
+    constexpr std::int64_t kEarliest = std::numeric_limits<std::int64_t>::min() + kTicksTo1970 + 1;
+    const std::int64_t ticks = stamp.time_since_epoch().count();
+    return std::max(ticks, kEarliest) - kTicksTo1970;
 }
 
 [[nodiscard]] mrpt::Clock::time_point fromTicksSince1970(std::int64_t ticks)
@@ -105,7 +108,9 @@ double toSeconds(mrpt::Clock::time_point stamp)
 
 mrpt::Clock::time_point fromSeconds(double seconds)
 {
-    return fromTicksSince1970(std::llround(seconds * static_cast<double>(kTicksPerSecond)));
+    constexpr double kMaxTicks = 9e18;  // with kTicksTo1970 still a 64-bit number
+    const double ticks = seconds * static_cast<double>(kTicksPerSecond);
+    return fromTicksSince1970(std::llround(std::fmin(std::fmax(ticks, -kMaxTicks), kMaxTicks)));
 }
 
 std::string stampText(mrpt::Clock::time_point stamp)

@@ -3,6 +3,8 @@
 #include <pointplane/core/se3.h>
 #include <pointplane/odometry/MotionModel.h>
 
+#include <Eigen/Cholesky>
+
 #include <algorithm>
 #include <cmath>
 
@@ -15,6 +17,23 @@ constexpr double kFramePeriod = 1.0 / 30;
 /** Until a velocity has been measured: as fast as hands move. */
 constexpr double kUnknownVelocity = 0.5;         // [m/s]
 constexpr double kUnknownAngularVelocity = 1.0;  // [rad/s]
+
+/** After a longer time nothing more can become unknown; stamps may be any number. */
+constexpr double kLongestStep = 24 * 3600.0;
+
+/** Of the least random walk, to start with. */
+constexpr double kInitial = 10;
+
+/** Of a velocity that decays, all that can become unknown of it in the end. */
+constexpr double kLongestCoasting = 1.0;
+
+/** One value for each half of a tangent vector. */
+Vector6d perAxis(double translation, double rotation)
+{
+    Vector6d out;
+    out << Eigen::Vector3d::Constant(translation), Eigen::Vector3d::Constant(rotation);
+    return out;
+}
 }  // namespace
 
 void MotionModel::TParams::check() const
@@ -26,73 +45,107 @@ void MotionModel::TParams::check() const
     POINTPLANE_CHECK(
         angularVelocityRandomWalk > 0,
         "angularVelocityRandomWalk = " << angularVelocityRandomWalk << " is not positive");
+    POINTPLANE_CHECK(
+        sigmaAcceleration > 0, "sigmaAcceleration = " << sigmaAcceleration << " is not positive");
+    POINTPLANE_CHECK(
+        sigmaAngularAcceleration > 0,
+        "sigmaAngularAcceleration = " << sigmaAngularAcceleration << " is not positive");
+    POINTPLANE_CHECK(timeConstant > 0, "timeConstant = " << timeConstant << " is not positive");
 }
 
-MotionModel::MotionModel(const TParams& params) : params_(params) { reset(); }
+MotionModel::MotionModel(const TParams& params) : params_(params)
+{
+    params_.check();
+    reset();
+}
 
 MotionGaussian MotionModel::predict(double dt) const
 {
-    MotionGaussian out;
-    out.mean = {se3Exp(velocity_ * dt), velocity_};
+    const double t = std::min(dt, kLongestStep);
     const Matrix6d Q = density_.asDiagonal();
-    out.cov << dt * dt * cov_ + dt * dt * dt / 3 * Q, dt * cov_ + dt * dt / 2 * Q,
-        dt * cov_ + dt * dt / 2 * Q, cov_ + dt * Q;
+    MotionGaussian out;
+    out.mean = {se3Exp(velocity_ * t), velocity_};
+    out.cov << t * t * cov_ + t * t * t / 3 * Q, t * cov_ + t * t / 2 * Q, t * cov_ + t * t / 2 * Q,
+        cov_ + t * Q;
     return out;
+}
+
+Matrix6d MotionModel::jerk(double dt) const
+{
+    const double t = std::min(dt, kLongestStep);
+    return perAxis(params_.sigmaAcceleration, params_.sigmaAngularAcceleration)
+               .cwiseAbs2()
+               .asDiagonal() *
+           std::pow(t, 4);
+}
+
+void MotionModel::follow(const Eigen::Isometry3d& T_prev_cur, double dt)
+{
+    velocity_ = se3Log(T_prev_cur) / std::min(dt, kLongestStep);
+    cov_ = (dt * density_).cwiseMin(1.0).asDiagonal();
+    measured_ = true;
+    coasting_ = 0;
 }
 
 Vector6d MotionModel::update(const MotionGaussian& measured, double dt)
 {
-    const MotionGaussian predicted = predict(dt);
-    Eigen::Matrix<double, 12, 6> covWithVelocity;  // of the predicted motion with velocity_
-    covWithVelocity << dt * cov_, cov_;
+    const double t = std::min(dt, kLongestStep);
+    const MotionGaussian predicted = predict(t);
     Vector12d innovation;
     innovation << leftError(measured.mean.T_base_cur, predicted.mean.T_base_cur),
         measured.mean.velocity - predicted.mean.velocity;
-    const Vector6d smoothed =
-        velocity_ + covWithVelocity.transpose() * predicted.cov.ldlt().solve(innovation);
-    adapt(predicted, measured, innovation, dt);
-    if (getenv("QDBG")) fprintf(stderr,"q %.3f %.3f\n",std::sqrt(density_[0]),std::sqrt(density_[3]));
+    const auto solver = predicted.cov.ldlt();
+
+    // Rauch-Tung-Striebel: covariance of the predicted motion with the velocity before it.
+    Matrix126d covWithStart;
+    covWithStart << t * cov_, cov_;
+    const Vector6d smoothed = velocity_ + covWithStart.transpose() * solver.solve(innovation);
+
+    // And with the change of velocity on the way.
+    const Matrix6d Q = density_.asDiagonal();
+    Matrix126d covWithChange;
+    covWithChange << t * t / 2 * Q, t * Q;
+    const Matrix126d gain = solver.solve(covWithChange);
+    const Vector6d change = gain.transpose() * innovation;
+    const Matrix6d cov = t * Q - gain.transpose() * (predicted.cov - measured.cov) * gain;
+    adapt((change.cwiseAbs2() + cov.diagonal().cwiseMax(0)) / t, t);
+
     velocity_ = measured.mean.velocity;
     cov_ = measured.cov.bottomRightCorner<6, 6>();
+    measured_ = true;
+    coasting_ = 0;
     return smoothed;
 }
 
-/** One step of expectation-maximisation, averaged over time: the mean square of the velocity's
- * change given the measurement. */
-void MotionModel::adapt(const MotionGaussian& predicted, const MotionGaussian& measured, const Vector12d& innovation, double dt)
+/** One step of expectation maximisation, averaged over time. */
+void MotionModel::adapt(const Vector6d& meanSquare, double dt)
 {
-    const Matrix6d Q = density_.asDiagonal();
-    Eigen::Matrix<double, 12, 6> covWithChange;
-    covWithChange << dt * dt / 2 * Q, dt * Q;
-    const Eigen::Matrix<double, 12, 6> gain = predicted.cov.ldlt().solve(covWithChange);
-    const Vector6d change = gain.transpose() * innovation;
-    const Vector6d var = (dt * Q - gain.transpose() * (predicted.cov - measured.cov) * gain).diagonal();
-    const Vector6d meanSquare = (change.cwiseAbs2() + var.cwiseMax(0)) / dt;
     const double rate = 1 - std::exp(-dt / params_.timeConstant);
-    const double floors[] = {params_.velocityRandomWalk, params_.angularVelocityRandomWalk};
-    for (int k = 0; k < 2; ++k)
-    {
-        auto block = density_.segment<3>(3 * k);
-        const double value = block[0] + rate * (meanSquare.segment<3>(3 * k).mean() - block[0]);
-        block.setConstant(std::max(value, floors[k] * floors[k]));
-    }
+    const Vector6d target = perAxis(meanSquare.head<3>().mean(), meanSquare.tail<3>().mean());
+    density_ = (density_ + rate * (target - density_)).cwiseMax(smallestDensity());
+}
+
+Vector6d MotionModel::smallestDensity() const
+{
+    return perAxis(params_.velocityRandomWalk, params_.angularVelocityRandomWalk).cwiseAbs2();
 }
 
 void MotionModel::coast(double dt)
 {
-    velocity_ *= std::pow(params_.decay, dt / kFramePeriod);
-    cov_.diagonal() += std::min(dt, 1.0) * density_;
-    cov_ = cov_.cwiseMin(1e6);
+    const double kept = std::pow(params_.decay, dt / kFramePeriod);
+    velocity_ *= kept;
+    // What decays is uncertain by as much as it decays; the rest is white acceleration.
+    const double t = std::min(dt, kLongestCoasting - coasting_);
+    coasting_ += t;
+    cov_.diagonal() += t * density_ + (1 - kept) * velocity_.cwiseAbs2();
 }
 
 void MotionModel::reset()
 {
     velocity_.setZero();
-    density_ << Eigen::Vector3d::Constant(params_.velocityRandomWalk),
-        Eigen::Vector3d::Constant(params_.angularVelocityRandomWalk);
-    density_ = density_.cwiseAbs2();
-    cov_.setZero();
-    cov_.diagonal() << Eigen::Vector3d::Constant(kUnknownVelocity * kUnknownVelocity),
-        Eigen::Vector3d::Constant(kUnknownAngularVelocity * kUnknownAngularVelocity);
+    measured_ = false;
+    coasting_ = 0;
+    density_ = kInitial * kInitial * smallestDensity();
+    cov_ = perAxis(kUnknownVelocity, kUnknownAngularVelocity).cwiseAbs2().asDiagonal();
 }
 }  // namespace pointplane

@@ -9,13 +9,18 @@ namespace pointplane
 {
 namespace
 {
-constexpr double kMin = 0.1, kMax = 100;
+/** A few odd frames must neither make features certain nor worthless. */
+constexpr double kMinVariance = 0.1, kMaxVariance = 100;
+
+/** Before anything is known. */
+constexpr double kInitialVariance = 4;
 }  // namespace
 
 void NoiseScale::TParams::check() const
 {
     POINTPLANE_CHECK(timeConstant > 0, "timeConstant = " << timeConstant << " is not positive");
-    POINTPLANE_CHECK(initial > 0, "initial = " << initial << " is not positive");
+    POINTPLANE_CHECK(pointFactor > 0, "pointFactor = " << pointFactor << " is not positive");
+    POINTPLANE_CHECK(planeFactor > 0, "planeFactor = " << planeFactor << " is not positive");
 }
 
 NoiseScale::NoiseScale(const TParams& params) : params_(params)
@@ -23,7 +28,7 @@ NoiseScale::NoiseScale(const TParams& params) : params_(params)
     params_.check();
     if (params_.adaptive)
     {
-        factors_ = {params_.initial, params_.initial};
+        residuals_ = {kInitialVariance, kInitialVariance};
     }
 }
 
@@ -33,15 +38,20 @@ void NoiseScale::update(const PoseEstimate& estimate, double dt)
     {
         return;
     }
-    const double gain = 1 - std::exp(-dt / params_.timeConstant);
-    const auto follow = [gain](double& factor, double chi2PerDof)
+    const double rate = 1 - std::exp(-dt / params_.timeConstant);
+    const auto follow = [rate](double& average, double variance)
     {
-        if (chi2PerDof > 0)
+        if (variance > 0)
         {
-            factor += gain * (std::clamp(chi2PerDof, kMin, kMax) - factor);
+            average += rate * (std::clamp(variance, kMinVariance, kMaxVariance) - average);
         }
     };
-    follow(factors_.points, estimate.pointScale);
-    follow(factors_.planes, estimate.planeScale);
+    follow(residuals_.points, estimate.pointVariance);
+    follow(residuals_.planes, estimate.planeVariance);
+}
+
+NoiseFactors NoiseScale::factors() const
+{
+    return {residuals_.points * params_.pointFactor, residuals_.planes * params_.planeFactor};
 }
 }  // namespace pointplane

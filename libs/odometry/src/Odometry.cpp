@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/core/covariance.h>
-#include <pointplane/core/se3.h>
 #include <pointplane/odometry/Odometry.h>
 #include <pointplane/odometry/PairBuilder.h>
 
-#include <Eigen/Eigenvalues>
-#include <opencv2/core.hpp>
-
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <future>
 #include <optional>
-#include <sstream>
+#include <string>
 #include <utility>
+
+#include "PoseStage.h"
+#include "Stopwatch.h"
+#include "frame_checks.h"
 
 namespace pointplane
 {
@@ -22,73 +21,11 @@ namespace
 /** First frame's covariance: strictly positive definite, yet nothing. */
 constexpr double kFirstSigma = 1e-6;
 
-/** Fewer matches than this in total cannot fix a pose [P17, section Pose estimation]. */
-constexpr int kMinMatches = 3;
-
 /** Elapsed between two frames whose stamps do not tell. */
 constexpr double kUnknownStep = 1.0 / 30;  // [s]
 
 /** Search radius when too little is found again around the prediction, over the usual one. */
 constexpr double kWideSearch = 5;
-
-class Stopwatch
-{
- public:
-    [[nodiscard]] double ms() const
-    {
-        return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_)
-            .count();
-    }
-
- private:
-    std::chrono::steady_clock::time_point start_{std::chrono::steady_clock::now()};
-};
-
-bool sameCamera(const PinholeCamera& a, const PinholeCamera& b)
-{
-    return a.width == b.width && a.height == b.height && a.fx == b.fx && a.fy == b.fy &&
-           a.cx == b.cx && a.cy == b.cy && a.distortion == b.distortion;
-}
-
-/** Why a frame cannot be used, or empty. */
-std::string problemOf(const RgbdFrame& frame)
-{
-    if (std::string problem = frame.camera.problem(); !problem.empty())
-    {
-        return problem;
-    }
-    const cv::Size size(frame.camera.width, frame.camera.height);
-    std::ostringstream out;
-    if (!std::isfinite(frame.stamp))
-    {
-        out << "the time stamp is not finite";
-    }
-    else if (frame.depth.type() != CV_32FC1 || frame.depth.size() != size)
-    {
-        out << "the depth image (" << frame.depth.cols << "x" << frame.depth.rows
-            << ") does not fit the camera (" << size.width << "x" << size.height << ")";
-    }
-    else if (!frame.gray.empty() && (frame.gray.type() != CV_8UC1 || frame.gray.size() != size))
-    {
-        out << "the intensity image (" << frame.gray.cols << "x" << frame.gray.rows
-            << ") does not fit the camera (" << size.width << "x" << size.height << ")";
-    }
-    return out.str();
-}
-
-/** How many directions the measurements know better than the motion model does. */
-int observableDirections(const Matrix6d& information, const Matrix6d& priorCovariance)
-{
-    const Matrix6d L = priorCovariance.llt().matrixL();
-    const Eigen::SelfAdjointEigenSolver<Matrix6d> es(L.transpose() * information * L);
-    return static_cast<int>((es.eigenvalues().array() > 1).count());
-}
-
-double maxSigma(const Matrix6d& cov)
-{
-    const Eigen::SelfAdjointEigenSolver<Matrix6d> es(cov);
-    return std::sqrt(std::max(0.0, es.eigenvalues().maxCoeff()));
-}
 
 /** Where a reference frame is, and what has been predicted since. */
 struct Anchor
@@ -125,20 +62,6 @@ struct Odometry::Impl
     [[nodiscard]] std::vector<Association> associate(
         const RgbdFrame& frame, const Eigen::Isometry3d& T_prev_cur, double radiusFactor) const;
     [[nodiscard]] double overlapWithNewest(const std::vector<Association>& associations) const;
-    [[nodiscard]] int minMatches() const
-    {
-        return params.pipeline.degeneracy == "fuse" ? 1 : kMinMatches;
-    }
-    [[nodiscard]] MotionPrior priorFrom(const MotionGaussian& predicted) const;
-    [[nodiscard]] PoseEstimate estimate(
-        const RgbdFrame& frame,
-        const std::vector<Association>& associations,
-        const MotionGaussian& predicted,
-        FrameDiagnostics& diagnostics);
-    void judge(
-        const PoseEstimate& estimate,
-        const MotionGaussian& predicted,
-        OdometryResult& result) const;
     void advance(const RgbdFrame& frame, const std::vector<Association>& associations);
     void finish(const PoseGaussian& T_prev_cur, OdometryResult& result);
 
@@ -146,10 +69,7 @@ struct Odometry::Impl
     PlaneExtractor planeExtractor;
     PlaneMatcher planeMatcher;
     PointStage pointStage;
-    PoseSolver solver;
-    MotionModel motion;
-    NoiseScale noise;
-    ShutterCalibrator shutter;
+    PoseStage poseStage;
     ReferenceWindow window;
 
     FrameFeatures features;
@@ -170,10 +90,7 @@ Odometry::Impl::Impl(const OdometryParams& p)
       planeMatcher(p.planeMatcher),
       pointStage(
           p.points, p.pointTracker, p.pointDetector, p.pointMatcher, p.pointLifter, p.depthNoise),
-      solver(p.poseSolver),
-      motion(p.motionModel),
-      noise(p.noiseScale),
-      shutter(p.shutter),
+      poseStage(p),
       window(p.reference)
 {
     pose.cov = Matrix6d::Identity() * (kFirstSigma * kFirstSigma);
@@ -235,42 +152,35 @@ bool Odometry::Impl::track(const RgbdFrame& frame, OdometryResult& result)
 {
     // 2. Predicted motion since the latest measured frame, and matches with the references.
     const double dt = frame.stamp - window.previous().stamp;
-    if (dt > params.pipeline.maxGap)
-    {
-        motion.reset();
-    }
-    const MotionGaussian predicted = motion.predict(dt);
+    const PoseStage::Prediction predicted = poseStage.predict(dt);
+    const PairBuilder pairs(window.previous(), current, frame.camera.height);
     const Stopwatch matching;
-    std::vector<Association> associations = associate(frame, predicted.mean.T_base_cur, 1);
+    std::vector<Association> associations = associate(frame, predicted.pose.mean, 1);
     if (overlapWithNewest(associations) < params.reference.keyframeMinOverlap)
     {
         // A jerk that the motion model did not foresee: look farther, then closely again.
-        associations = associate(frame, predicted.mean.T_base_cur, kWideSearch);
-        const PoseEstimate coarse = estimate(frame, associations, predicted, result.diagnostics);
+        associations = associate(frame, predicted.pose.mean, kWideSearch);
+        const PoseEstimate coarse =
+            poseStage.estimate(pairs, associations, predicted, result.diagnostics);
         associations = associate(frame, coarse.motion.mean.T_base_cur, 1);
     }
     result.diagnostics.msMatching = matching.ms();
 
     // 3. Pose from both, each weighted by its uncertainty, and its validation.
-    const PoseEstimate estimated = estimate(frame, associations, predicted, result.diagnostics);
-    judge(estimated, predicted, result);
+    const PoseEstimate estimate =
+        poseStage.estimate(pairs, associations, predicted, result.diagnostics);
+    poseStage.judge(estimate, predicted, result);
     if (result.status != TrackingStatus::Tracked)
     {
         return false;
     }
 
     // 4. The frame becomes a reference.
-    current.velocity = estimated.motion.mean.velocity;
-    PoseGaussian measured = estimated.motion.pose();
-    measured.cov += shutter.update(
-        PairBuilder(window.previous(), current, frame.camera.height),
-        associations,
-        estimated.motion.mean,
-        priorFrom(predicted),
-        noise.factors());
-    window.refinePreviousVelocity(motion.update(estimated.motion, dt));
-    noise.update(estimated, dt);
-    finish(measured, result);
+    const PoseStage::Measured measured =
+        poseStage.accept(estimate, predicted, pairs, associations, dt);
+    window.refinePreviousVelocity(measured.previousVelocity);
+    current.velocity = measured.velocity;
+    finish(measured.T_prev_cur, result);
     advance(frame, associations);
     return true;
 }
@@ -373,12 +283,7 @@ OdometryResult Odometry::Impl::coast(double stamp, const std::string& reason, Od
     const double step = stamp - latestStamp;
     const bool known = started && step >= 0 && std::isfinite(step);
     const double dt = known ? std::max(step, 1e-3) : kUnknownStep;
-    if (dt > params.pipeline.maxGap)
-    {
-        motion.reset();
-    }
-    result.increment = motion.predict(dt).pose();
-    motion.coast(dt);
+    result.increment = poseStage.coast(dt);
     pose = compose(pose, result.increment);
     result.pose = pose;
     anchor.coast(result.increment);
@@ -417,84 +322,6 @@ std::vector<Association> Odometry::Impl::associate(
         out.push_back(std::move(association));
     }
     return out;
-}
-
-/** The paper's gate wants to know what the frame alone says. */
-MotionPrior Odometry::Impl::priorFrom(const MotionGaussian& predicted) const
-{
-    MotionPrior prior = MotionPrior::from(predicted);
-    if (params.pipeline.degeneracy == "gate")
-    {
-        prior.pose.setZero();
-    }
-    return prior;
-}
-
-PoseEstimate Odometry::Impl::estimate(
-    const RgbdFrame& frame,
-    const std::vector<Association>& associations,
-    const MotionGaussian& predicted,
-    FrameDiagnostics& diagnostics)
-{
-    const Stopwatch watch;
-    std::vector<PointPair> points;
-    std::vector<PlanePair> planes;
-    PairBuilder(window.previous(), current, frame.camera.height)
-        .build(associations, shutter, points, planes);
-    PoseEstimate out;
-    out.motion = predicted;
-    if (static_cast<int>(points.size() + planes.size()) >= minMatches())
-    {
-        out = solver.solve(points, planes, predicted.mean, priorFrom(predicted), noise.factors());
-    }
-    diagnostics.iterations += out.iterations;
-    diagnostics.numPointPairs = static_cast<int>(points.size());
-    diagnostics.numPlanePairs = static_cast<int>(planes.size());
-    diagnostics.numPointInliers = out.numPointInliers;
-    diagnostics.pointChi2PerDof = out.pointChi2PerDof;
-    diagnostics.planeChi2PerDof = out.planeChi2PerDof;
-    diagnostics.numReferences = static_cast<int>(associations.size());
-    diagnostics.msPose = watch.ms();
-    return out;
-}
-
-void Odometry::Impl::judge(
-    const PoseEstimate& estimate, const MotionGaussian& predicted, OdometryResult& result) const
-{
-    FrameDiagnostics& d = result.diagnostics;
-    d.observableDirections =
-        observableDirections(estimate.infoPoints + estimate.infoPlanes, predicted.pose().cov);
-    const bool fuse = params.pipeline.degeneracy == "fuse";
-    const int matches = d.numPointPairs + d.numPlanePairs;
-    std::ostringstream reason;
-    if (matches < minMatches())
-    {
-        reason << matches << " point and plane matches";
-    }
-    else if (!fuse && maxSigma(estimate.motion.pose().cov) > params.pipeline.gateSigma)
-    {
-        reason << "largest standard deviation " << maxSigma(estimate.motion.pose().cov)
-               << " is above the gate";
-    }
-    else if (
-        params.poseSolver.weighting != "none" && d.pointChi2PerDof > params.pipeline.maxPointChi2)
-    {
-        reason << "the points contradict their covariances (chi-square per degree of freedom "
-               << d.pointChi2PerDof << ")";
-    }
-    else if (d.observableDirections == 0)
-    {
-        reason << "no direction is measured better than it is predicted";
-    }
-    else
-    {
-        result.status = TrackingStatus::Tracked;
-        if (d.observableDirections < 6)
-        {
-            reason << d.observableDirections << " of 6 directions measured, the others predicted";
-        }
-    }
-    result.reason = reason.str();
 }
 
 /** Increment and pose of a measured frame. The pose continues from the latest measured frame; after

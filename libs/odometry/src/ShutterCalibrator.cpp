@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/core/check.h>
+#include <pointplane/core/covariance.h>
 #include <pointplane/odometry/ShutterCalibrator.h>
 #include <pointplane/pose/residuals.h>
 
@@ -63,8 +64,7 @@ void ShutterCalibrator::TParams::check() const
         "depthDelay = " << depthDelay << " is not within " << kMaxTime << " s");
     POINTPLANE_CHECK(sigmaPrior > 0, "sigmaPrior = " << sigmaPrior << " is not positive");
     POINTPLANE_CHECK(
-        informationGain > 0 && informationGain <= 1,
-        "informationGain = " << informationGain << " is not in (0, 1]");
+        varianceFactor > 0, "varianceFactor = " << varianceFactor << " is not positive");
 }
 
 ShutterCalibrator::ShutterCalibrator(const TParams& params)
@@ -72,7 +72,6 @@ ShutterCalibrator::ShutterCalibrator(const TParams& params)
 {
     params_.check();
     information_ = Eigen::Matrix3d::Identity() / (params_.sigmaPrior * params_.sigmaPrior);
-    information_(2, 2) = 1 / (params_.sigmaDelay * params_.sigmaDelay);
     informationVector_ = information_ * estimate_;
 }
 
@@ -131,19 +130,14 @@ Matrix6d ShutterCalibrator::update(
         normal.add(residual, Js, noise.planes);
     }
     const Matrix123d eliminated = normal.Hxx.ldlt().solve(normal.Hxs);
-    const Eigen::Matrix3d information =
-        params_.informationGain * (normal.Hss - normal.Hxs.transpose() * eliminated);
-    const Eigen::Vector3d gradient =
-        params_.informationGain * (normal.gs - eliminated.transpose() * normal.gx);
+    const Eigen::Matrix3d information = normal.Hss - normal.Hxs.transpose() * eliminated;
+    const Eigen::Vector3d gradient = normal.gs - eliminated.transpose() * normal.gx;
     information_ += information;
     informationVector_ += information * estimate_ - gradient;
     estimate_ =
         information_.ldlt().solve(informationVector_).cwiseMax(-kMaxTime).cwiseMin(kMaxTime);
-    if (getenv("SDBG")) {static int n=0; if(++n%50==0||n%150==147) fprintf(stderr,"shutter %d %.1f %.1f %.1f\n",n,1e3*estimate_[0],1e3*estimate_[1],1e3*estimate_[2]);}
-    static const double fl = getenv("SFLOOR") ? atof(getenv("SFLOOR")) : 0;
-    Eigen::Matrix3d cov = information_.inverse() + fl * fl * Eigen::Matrix3d::Identity();
-    if (getenv("SDBG")) {static int n=0; if(++n%50==0||n%150==147) fprintf(stderr,"sig %d %.2f %.2f %.2f\n",n,1e3*std::sqrt(cov(0,0)),1e3*std::sqrt(cov(1,1)),1e3*std::sqrt(cov(2,2)));}
-    const Eigen::Matrix<double, 6, 3> E = eliminated.topRows<6>();
-    return E * cov * E.transpose();
+    // "Consider" covariance (Schmidt 1966): d pose / d shutter = -Hxx^-1 Hxs.
+    const Eigen::Matrix<double, 6, 3> K = eliminated.topRows<6>();
+    return propagate(K, Eigen::Matrix3d(params_.varianceFactor * information_.inverse()));
 }
 }  // namespace pointplane

@@ -17,8 +17,13 @@ MotionPrior MotionPrior::from(const MotionGaussian& predicted)
     MotionPrior out;
     out.mean = predicted.mean;
     out.pose = predicted.pose().cov.ldlt().solve(Matrix6d::Identity());
-    out.velocityGivenPose = predicted.cov.ldlt().solve(Matrix12d::Identity());
-    out.velocityGivenPose.topLeftCorner<6, 6>() -= out.pose;
+    // V given T is Gaussian around V_mean + K e_T: the information of V - K e_T.
+    const Matrix6d K = predicted.cov.bottomLeftCorner<6, 6>() * out.pose;
+    const Matrix6d cov =
+        predicted.cov.bottomRightCorner<6, 6>() - K * predicted.cov.topRightCorner<6, 6>();
+    Eigen::Matrix<double, 6, 12> J;
+    J << -K, Matrix6d::Identity();
+    out.velocityGivenPose = J.transpose() * cov.ldlt().solve(J);
     return out;
 }
 

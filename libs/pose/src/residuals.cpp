@@ -65,8 +65,7 @@ PlaneGaussian transformed(const Eigen::Isometry3d& T_a_b, const PlaneGaussian& p
 
 Residual planeResidualMinimal(const PlanePair& pair, const Motion& motion)
 {
-    const PlaneTransform cur(
-        motion.T_base_cur, pair.cur.theta_m + pair.dCur_dV * motion.velocity);
+    const PlaneTransform cur(motion.T_base_cur, pair.cur.theta_m + pair.dCur_dV * motion.velocity);
     Residual out;
     out.r = pair.base.theta_m - cur.theta;
     out.cov = pair.base.cov_m + propagate(cur.J, pair.cur.cov_m);

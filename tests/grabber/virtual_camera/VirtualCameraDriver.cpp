@@ -206,13 +206,14 @@ class VirtualStream : public oni::driver::StreamBase
         const bool isDepth = type_ == ONI_SENSOR_DEPTH;
         const int skew_us = isDepth ? 0 : set.number("skewUs", 0);
         const int dropEvery = set.number(isDepth ? "dropDepthEvery" : "dropColourEvery", 0);
+        const int period_us = set.number("periodUs", kPeriod_us);
         const bool silent = set.number(isDepth ? "silentDepth" : "silentColour", 0) != 0;
         const int unplugAt = isDepth ? set.number("unplugAt", 0) : 0;
         // A camera's clock, not the host's: all stamps are multiples of its own period.
         const auto begin = Clock::now() + std::chrono::milliseconds(set.number("startDelayMs", 0));
         for (int k = 1; running_; ++k)
         {
-            const std::int64_t time_us = std::int64_t{kPeriod_us} * k + skew_us;
+            const std::int64_t time_us = std::int64_t{period_us} * k + skew_us;
             std::this_thread::sleep_until(begin + std::chrono::microseconds(time_us));
             if (k == unplugAt)
             {

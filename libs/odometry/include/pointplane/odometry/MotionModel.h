@@ -6,9 +6,10 @@
 
 namespace pointplane
 {
-/** What is known of the next frame's motion: constant velocity with white acceleration (a Wiener
- * velocity model, e.g. Anderson and Barfoot 2015), and without measurements the decaying velocity of
- * Klein & Murray 2007, quoted in [P17, section Pose estimation]. */
+/** What is known of the next frame's motion: constant velocity with white acceleration (the Wiener
+ * velocity model of Anderson and Barfoot 2015), whose density follows the motion, and without
+ * measurements the decaying velocity of Klein & Murray 2007, quoted in [P17, section Pose
+ * estimation]. Derivation in docs/theory.md. */
 class MotionModel
 {
  public:
@@ -18,6 +19,8 @@ class MotionModel
         double velocityRandomWalk{0.1};
         double angularVelocityRandomWalk{0.5};
         double timeConstant{1.0};
+        double sigmaAcceleration{5.0};
+        double sigmaAngularAcceleration{15.0};
 
         template <class V>
         void visit(V&& v)
@@ -26,12 +29,14 @@ class MotionModel
             v("velocityRandomWalk",
               velocityRandomWalk,
               "m/s/sqrt(s)",
-              "change of velocity of a hand-held camera, per axis");
+              "least change of velocity, per axis; above it, the model follows the motion");
             v("angularVelocityRandomWalk",
               angularVelocityRandomWalk,
               "rad/s/sqrt(s)",
-              "change of angular velocity, per axis");
-            v("timeConstant", timeConstant, "s", "both adapt to the motion over this time, and are never below the above");
+              "least change of angular velocity, per axis");
+            v("timeConstant", timeConstant, "s", "over which the model follows the motion");
+            v("sigmaAcceleration", sigmaAcceleration, "m/s^2", "of a jerk that was not foreseen");
+            v("sigmaAngularAcceleration", sigmaAngularAcceleration, "rad/s^2", "likewise");
         }
         void check() const;
     };
@@ -42,6 +47,13 @@ class MotionModel
      * \pre dt > 0 */
     [[nodiscard]] MotionGaussian predict(double dt) const;
 
+    /** Covariance of the pose by a jerk that the velocities so far do not show. */
+    [[nodiscard]] Matrix6d jerk(double dt) const;
+
+    /** A measured increment whose mean velocity is taken for the velocity at its end, as in the
+     * paper. */
+    void follow(const Eigen::Isometry3d& T_prev_cur, double dt);
+
     /** A measured motion over `dt`. \return the velocity at its start, now that its end is known
      * (Rauch-Tung-Striebel) */
     Vector6d update(const MotionGaussian& measured, double dt);
@@ -49,14 +61,26 @@ class MotionModel
     /** No measurement over `dt`: the velocity decays, its uncertainty grows. */
     void coast(double dt);
 
+    /** A motion has been measured since the start or reset(). */
+    [[nodiscard]] bool hasVelocity() const { return measured_; }
+
+    /** Body velocity at the latest measured frame, decayed since [m/s, rad/s]. */
+    [[nodiscard]] const Vector6d& velocity() const { return velocity_; }
+
+    /** Variance that the velocity gains per second, as adapted [m^2/s^3, rad^2/s^3]. */
+    [[nodiscard]] const Vector6d& density() const { return density_; }
+
     void reset();
 
  private:
-    void adapt(const MotionGaussian& predicted, const MotionGaussian& measured, const Vector12d& innovation, double dt);
+    void adapt(const Vector6d& meanSquare, double dt);
+    [[nodiscard]] Vector6d smallestDensity() const;
 
     TParams params_;
-    Vector6d density_;  //!< of the white acceleration [m^2/s^3, rad^2/s^3]
     Vector6d velocity_;
-    Matrix6d cov_;
+    Matrix6d cov_;  //!< of velocity_
+    Vector6d density_;
+    double coasting_;  //!< time since the latest measurement, counted up to a limit [s]
+    bool measured_;
 };
 }  // namespace pointplane

@@ -6,8 +6,11 @@
 
 namespace pointplane
 {
-/** How much larger than modelled the errors of a camera's points and planes are, from the residuals
- * of the frames so far. */
+/** The variance of a camera's points and planes over the propagated one.
+ *
+ * Residuals of the frames so far tell how large errors are that differ between features; sensors
+ * differ by more than a factor of ten here. What a frame's features have in common residuals do not
+ * show: a constant factor stands for it (docs/theory.md). */
 class NoiseScale
 {
  public:
@@ -15,7 +18,6 @@ class NoiseScale
     {
         bool adaptive{true};
         double timeConstant{1.0};
-        double initial{4.0};
         double pointFactor{4.0};
         double planeFactor{4.0};
 
@@ -26,23 +28,26 @@ class NoiseScale
               adaptive,
               "-",
               "the variance of points and planes follows that of their residuals");
-            v("timeConstant", timeConstant, "s", "of the average over frames");
-            v("pointFactor", pointFactor, "-", "true variance over that of the residuals, points");
-            v("planeFactor", planeFactor, "-", "true variance over that of the residuals, planes");
-            v("initial", initial, "-", "true variance over the propagated one, at the start");
+            v("timeConstant", timeConstant, "s", "over which it follows");
+            v("pointFactor",
+              pointFactor,
+              "-",
+              "true variance of points over that, for errors that they have in common");
+            v("planeFactor", planeFactor, "-", "true variance of planes over that");
         }
+        /** \throws std::invalid_argument naming the key */
         void check() const;
     };
 
     explicit NoiseScale(const TParams& params);
 
-    /** Takes in the reduced chi-squares of a measured frame, `dt` [s] after the one before. */
+    /** Takes in a measured frame, `dt` [s] after the one before. */
     void update(const PoseEstimate& estimate, double dt);
 
-    [[nodiscard]] NoiseFactors factors() const { return {factors_.points * params_.pointFactor, factors_.planes * params_.planeFactor}; }
+    [[nodiscard]] NoiseFactors factors() const;
 
  private:
     TParams params_;
-    NoiseFactors factors_;
+    NoiseFactors residuals_;  //!< of the residuals alone
 };
 }  // namespace pointplane

@@ -25,8 +25,7 @@ class ShutterCalibrator
         double depthDelay{0};
         bool selfCalibrate{true};
         double sigmaPrior{0.01};
-        double sigmaDelay{0.01};
-        double informationGain{1.0};
+        double varianceFactor{30.0};
 
         template <class V>
         void visit(V&& v)
@@ -48,11 +47,10 @@ class ShutterCalibrator
               sigmaPrior,
               "s",
               "trust in the three values above when self-calibrating");
-            v("sigmaDelay", sigmaDelay, "s", "trust in depthDelay");
-            v("informationGain",
-              informationGain,
+            v("varianceFactor",
+              varianceFactor,
               "-",
-              "weight of a frame's information: its residuals are correlated");
+              "true variance of the refined values over what independent frames would give");
         }
         /** \throws std::invalid_argument naming the key */
         void check() const;
@@ -64,7 +62,10 @@ class ShutterCalibrator
      * stamps, the estimate is added. */
     [[nodiscard]] ShutterModel complete(const ShutterModel& source) const;
 
-    /** Takes in the residuals of a measured frame. \param prior of its motion */
+    /** Takes in the residuals of a measured frame.
+     * \param prior of its motion \param noise of points and planes
+     * \return covariance of the pose (left perturbation) that comes from what is not known of the
+     * shutter; zero when it is not calibrated */
     Matrix6d update(
         const PairBuilder& builder,
         const std::vector<Association>& associations,

@@ -19,10 +19,7 @@ struct MotionGaussian
     Motion mean;
     Matrix12d cov{Matrix12d::Zero()};
 
-    [[nodiscard]] PoseGaussian pose() const
-    {
-        return {mean.T_base_cur, cov.topLeftCorner<6, 6>()};
-    }
+    [[nodiscard]] PoseGaussian pose() const { return {mean.T_base_cur, cov.topLeftCorner<6, 6>()}; }
 };
 
 /** What is known of a motion without the current frame, with e = [log(T_mean T^-1); V_mean - V] and
@@ -32,7 +29,7 @@ struct MotionGaussian
 struct MotionPrior
 {
     Motion mean;
-    Matrix6d pose{Matrix6d::Zero()};                //!< information of e_T
+    Matrix6d pose{Matrix6d::Zero()};                 //!< information of e_T
     Matrix12d velocityGivenPose{Matrix12d::Zero()};  //!< information of e beyond that
 
     /** All that the prediction says. */

@@ -22,11 +22,14 @@ struct NoiseFactors
 struct PoseEstimate
 {
     MotionGaussian motion;  //!< cov is H^-1 M H^-1, see docs/theory.md
+    [[nodiscard]] PoseGaussian pose() const { return motion.pose(); }
+
     Matrix6d infoPoints{Matrix6d::Zero()};  //!< J^T W J of the points on the pose
     Matrix6d infoPlanes{Matrix6d::Zero()};  //!< of the planes, alpha not included
     double pointChi2PerDof{0};  //!< mean squared Mahalanobis norm / 3 of points, Tukey-weighted
     double planeChi2PerDof{0};  //!< mean squared Mahalanobis norm / 3 of planes
-    double pointScale{0},planeScale{0};
+    double pointVariance{0};    //!< of points over the propagated one, from the median; 0 = none
+    double planeVariance{0};    //!< of planes, likewise
     int numPointInliers{0};     //!< points with a Tukey weight above 1/2
     int iterations{0};
     bool converged{false};
@@ -72,13 +75,18 @@ class PoseSolver
             v("priorStudentDof",
               priorStudentDof,
               "-",
-              "degrees of freedom of Student's t for the predicted motion, 0 = Gaussian");
+              "degrees of freedom of Student's t for the predicted pose: small = quick to believe "
+              "a "
+              "jerk, 0 = Gaussian");
             v("maxIterations", maxIterations, "-", "Levenberg-Marquardt iterations");
         }
         void check() const;
     };
 
     explicit PoseSolver(const TParams& params);
+
+    /** Residuals are in units of their covariances. */
+    [[nodiscard]] bool isWeighted() const { return params_.weighting != "none"; }
 
     /** Pose and velocity. \param start initial motion \param prior what is known without the pairs
      * \pre prior and pairs must fix all directions or the covariance is that of a minimally damped
@@ -101,9 +109,6 @@ class PoseSolver
         const std::optional<PoseGaussian>& prior) const;
 
  private:
-    [[nodiscard]] Matrix12d priorInformation(const MotionPrior& prior, const Motion& motion) const;
-    [[nodiscard]] double priorCost(const MotionPrior& prior, const Motion& motion) const;
-
     TParams params_;
 };
 }  // namespace pointplane

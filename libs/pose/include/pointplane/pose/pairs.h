@@ -12,16 +12,16 @@ namespace pointplane
  * on its body velocity V [m/s, rad/s], to first order by dCur_dV. */
 struct PointPair
 {
-    PointGaussian base;  //!< from a reference frame, in the base frame [m]
-    PointGaussian cur;   //!< in the current camera, were it at rest [m]
+    PointGaussian base;                    //!< from a reference frame, in the base frame [m]
+    PointGaussian cur;                     //!< in the current camera, were it at rest [m]
     Matrix36d dCur_dV{Matrix36d::Zero()};  //!< rolling shutter: cur is at cur.mean + dCur_dV V
 };
 
 /** The same plane seen twice. */
 struct PlanePair
 {
-    PlaneGaussian base;  //!< from a reference frame, in the base frame
-    PlaneGaussian cur;   //!< in the current camera, were it at rest
+    PlaneGaussian base;                    //!< from a reference frame, in the base frame
+    PlaneGaussian cur;                     //!< in the current camera, were it at rest
     Matrix36d dCur_dV{Matrix36d::Zero()};  //!< rolling shutter: cur is at theta_m + dCur_dV V
 };
 }  // namespace pointplane

@@ -25,11 +25,9 @@ struct Residual
     const Eigen::Isometry3d& T_a_b, const PlaneGaussian& plane_b);
 
 /** r = theta_m' - theta_m(T): difference of the minimal forms in base [1/m]. */
-[[nodiscard]] Residual planeResidualMinimal(
-    const PlanePair& pair, const Motion& motion);
+[[nodiscard]] Residual planeResidualMinimal(const PlanePair& pair, const Motion& motion);
 
 /** r = C' - C(T) in metres, C = d n being the plane's point closest to the origin up to sign
  * [P17 Eq. 9]. */
-[[nodiscard]] Residual planeResidualClosestPoint(
-    const PlanePair& pair, const Motion& motion);
+[[nodiscard]] Residual planeResidualClosestPoint(const PlanePair& pair, const Motion& motion);
 }  // namespace pointplane

@@ -9,6 +9,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <memory>
@@ -75,6 +76,15 @@ struct TumPair
     return out;
 }
 
+/** Measured noise of the motion capture of the TUM sequences, per pose and axis. */
+constexpr double kMotionCaptureSigma = 1e-4;                    // [m]
+constexpr double kMotionCaptureSigmaAngle = 0.06 * M_PI / 180;  // [rad]
+
+[[nodiscard]] bool startsWith(const std::string& text, const std::string& start)
+{
+    return text.compare(0, start.size(), start) == 0;
+}
+
 [[nodiscard]] BenchmarkSequence tumSequence(const std::string& folder)
 {
     TumCamera camera = loadTumCamera("", folder);
@@ -86,24 +96,24 @@ struct TumPair
     out.numFrames = pairs.size();
     out.frame = [pairs, camera](std::size_t k) { return readFrame(pairs.at(k), camera); };
     out.truth = readTrajectoryText(folder + "/groundtruth.txt");
+    if (startsWith(out.name, "tum_") || startsWith(out.name, "rgbd_dataset_"))
+    {
+        out.nees.truthSigmaTranslation = kMotionCaptureSigma;
+        out.nees.truthSigmaRotation = kMotionCaptureSigmaAngle;
+    }
     return out;
 }
 
-[[nodiscard]] BenchmarkSequence simulatedSequence(
-    const std::shared_ptr<const SimulatedSequence>& simulation, std::string name, bool hide)
+[[nodiscard]] BenchmarkSequence simulatedSequence(const std::string& scene, double duration)
 {
+    constexpr std::uint64_t kSeed = 1;
+    SimulationParams params;
+    params.duration = duration;
+    const auto simulation = std::make_shared<SimulatedSequence>(scene, params, kSeed);
     BenchmarkSequence out;
-    out.name = std::move(name);
+    out.name = "simulated " + scene;
     out.numFrames = static_cast<std::size_t>(simulation->numFrames());
-    out.frame = [simulation, hide](std::size_t k)
-    {
-        RgbdFrame frame = simulation->frame(static_cast<int>(k));
-        if (hide)
-        {
-            frame.shutter = {};
-        }
-        return frame;
-    };
+    out.frame = [simulation](std::size_t k) { return simulation->frame(static_cast<int>(k)); };
     out.truth.name = out.name;
     for (int k = 0; k < simulation->numFrames(); ++k)
     {
@@ -114,8 +124,12 @@ struct TumPair
 }
 }  // namespace
 
-std::vector<BenchmarkSequence> tumSequences(const std::string& data)
+std::vector<SequenceSource> tumSequences(const std::string& data)
 {
+    if (!fs::is_directory(data))
+    {
+        throw InputError(data + ": no such folder");
+    }
     std::vector<std::string> folders;
     for (const auto& entry : fs::directory_iterator(data))
     {
@@ -125,23 +139,23 @@ std::vector<BenchmarkSequence> tumSequences(const std::string& data)
         }
     }
     std::sort(folders.begin(), folders.end());
-    std::vector<BenchmarkSequence> out;
-    std::transform(folders.begin(), folders.end(), std::back_inserter(out), tumSequence);
+    std::vector<SequenceSource> out;
+    for (const std::string& folder : folders)
+    {
+        out.push_back(
+            {fs::path(folder).filename().string(), [folder] { return tumSequence(folder); }});
+    }
     return out;
 }
 
-std::vector<BenchmarkSequence> simulatedSequences(double duration)
+std::vector<SequenceSource> simulatedSequences(double duration)
 {
-    constexpr std::uint64_t kSeed = 1;
-    SimulationParams params;
-    params.duration = duration;
-    std::vector<BenchmarkSequence> out;
-    for (const char* scene : {"corner", "desk", "notexture", "cabinet", "corridor", "room"})
+    std::vector<SequenceSource> out;
+    for (const std::string scene : {"corner", "desk", "notexture", "cabinet", "corridor"})
     {
-        const auto simulation = std::make_shared<SimulatedSequence>(scene, params, kSeed);
-        out.push_back(simulatedSequence(simulation, std::string("sim ") + scene, false));
-        out.push_back(
-            simulatedSequence(simulation, std::string("sim ") + scene + " (hidden shutter)", true));
+        out.push_back({"simulated " + scene, [scene, duration] {
+                           return simulatedSequence(scene, duration);
+                       }});
     }
     return out;
 }

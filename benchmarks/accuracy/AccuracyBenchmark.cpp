@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "AccuracyBenchmark.h"
+
+#include <pointplane/mrpt_io/errors.h>
+
+#include <algorithm>
+#include <fstream>
+#include <ostream>
+
+#include "MethodRun.h"
+#include "accuracy_tables.h"
+#include "markdown_section.h"
+
+namespace pointplane
+{
+namespace
+{
+constexpr std::size_t kQuickFrames = 75;
+constexpr std::size_t kProgressStep = 50;  //!< frames
+
+/** One of the parts is in the name, or none was given. */
+[[nodiscard]] bool isWanted(const std::string& name, const std::vector<std::string>& parts)
+{
+    const auto contains = [&](const std::string& part)
+    { return name.find(part) != std::string::npos; };
+    return parts.empty() || std::any_of(parts.begin(), parts.end(), contains);
+}
+
+template <class Named>
+[[nodiscard]] std::vector<Named> wantedOf(
+    std::vector<Named> all, const std::vector<std::string>& parts, const std::string& option)
+{
+    std::vector<Named> out;
+    std::string known;
+    for (Named& item : all)
+    {
+        known += (known.empty() ? "" : ", ") + item.name;
+        if (isWanted(item.name, parts))
+        {
+            out.push_back(std::move(item));
+        }
+    }
+    if (out.empty())
+    {
+        throw InputError(option + ": nothing has that in its name; known are: " + known);
+    }
+    return out;
+}
+
+template <class T>
+void append(std::vector<T>& to, std::vector<T> from)
+{
+    std::move(from.begin(), from.end(), std::back_inserter(to));
+}
+
+void writeFile(const std::string& path, const std::string& text)
+{
+    std::ofstream file(path);
+    file << text;
+    file.close();
+    if (!file)
+    {
+        throw EnvironmentError(path + ": cannot be written");
+    }
+}
+}  // namespace
+
+AccuracyBenchmark::AccuracyBenchmark(CLI::App& app)
+{
+    app.add_option("--data", data_, "folder with TUM sequences; without it only simulated scenes")
+        ->envname("POINTPLANE_DATA");
+    app.add_option("--config-directory", configDirectory_, "with config.ini and its relatives")
+        ->capture_default_str();
+    app.add_option("--sequences", sequences_, "only those with one of these in their name")
+        ->delimiter(',');
+    app.add_option("--methods", methods_, "likewise")->delimiter(',');
+    app.add_option("--duration", duration_, "of simulated scenes [s]")
+        ->capture_default_str()
+        ->check(CLI::Range(2.0, 600.0));
+    app.add_flag("--quick", quick_, "only the first 75 frames of each sequence");
+    app.add_option("--json", jsonFile_, "also write all scores to this file");
+    app.add_option("--markdown", markdownFile_, "also replace the section `accuracy` of this page");
+}
+
+std::vector<SequenceScores> AccuracyBenchmark::scoreAll(std::ostream& out, std::ostream& err) const
+{
+    std::vector<SequenceSource> sources;
+    if (!data_.empty())
+    {
+        append(sources, tumSequences(data_));
+    }
+    append(sources, simulatedSequences(duration_));
+    sources = wantedOf(std::move(sources), sequences_, "--sequences");
+    std::vector<NamedMethod> methods = ourMethods(configDirectory_);
+    append(methods, peerMethods());
+    methods = wantedOf(std::move(methods), methods_, "--methods");
+
+    std::vector<SequenceScores> all;
+    for (const SequenceSource& source : sources)
+    {
+        const BenchmarkSequence sequence = source.open();
+        std::vector<MethodRun> runs(methods.begin(), methods.end());
+        const std::size_t n =
+            quick_ ? std::min(kQuickFrames, sequence.numFrames) : sequence.numFrames;
+        for (std::size_t k = 0; k < n; ++k)
+        {
+            const RgbdFrame frame = sequence.frame(k);
+            std::for_each(runs.begin(), runs.end(), [&](MethodRun& r) { r.process(frame); });
+            if ((k + 1) % kProgressStep == 0 || k + 1 == n)
+            {
+                err << source.name << ": frame " << k + 1 << " of " << n << "\n";
+            }
+        }
+        SequenceScores scores{source.name, {}};
+        for (const MethodRun& r : runs)
+        {
+            scores.methods.push_back(r.score(sequence));
+        }
+        out << markdownTable(scores) << std::endl;
+        all.push_back(std::move(scores));
+    }
+    return all;
+}
+
+void AccuracyBenchmark::run(std::ostream& out, std::ostream& err) const
+{
+    const std::vector<SequenceScores> all = scoreAll(out, err);
+    if (!jsonFile_.empty())
+    {
+        writeFile(jsonFile_, toJson(all).dump(2) + "\n");
+    }
+    if (!markdownFile_.empty())
+    {
+        std::string text = "\n" + markdownSummary(all);
+        for (const SequenceScores& scores : all)
+        {
+            text += "\n" + markdownTable(scores);
+        }
+        replaceMarkdownSection(markdownFile_, "accuracy", text + "\n");
+    }
+}
+}  // namespace pointplane

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+namespace pointplane
+{
+/** Replaces what stands between `<!-- NAME:begin -->` and `<!-- NAME:end -->` in a file.
+ * \throws InputError when the file or a marker is missing
+ * \throws EnvironmentError when it cannot be written */
+void replaceMarkdownSection(
+    const std::string& path, const std::string& name, const std::string& text);
+}  // namespace pointplane

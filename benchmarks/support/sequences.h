@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pointplane/evaluation/Trajectory.h>
+#include <pointplane/evaluation/nees.h>
+#include <pointplane/sensor/RgbdFrame.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace pointplane
+{
+/** Frames with ground truth; the same for every method. */
+struct BenchmarkSequence
+{
+    std::string name;
+    std::size_t numFrames{0};
+    std::function<RgbdFrame(std::size_t)> frame;  //!< read or rendered anew at every call
+    Trajectory truth;                             //!< T_world_cam, optical axes
+    NeesOptions nees;                             //!< how noisy the truth itself is
+};
+
+/** A sequence that costs nothing until it is opened. */
+struct SequenceSource
+{
+    std::string name;
+    std::function<BenchmarkSequence()> open;
+};
+
+/** All folders with rgb.txt, depth.txt and groundtruth.txt in `data`, in order of name. Of the
+ * shutter the median delay of the stamps is known. The ground truth of folders called tum_... or
+ * rgbd_dataset_... is motion capture: 0.1 mm and 0.06 deg of noise per pose and axis; that of
+ * others is exact. */
+[[nodiscard]] std::vector<SequenceSource> tumSequences(const std::string& data);
+
+/** Simulated scenes through a first generation Kinect, rolling shutter included, which the frames
+ * tell. \param duration [s] */
+[[nodiscard]] std::vector<SequenceSource> simulatedSequences(double duration);
+}  // namespace pointplane

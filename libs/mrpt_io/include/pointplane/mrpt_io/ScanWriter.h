@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pointplane/mrpt_io/RawlogWriter.h>
+#include <pointplane/sensor/PinholeCamera.h>
+
+#include <mrpt/core/Clock.h>
+
+#include <opencv2/core/mat.hpp>
+
+#include <string>
+
+namespace pointplane
+{
+/** A colour image and the depth image registered to it. */
+struct RegisteredScan
+{
+    mrpt::Clock::time_point stamp;
+    PinholeCamera camera;
+    cv::Mat colour;  //!< CV_8UC3 BGR, or CV_8UC1, of the camera's size
+    cv::Mat depth;   //!< CV_16UC1 along the optical axis, of the camera's size; 0 = none
+    double unitsPerMetre{5000};  //!< of depth
+    std::string colourFile;      //!< what colour was read from; copied where images are external
+};
+
+/** Writes registered images to a rawlog as CObservation3DRangeScan, pixels and readings unchanged.
+ * Axes are MRPT's, sensorPose is the identity. What RawlogWriter says of complete and partial files
+ * holds here. All members throw EnvironmentError naming the file that cannot be written. */
+class ScanWriter
+{
+ public:
+    /** \param label sensorLabel of all scans
+     * \param external images as files in imagesFolderOf(path) */
+    ScanWriter(const std::string& path, std::string label, bool external);
+
+    void writeComment(mrpt::Clock::time_point stamp, const std::string& text);
+    void write(const RegisteredScan& scan);
+    void close() { writer_.close(); }
+
+ private:
+    RawlogWriter writer_;
+    std::string label_;
+    std::string imagesFolder_;  //!< empty: embedded
+};
+
+/** 16 bit readings of a depth image in metres (CV_32FC1, NaN = none); what is farther than 16 bits
+ * reach is no reading. */
+[[nodiscard]] cv::Mat depthInUnits(const cv::Mat& depth, double unitsPerMetre);
+}  // namespace pointplane

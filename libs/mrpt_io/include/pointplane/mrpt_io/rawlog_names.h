@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+namespace pointplane
+{
+/** Folder for the external images of a rawlog, by MRPT's rule: the path without its last extension,
+ * and "_Images". */
+[[nodiscard]] std::string imagesFolderOf(const std::string& rawlog);
+
+/** Ground truth of a rawlog, as TUM text: NAME.groundtruth.txt beside NAME.rawlog (or
+ * NAME.rawlog.gz). */
+[[nodiscard]] std::string groundTruthOf(const std::string& rawlog);
+}  // namespace pointplane

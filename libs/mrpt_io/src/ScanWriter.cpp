@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/check.h>
+#include <pointplane/mrpt_io/ScanWriter.h>
+#include <pointplane/mrpt_io/errors.h>
+#include <pointplane/mrpt_io/external_range.h>
+#include <pointplane/mrpt_io/mrpt_poses.h>
+#include <pointplane/mrpt_io/rawlog_names.h>
+
+#include <mrpt/obs/CObservation3DRangeScan.h>
+#include <mrpt/obs/CObservationComment.h>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <limits>
+
+namespace pointplane
+{
+namespace
+{
+namespace fs = std::filesystem;
+using mrpt::obs::CObservation3DRangeScan;
+
+constexpr float kMaxRange = 10.0F;  // [m] where viewers clip
+
+void setCameras(CObservation3DRangeScan& out, const PinholeCamera& camera)
+{
+    auto& intensity = out.cameraParamsIntensity;
+    intensity.ncols = static_cast<std::uint32_t>(camera.width);
+    intensity.nrows = static_cast<std::uint32_t>(camera.height);
+    intensity.setIntrinsicParamsFromValues(camera.fx, camera.fy, camera.cx, camera.cy);
+    // Registered depth knows the ideal pinhole only.
+    out.cameraParams = intensity;
+    if (camera.isDistorted())
+    {
+        intensity.distortion = mrpt::img::DistortionModel::plumb_bob;
+        std::copy(camera.distortion.begin(), camera.distortion.end(), intensity.dist.begin());
+    }
+    out.relativePoseIntensityWRTDepth = toMrpt(opticalInBody());
+}
+
+void setDepth(CObservation3DRangeScan& out, const RegisteredScan& scan)
+{
+    out.hasRangeImage = true;
+    out.range_is_depth = true;
+    out.rangeUnits = static_cast<float>(1 / scan.unitsPerMetre);
+    out.maxRange = kMaxRange;
+    out.rangeImage_setSize(scan.depth.rows, scan.depth.cols);
+    for (int v = 0; v < scan.depth.rows; ++v)
+    {
+        std::memcpy(
+            &out.rangeImage(v, 0),
+            scan.depth.ptr<std::uint16_t>(v),
+            static_cast<std::size_t>(scan.depth.cols) * sizeof(std::uint16_t));
+    }
+}
+
+/** The file's bytes where the image came from one, else a PNG. \return its name */
+std::string writeColourFile(
+    const RegisteredScan& scan, const std::string& folder, const std::string& stamp)
+{
+    const bool copied = !scan.colourFile.empty();
+    const std::string name =
+        stamp + "_rgb" + (copied ? fs::path(scan.colourFile).extension().string() : ".png");
+    const std::string path = (fs::path(folder) / name).string();
+    std::error_code error;
+    bool written = false;
+    if (copied)
+    {
+        fs::copy_file(scan.colourFile, path, fs::copy_options::overwrite_existing, error);
+        written = !error;
+    }
+    else
+    {
+        written = cv::imwrite(path, scan.colour, {cv::IMWRITE_PNG_COMPRESSION, 1});
+    }
+    if (!written)
+    {
+        throw EnvironmentError(
+            "cannot write " + path + (error ? ": " + error.message() : std::string()));
+    }
+    return name;
+}
+}  // namespace
+
+ScanWriter::ScanWriter(const std::string& path, std::string label, bool external)
+    : writer_(path), label_(std::move(label))
+{
+    if (external)
+    {
+        imagesFolder_ = imagesFolderOf(path);
+        std::error_code error;
+        fs::create_directories(imagesFolder_, error);
+        if (error)
+        {
+            throw EnvironmentError("cannot create " + imagesFolder_ + ": " + error.message());
+        }
+    }
+}
+
+void ScanWriter::writeComment(mrpt::Clock::time_point stamp, const std::string& text)
+{
+    mrpt::obs::CObservationComment comment;
+    comment.timestamp = stamp;
+    comment.text = text;
+    writer_.write(comment);
+}
+
+void ScanWriter::write(const RegisteredScan& scan)
+{
+    const cv::Size size(scan.camera.width, scan.camera.height);
+    POINTPLANE_CHECK(
+        scan.depth.type() == CV_16UC1 && scan.depth.size() == size && scan.colour.size() == size,
+        "images do not fit the camera, " << size.width << "x" << size.height);
+    CObservation3DRangeScan out;
+    out.sensorLabel = label_;
+    out.timestamp = scan.stamp;
+    setCameras(out, scan.camera);
+    setDepth(out, scan);
+    out.hasIntensityImage = true;
+    out.intensityImageChannel = CObservation3DRangeScan::CH_VISIBLE;
+    if (imagesFolder_.empty())
+    {
+        out.intensityImage = mrpt::img::CImage(scan.colour, mrpt::img::DEEP_COPY);
+    }
+    else
+    {
+        const std::string stamp = stampText(scan.stamp);
+        out.intensityImage.setExternalStorage(writeColourFile(scan, imagesFolder_, stamp));
+        moveRangeToFile(out, imagesFolder_, stamp + "_depth.bin");
+    }
+    writer_.write(out);
+}
+
+cv::Mat depthInUnits(const cv::Mat& depth, double unitsPerMetre)
+{
+    constexpr double kLargest = std::numeric_limits<std::uint16_t>::max();
+    cv::Mat out(depth.size(), CV_16UC1);
+    for (int v = 0; v < depth.rows; ++v)
+    {
+        const auto* from = depth.ptr<float>(v);
+        auto* to = out.ptr<std::uint16_t>(v);
+        for (int u = 0; u < depth.cols; ++u)
+        {
+            const double units = static_cast<double>(from[u]) * unitsPerMetre;
+            to[u] = units > 0 && units <= kLargest ? static_cast<std::uint16_t>(std::lround(units))
+                                                   : std::uint16_t{0};
+        }
+    }
+    return out;
+}
+}  // namespace pointplane

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/mrpt_io/rawlog_names.h>
+
+#include <filesystem>
+
+namespace pointplane
+{
+namespace fs = std::filesystem;
+
+std::string imagesFolderOf(const std::string& rawlog)
+{
+    return fs::path(rawlog).replace_extension().string() + "_Images";
+}
+
+std::string groundTruthOf(const std::string& rawlog)
+{
+    fs::path name(rawlog);
+    if (name.extension() == ".gz")
+    {
+        name.replace_extension();
+    }
+    return name.replace_extension().string() + ".groundtruth.txt";
+}
+}  // namespace pointplane

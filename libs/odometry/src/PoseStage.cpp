@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "PoseStage.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "Stopwatch.h"
+
+namespace pointplane
+{
+namespace
+{
+/** Fewer matches than this in total cannot fix a pose [P17, section Pose estimation]. */
+constexpr int kMinMatches = 3;
+
+/** How many directions the measurements know better than the motion model does. */
+int observableDirections(const Matrix6d& information, const Matrix6d& priorCovariance)
+{
+    const Matrix6d L = priorCovariance.llt().matrixL();
+    const Eigen::SelfAdjointEigenSolver<Matrix6d> es(L.transpose() * information * L);
+    return static_cast<int>((es.eigenvalues().array() > 1).count());
+}
+
+double maxSigma(const Matrix6d& cov)
+{
+    const Eigen::SelfAdjointEigenSolver<Matrix6d> es(cov);
+    return std::sqrt(std::max(0.0, es.eigenvalues().maxCoeff()));
+}
+}  // namespace
+
+PoseStage::PoseStage(const OdometryParams& params)
+    : pipeline_(params.pipeline),
+      solver_(params.poseSolver),
+      motion_(params.motionModel),
+      noise_(params.noiseScale),
+      shutter_(params.shutter)
+{
+}
+
+/** The paper counts points and planes; with a prediction to fuse with, any of them helps. */
+int PoseStage::minMatches() const { return fuses() ? 1 : kMinMatches; }
+
+/** The velocity follows the pose as motions do, but the pose is hardly pulled to the predicted one:
+ * a jerk must not be smoothed away. The paper's gate wants to know what the frame alone says. */
+MotionPrior PoseStage::priorFrom(const Prediction& predicted) const
+{
+    if (!fuses())
+    {
+        return MotionPrior::fixedVelocity(predicted.motion.mean);
+    }
+    MotionPrior prior = MotionPrior::from(predicted.motion);
+    prior.pose = predicted.pose.cov.ldlt().solve(Matrix6d::Identity());
+    return prior;
+}
+
+PoseStage::Prediction PoseStage::predict(double dt)
+{
+    if (dt > pipeline_.maxGap)
+    {
+        motion_.reset();
+    }
+    Prediction out;
+    out.motion = motion_.predict(dt);
+    out.pose = out.motion.pose();
+    out.pose.cov += motion_.jerk(dt);
+    return out;
+}
+
+PoseEstimate PoseStage::estimate(
+    const PairBuilder& pairs,
+    const std::vector<Association>& associations,
+    const Prediction& predicted,
+    FrameDiagnostics& diagnostics) const
+{
+    const Stopwatch watch;
+    std::vector<PointPair> points;
+    std::vector<PlanePair> planes;
+    pairs.build(associations, shutter_, points, planes);
+    PoseEstimate out;
+    out.motion = predicted.motion;
+    if (static_cast<int>(points.size() + planes.size()) >= minMatches())
+    {
+        out = solver_.solve(
+            points, planes, predicted.motion.mean, priorFrom(predicted), noise_.factors());
+    }
+    diagnostics.iterations += out.iterations;
+    diagnostics.numPointPairs = static_cast<int>(points.size());
+    diagnostics.numPlanePairs = static_cast<int>(planes.size());
+    diagnostics.numPointInliers = out.numPointInliers;
+    diagnostics.pointChi2PerDof = out.pointChi2PerDof;
+    diagnostics.planeChi2PerDof = out.planeChi2PerDof;
+    diagnostics.numReferences = static_cast<int>(associations.size());
+    diagnostics.msPose = watch.ms();
+    return out;
+}
+
+void PoseStage::judge(
+    const PoseEstimate& estimate, const Prediction& predicted, OdometryResult& result) const
+{
+    FrameDiagnostics& d = result.diagnostics;
+    d.observableDirections =
+        observableDirections(estimate.infoPoints + estimate.infoPlanes, predicted.pose.cov);
+    const int matches = d.numPointPairs + d.numPlanePairs;
+    const double sigma = maxSigma(estimate.motion.pose().cov);
+    std::ostringstream reason;
+    if (matches < minMatches())
+    {
+        reason << matches << " point and plane matches";
+    }
+    else if (!fuses() && sigma > pipeline_.gateSigma)
+    {
+        reason << "largest standard deviation " << sigma << " is above the gate";
+    }
+    else if (solver_.isWeighted() && d.pointChi2PerDof > pipeline_.maxPointChi2)
+    {
+        reason << "the points contradict their covariances (chi-square per degree of freedom "
+               << d.pointChi2PerDof << ")";
+    }
+    else if (d.observableDirections == 0)
+    {
+        reason << "no direction is measured better than it is predicted";
+    }
+    else
+    {
+        result.status = TrackingStatus::Tracked;
+        if (d.observableDirections < 6)
+        {
+            reason << d.observableDirections << " of 6 directions measured, the others predicted";
+        }
+    }
+    result.reason = reason.str();
+}
+
+PoseStage::Measured PoseStage::accept(
+    const PoseEstimate& estimate,
+    const Prediction& predicted,
+    const PairBuilder& pairs,
+    const std::vector<Association>& associations,
+    double dt)
+{
+    Measured out;
+    out.T_prev_cur = estimate.motion.pose();
+    out.T_prev_cur.cov += shutter_.update(
+        pairs, associations, estimate.motion.mean, priorFrom(predicted), noise_.factors());
+    if (fuses())
+    {
+        out.previousVelocity = motion_.update(estimate.motion, dt);
+    }
+    else
+    {
+        motion_.follow(estimate.motion.mean.T_base_cur, dt);
+        out.previousVelocity = motion_.velocity();
+    }
+    out.velocity = motion_.velocity();
+    noise_.update(estimate, dt);
+    return out;
+}
+
+PoseGaussian PoseStage::coast(double dt)
+{
+    const PoseGaussian out = predict(dt).pose;
+    motion_.coast(dt);
+    return out;
+}
+}  // namespace pointplane

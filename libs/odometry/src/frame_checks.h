@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pointplane/sensor/RgbdFrame.h>
+
+#include <string>
+
+namespace pointplane
+{
+/** Nothing that pixels are turned into rays with differs. */
+[[nodiscard]] bool sameCamera(const PinholeCamera& a, const PinholeCamera& b);
+
+/** Why a frame cannot be used, or empty. */
+[[nodiscard]] std::string problemOf(const RgbdFrame& frame);
+}  // namespace pointplane

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/odometry/NoiseScale.h>
+
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+namespace pointplane
+{
+namespace
+{
+PoseEstimate with(double pointVariance, double planeVariance)
+{
+    PoseEstimate out;
+    out.pointVariance = pointVariance;
+    out.planeVariance = planeVariance;
+    return out;
+}
+
+NoiseScale::TParams bare()
+{
+    NoiseScale::TParams params;
+    params.pointFactor = params.planeFactor = 1;
+    return params;
+}
+}  // namespace
+
+TEST(NoiseScale, followsTheResiduals)
+{
+    NoiseScale noise(bare());
+    for (int i = 0; i < 300; ++i)
+    {
+        noise.update(with(9, 0.5), 1.0 / 30);
+    }
+    EXPECT_NEAR(noise.factors().points, 9, 0.01);
+    EXPECT_NEAR(noise.factors().planes, 0.5, 0.01);
+}
+
+TEST(NoiseScale, takesItsTime)
+{
+    NoiseScale noise(bare());
+    const double before = noise.factors().points;
+    noise.update(with(before + 10, 0), 1.0);
+    EXPECT_NEAR(noise.factors().points, before + 10 * (1 - std::exp(-1)), 1e-12);
+}
+
+TEST(NoiseScale, aFrameWithoutFeaturesTellsNothing)
+{
+    NoiseScale noise(bare());
+    const NoiseFactors before = noise.factors();
+    noise.update(with(0, 0), 1);
+    EXPECT_EQ(noise.factors().points, before.points);
+    EXPECT_EQ(noise.factors().planes, before.planes);
+}
+
+TEST(NoiseScale, staysWithinReason)
+{
+    NoiseScale noise(bare());
+    for (int i = 0; i < 100; ++i)
+    {
+        noise.update(with(1e12, 1e-12), 1);
+    }
+    EXPECT_NEAR(noise.factors().points, 100, 1e-6);
+    EXPECT_NEAR(noise.factors().planes, 0.1, 1e-6);
+}
+
+TEST(NoiseScale, commonErrorsComeOnTop)
+{
+    NoiseScale::TParams params;
+    params.adaptive = false;
+    params.pointFactor = 3;
+    params.planeFactor = 5;
+    NoiseScale noise(params);
+    noise.update(with(50, 50), 1);
+    EXPECT_EQ(noise.factors().points, 3);
+    EXPECT_EQ(noise.factors().planes, 5);
+}
+
+TEST(NoiseScale, refusesParametersOutOfRange)
+{
+    const auto refused = [](auto change)
+    {
+        NoiseScale::TParams params;
+        change(params);
+        EXPECT_THROW(NoiseScale{params}, std::invalid_argument);
+    };
+    refused([](auto& p) { p.timeConstant = 0; });
+    refused([](auto& p) { p.pointFactor = 0; });
+    refused([](auto& p) { p.planeFactor = -1; });
+}
+}  // namespace pointplane
