@@ -75,10 +75,11 @@ class PointTracker
     /** The image pyramid that makeReference and track need. */
     [[nodiscard]] std::vector<cv::Mat> pyramid(const cv::Mat& gray) const;
 
-    /** Corners (Shi & Tomasi 1994) with depth. */
+    /** Corners (Shi & Tomasi 1994) of the image at half its size, with depth. */
     [[nodiscard]] PointReference makeReference(const RgbdFrame& frame) const;
 
-    /** \param T_cur_ref predicted motion \param radiusFactor widens the search for a bad prediction
+    /** \param T_cur_ref predicted motion \param radiusFactor above 1 widens the search for a bad
+     * prediction; only some of the points, spread over the list, are then looked for, less exactly
      * \return in the reference's order */
     [[nodiscard]] std::vector<PointTrack> track(
         const PointReference& reference,
@@ -88,6 +89,17 @@ class PointTracker
         double radiusFactor = 1) const;
 
  private:
+    /** How thoroughly points are searched for. */
+    struct Search
+    {
+        int numLevels{1};
+        size_t step{1};  //!< every step-th point
+        int maxIterations{20};
+        double epsilon_px{0.01};
+    };
+    [[nodiscard]] Search searchFor(double radius_px, bool isWide, size_t numPoints) const;
+    [[nodiscard]] std::vector<cv::Point2f> corners(const std::vector<cv::Mat>& pyramid) const;
+
     TParams params_;
     PointLifter lifter_;
 };
