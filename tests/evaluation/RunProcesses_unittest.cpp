@@ -174,7 +174,9 @@ TEST_F(FakePrograms, reproduceWritesTheTablesAndWhatIsMissing)
                   "fr1/360."));
     EXPECT_THAT(r.out, HasSubstr("- fr1/desk, alpha, bad: pointplane-odometry: exit code 2"));
     EXPECT_EQ(nlohmann::json::parse(test::readBytes(dir / "out.json"))["runs"].size(), 44u);
-    EXPECT_THAT(test::readBytes(dir / "report/index.html"), HasSubstr("Fig. 3"));
+    const std::string html = test::readBytes(dir / "report/index.html");
+    EXPECT_THAT(html, HasSubstr("Fig. 3"));
+    EXPECT_THAT(html, HasSubstr(R"("xNames":["1.1","bad"])"));
 
     EXPECT_EQ(run({"reproduce", dir / "nowhere", "--paper-config", config}).code, 2);
 }
