@@ -14,12 +14,7 @@ namespace
 class OpenCvMethod : public Method
 {
  public:
-    explicit OpenCvMethod(const std::string& type) : odometry_(cv::rgbd::Odometry::create(type))
-    {
-        setMaxDepth<cv::rgbd::RgbdOdometry>();
-        setMaxDepth<cv::rgbd::ICPOdometry>();
-        setMaxDepth<cv::rgbd::RgbdICPOdometry>();
-    }
+    explicit OpenCvMethod(const std::string& type) : odometry_(cv::rgbd::Odometry::create(type)) {}
     MethodStep process(const RgbdFrame& raw) override
     {
         const RgbdFrame frame = withYDown(raw);
@@ -55,17 +50,6 @@ class OpenCvMethod : public Method
     }
 
  private:
-    /** The default of 4 m cuts walls of larger rooms off. */
-    template <class Type>
-    void setMaxDepth()
-    {
-        constexpr double kMaxDepth = 10;  // [m] as ours
-        if (const auto odometry = odometry_.dynamicCast<Type>())
-        {
-            odometry->setMaxDepth(kMaxDepth);
-        }
-    }
-
     cv::Ptr<cv::rgbd::Odometry> odometry_;
     cv::Ptr<cv::rgbd::OdometryFrame> previous_;
     Eigen::Isometry3d motion_{Eigen::Isometry3d::Identity()};

@@ -280,6 +280,19 @@ TEST(PointTracker, HasNothingWithoutPictureTextureOrDepth)
     EXPECT_TRUE(tracker.makeReference(frame).points.empty());
 }
 
+TEST(PointTracker, BlankWallHasNoCorners)
+{
+    RgbdFrame frame = wall({0, 0}, 1);
+    test::GaussianSampler random(3);
+    const auto grey = [](double u, double v) { return 90 + 0.1 * u + 0.05 * v; };
+    frame.gray = test::renderImage(640, 480, grey, 1.5, &random);
+    EXPECT_TRUE(makeTracker().makeReference(frame).points.empty());
+
+    PointTracker::TParams params;
+    params.maxNoisePx = 100;  // corners of noise
+    EXPECT_GT(makeTracker(params).makeReference(frame).points.size(), 100U);
+}
+
 TEST(PointTracker, OneLevelWorksToo)
 {
     PointTracker::TParams params;

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "corner_sigma.h"
+
 namespace pointplane
 {
 namespace
@@ -86,6 +88,7 @@ void PointTracker::TParams::check() const
         "searchRadiusFraction = " << searchRadiusFraction << " is not positive");
     POINTPLANE_CHECK(minZncc >= 0 && minZncc < 1, "minZncc = " << minZncc << " is not in [0, 1)");
     POINTPLANE_CHECK(sigmaPx > 0, "sigmaPx = " << sigmaPx << " is not positive");
+    POINTPLANE_CHECK(maxNoisePx > 0, "maxNoisePx = " << maxNoisePx << " is not positive");
     POINTPLANE_CHECK(
         depthVarianceFactor > 0,
         "depthVarianceFactor = " << depthVarianceFactor << " is not positive");
@@ -141,11 +144,16 @@ PointReference PointTracker::makeReference(const RgbdFrame& frame) const
     }
     cv::buildOpticalFlowPyramid(
         frame.gray, out.pyramid, {params_.windowPx, params_.windowPx}, params_.numLevels - 1, true);
+    const double noise = imageNoise(frame.gray);
     for (const cv::Point2f& corner : corners(out.pyramid))
     {
-        const auto feature =
-            lifter_.lift(frame, Eigen::Vector2f(corner.x, corner.y).cast<double>());
-        if (feature && isInside(corner, frame.gray))
+        if (!isInside(corner, frame.gray) ||
+            cornerSigma(out.pyramid[1], corner, params_.windowPx, noise) > params_.maxNoisePx)
+        {
+            continue;
+        }
+        if (const auto feature =
+                lifter_.lift(frame, Eigen::Vector2f(corner.x, corner.y).cast<double>()))
         {
             out.points.push_back(*feature);
         }
@@ -157,8 +165,9 @@ PointReference PointTracker::makeReference(const RgbdFrame& frame) const
     return out;
 }
 
-/** Lucas-Kanade surely finds what lies within a quarter of the window at the coarsest level: no more
- * levels than the radius needs. A wide search is for a first guess, which a few points give. */
+/** Lucas-Kanade surely finds what lies within a quarter of the window at the coarsest level: no
+ * more levels than the radius needs. A wide search is for a first guess, which a few points give.
+ */
 PointTracker::Search PointTracker::searchFor(double radius_px, bool isWide, size_t numPoints) const
 {
     constexpr size_t kWidePoints = 60;

@@ -40,6 +40,7 @@ class PointTracker
         int maxPoints{200};
         double minSpacingFraction{0.016};
         double cornerQuality{0.001};
+        double maxNoisePx{0.1};
         int windowPx{15};
         int numLevels{4};
         double searchRadiusFraction{0.02};
@@ -53,6 +54,10 @@ class PointTracker
             v("maxPoints", maxPoints, "-", "corners of a reference frame");
             v("minSpacingFraction", minSpacingFraction, "-", "between corners, of the image width");
             v("cornerQuality", cornerQuality, "-", "weakest corner relative to the strongest");
+            v("maxNoisePx",
+              maxNoisePx,
+              "px",
+              "corners that the image's noise moves by more are not used: blank walls have none");
             v("windowPx", windowPx, "px", "side of the patch that is searched for");
             v("numLevels", numLevels, "-", "pyramid levels");
             v("searchRadiusFraction",
