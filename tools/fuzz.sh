@@ -20,16 +20,14 @@ readonly fuzz_dir=$build_dir/fuzz
 mkdir -p "$fuzz_dir/findings"
 "$fuzz_dir/make_fuzz_corpus" config.ini "$fuzz_dir/seeds"
 
-# MRPT believes the length fields of classes that we have no layout for (ObjectScanner.h): there, and
-# only there, an allocation beyond the limit fails as on a machine that has no more memory.
-export ASAN_OPTIONS=$sanitizer_options:max_allocation_size_mb=1000
+export ASAN_OPTIONS=$sanitizer_options
 status=0
 for fuzzer in "${fuzzers[@]}"; do
     say "fuzzing: $fuzzer, $seconds s"
     corpus=$fuzz_dir/corpus/$fuzzer
     log=$fuzz_dir/$fuzzer.log
     mkdir -p "$corpus"
-    if ! "$fuzz_dir/fuzz_$fuzzer" -max_total_time="$seconds" -timeout=20 -rss_limit_mb=3000 -malloc_limit_mb=0 \
+    if ! "$fuzz_dir/fuzz_$fuzzer" -max_total_time="$seconds" -timeout=20 -rss_limit_mb=3000 -malloc_limit_mb=300 \
         -print_final_stats=1 -artifact_prefix="$fuzz_dir/findings/$fuzzer-" "$corpus" "$fuzz_dir/seeds/$fuzzer" \
         >"$log" 2>&1; then
         grep -v '^#' "$log" | tail -n 60

@@ -4,11 +4,13 @@
 #include <pointplane/evaluation/trajectory_text.h>
 #include <pointplane/evaluation/units.h>
 #include <pointplane/mrpt_io/errors.h>
+#include <pointplane/mrpt_io/params_ini.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 #include <ostream>
 #include <thread>
 
@@ -56,6 +58,52 @@ std::string fileName(std::size_t index, const std::string& name)
         out += std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '.' || c == '=' ? c : '_';
     }
     return out;
+}
+
+std::vector<std::string> odometryCommand(
+    const std::string& program, const OdometryRun& run, const std::string& trajectory)
+{
+    std::vector<std::string> out{
+        program, run.rawlog, "--trajectory", trajectory, "--quiet", "--jobs", "1"};
+    if (!run.config.empty())
+    {
+        out.insert(out.end(), {"-c", run.config});
+    }
+    for (const std::string& setting : run.settings)
+    {
+        out.insert(out.end(), {"--set", setting});
+    }
+    return out;
+}
+
+/** For each run the first one with the same rawlog and the same parameters: itself, or an earlier
+ * one. What cannot be read is like nothing else; the odometry will say what is wrong with it. */
+std::vector<std::size_t> firstAlike(const std::vector<OdometryRun>& runs)
+{
+    std::vector<std::size_t> out;
+    std::map<std::string, std::size_t> known;
+    for (std::size_t k = 0; k < runs.size(); ++k)
+    {
+        std::string key = std::to_string(k);
+        try
+        {
+            OdometryParams params = loadOdometryParams(runs[k].config, runs[k].settings);
+            key = runs[k].rawlog + "\n" + iniText(parametersOf(params));
+        }
+        catch (const std::exception&)
+        {
+        }
+        out.push_back(known.emplace(key, k).first->second);
+    }
+    return out;
+}
+
+/** Of a rawlog: what the time of a run grows with. */
+double sizeOf(const std::string& path)
+{
+    std::error_code error;
+    const auto bytes = std::filesystem::file_size(path, error);
+    return error ? 1.0 : 1.0 + static_cast<double>(bytes);
 }
 }  // namespace
 
@@ -110,57 +158,62 @@ void OdometryRunner::addTo(CLI::App& command)
         ->group("Runs");
 }
 
+std::size_t OdometryRunner::parallel() const
+{
+    return jobs > 0 ? jobs : std::max(1U, std::thread::hardware_concurrency());
+}
+
 std::vector<OdometryScore> OdometryRunner::run(
     const std::vector<OdometryRun>& runs, const RpeOptions& rpe, std::ostream& err) const
 {
     const WorkDirectory work(directory);
     const std::string program = odometry.empty() ? siblingProgram("pointplane-odometry") : odometry;
+    const std::vector<std::size_t> sameAs = firstAlike(runs);
+    std::vector<std::size_t> made;  // runs that no earlier one is like
     std::vector<ProcessJob> processes;
     std::vector<std::string> trajectories;
+    double bytesLeft = 0;
     for (std::size_t k = 0; k < runs.size(); ++k)
     {
-        const OdometryRun& r = runs[k];
-        const std::string base = work.path() + "/" + fileName(k, r.name);
-        trajectories.push_back(base + ".txt");
-        ProcessJob job;
-        job.logPath = base + ".log";
-        job.command = {
-            program, r.rawlog, "--trajectory", trajectories.back(), "--quiet", "--jobs", "1"};
-        if (!r.config.empty())
+        if (sameAs[k] == k)
         {
-            job.command.insert(job.command.end(), {"-c", r.config});
+            const std::string base = work.path() + "/" + fileName(k, runs[k].name);
+            made.push_back(k);
+            trajectories.push_back(base + ".txt");
+            processes.push_back(
+                {odometryCommand(program, runs[k], trajectories.back()), base + ".log"});
+            bytesLeft += sizeOf(runs[k].rawlog);
         }
-        for (const std::string& setting : r.settings)
-        {
-            job.command.insert(job.command.end(), {"--set", setting});
-        }
-        processes.push_back(std::move(job));
     }
 
     std::vector<OdometryScore> scores(runs.size());
+    const double bytes = bytesLeft;
     std::size_t done = 0;
     bool missing = false;
     const auto start = std::chrono::steady_clock::now();
-    const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
     runProcesses(
         processes,
-        jobs > 0 ? jobs : cores,
-        [&](std::size_t k, int exitCode)
+        parallel(),
+        [&](std::size_t job, int exitCode)
         {
+            const OdometryRun& run = runs[made[job]];
+            OdometryScore& score = scores[made[job]];
             missing = missing || exitCode == 127;
-            scores[k] = scoreOf(runs[k], trajectories[k], processes[k].logPath, exitCode, rpe);
+            score = scoreOf(run, trajectories[job], processes[job].logPath, exitCode, rpe);
             ++done;
+            bytesLeft -= sizeOf(run.rawlog);
             const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-            const double left = elapsed.count() / static_cast<double>(done) *
-                                static_cast<double>(runs.size() - done);
-            err << format(
-                       "[%zu/%zu, %.0f s left] %s: ", done, runs.size(), left, runs[k].name.c_str())
-                << scoreText(scores[k]) << (scores[k].rpe ? "" : " (" + scores[k].failure + ")")
-                << std::endl;
+            const double left = elapsed.count() * bytesLeft / std::max(1.0, bytes - bytesLeft);
+            err << format("[%zu/%zu, %.0f s left] %s: ", done, made.size(), left, run.name.c_str())
+                << scoreText(score) << (score.rpe ? "" : " (" + score.failure + ")") << std::endl;
         });
     if (missing)
     {
         throw InputError("cannot run '" + program + "'; name the program by --odometry");
+    }
+    for (std::size_t k = 0; k < runs.size(); ++k)
+    {
+        scores[k] = scores[sameAs[k]];
     }
     return scores;
 }

@@ -37,8 +37,10 @@ struct OdometryRunner
     std::size_t jobs{0};    //!< runs at a time; 0: one per core
 
     void addTo(CLI::App& command);
+    [[nodiscard]] std::size_t parallel() const;  //!< jobs, or the number of cores
 
-    /** Makes all runs, several at a time, and scores them. A failed run is a score with its
+    /** Makes all runs, several at a time, and scores them; runs with the same rawlog and the same
+     * parameters are made once. A failed run is a score with its
      * failure, not an exception. Progress, one line per run, goes to `err`. \throws
      * EnvironmentError when the directory cannot be written, InputError when there is no odometry
      * program */

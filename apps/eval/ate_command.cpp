@@ -46,7 +46,8 @@ void AteCommand::addTo(CLI::App& command)
     const std::map<std::string, Alignment> alignments{
         {"se3", Alignment::Se3}, {"first", Alignment::FirstPose}, {"none", Alignment::None}};
     command.add_option("--align", options.alignment, "se3 (as the script), first or none [se3]")
-        ->transform(CLI::CheckedTransformer(alignments))
+        ->transform(CLI::CheckedTransformer(alignments).description(""))
+        ->type_name("NAME")
         ->group(group);
     command.add_option("--max-rmse", maxRmse, "Exit with 1 if the RMSE exceeds this [m]")
         ->check(CLI::NonNegativeNumber)

@@ -106,6 +106,15 @@ nlohmann::ordered_json toJson(const Reproduction& result)
     json["title"] = "Reproduction";
     json["protocol"] = result.protocol;
     json["missing"] = missing(result);
+    for (const PublishedFigures& p : publishedFigures())
+    {
+        json["published"].push_back(
+            {{"sequence", p.sequence},
+             {"pointsUnweighted", p.deterministic},
+             {"points", p.points},
+             {"pointsAndPlanes", p.pointsAndPlanes},
+             {"bestNamedByThePaper", p.stateOfTheArt}});
+    }
     for (std::size_t k = 0; k < result.scores.size(); ++k)
     {
         const ReproducedSequence& s = result.sequences[k / result.variants.size()];
@@ -182,7 +191,7 @@ std::string toHtml(const Reproduction& result)
     }
     if (!alphas.empty())
     {
-        for (Chart& chart : sweepCharts("alpha", alphas, names, scores, false))
+        for (Chart& chart : sweepCharts("alpha", alphas, names, scores, ValueAxis::Names))
         {
             chart.title = "Fig. 3: " + chart.title;
             report.addChart(chart);

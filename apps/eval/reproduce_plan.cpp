@@ -27,14 +27,19 @@ std::vector<std::string> with(std::vector<std::string> settings, const std::stri
     return settings;
 }
 
-/** Features, weights and detectors, one changed at a time. */
-void addAblations(std::vector<Variant>& plan, const std::string& group, const std::string& config)
+/** What Tables 1 and 2 compare. */
+void addTableRows(std::vector<Variant>& plan, const std::string& group, const std::string& config)
 {
     plan.push_back({group, "points and planes", config, {}});
     plan.push_back({group, "points", config, kPointsOnly});
+    plan.push_back({group, "points, unweighted", config, with(kPointsOnly, kUnweighted)});
+}
+
+/** The other features, weights and detectors, one changed at a time. */
+void addAblations(std::vector<Variant>& plan, const std::string& group, const std::string& config)
+{
     plan.push_back({group, "planes", config, kPlanesOnly});
     plan.push_back({group, "points and planes, unweighted", config, {kUnweighted}});
-    plan.push_back({group, "points, unweighted", config, with(kPointsOnly, kUnweighted)});
     for (const std::string detector : kDetectors)
     {
         plan.push_back(
@@ -105,7 +110,9 @@ std::vector<Variant> planVariants(
     const std::vector<std::string>& alphas)
 {
     std::vector<Variant> plan;
+    addTableRows(plan, "tables", paperConfig);
     addAblations(plan, "paper", paperConfig);
+    addTableRows(plan, "default", defaultConfig);
     addAblations(plan, "default", defaultConfig);
     for (const std::string& alpha : alphas)
     {

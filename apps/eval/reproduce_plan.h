@@ -36,13 +36,14 @@ struct PublishedFigures
 /** One configuration that every sequence is run with. */
 struct Variant
 {
-    std::string group;  //!< "paper", "default", "alpha"
+    std::string group;  //!< "tables", "paper", "default", "alpha"
     std::string name;   //!< "points, unweighted"
     std::string config;
     std::vector<std::string> settings;
 };
 
-/** The paper's tables and Fig. 3, and the ablations of both configurations.
+/** The paper's tables and Fig. 3, and the ablations of both configurations; of the first those that
+ * are not in the tables.
  * \param paperConfig config-paper.ini \param defaultConfig empty: the built-in one
  * \param alphas of Fig. 3 */
 [[nodiscard]] std::vector<Variant> planVariants(

@@ -5,15 +5,16 @@
 
 #include <charconv>
 #include <limits>
+#include <numeric>
 
 namespace pointplane
 {
 namespace
 {
-std::vector<double> positions(const std::vector<std::string>& values)
+/** The values as numbers; fewer where they are not all numbers. */
+std::vector<double> numbersOf(const std::vector<std::string>& values)
 {
     std::vector<double> numbers;
-    std::vector<double> indices;
     for (const std::string& value : values)
     {
         double number = 0;
@@ -23,9 +24,8 @@ std::vector<double> positions(const std::vector<std::string>& values)
         {
             numbers.push_back(number);
         }
-        indices.push_back(static_cast<double>(indices.size()));
     }
-    return numbers.size() == values.size() ? numbers : indices;
+    return numbers;
 }
 }  // namespace
 
@@ -34,8 +34,15 @@ std::vector<Chart> sweepCharts(
     const std::vector<std::string>& values,
     const std::vector<std::string>& sequences,
     const std::vector<OdometryScore>& scores,
-    bool logarithmic)
+    ValueAxis axis)
 {
+    std::vector<double> x = numbersOf(values);
+    const bool named = axis == ValueAxis::Names || x.size() != values.size();
+    if (named)
+    {
+        x.resize(values.size());
+        std::iota(x.begin(), x.end(), 0);
+    }
     std::vector<Chart> charts(2);
     charts[0].title = "Translation";
     charts[0].yLabel = "RPE RMSE [mm]";
@@ -44,12 +51,16 @@ std::vector<Chart> sweepCharts(
     for (std::size_t c = 0; c < charts.size(); ++c)
     {
         charts[c].xLabel = parameter;
-        charts[c].logX = logarithmic;
+        charts[c].logX = axis == ValueAxis::Log && !named;
+        if (named)
+        {
+            charts[c].xNames = values;
+        }
         for (std::size_t s = 0; s < sequences.size(); ++s)
         {
             ChartSeries series;
             series.name = sequences[s];
-            series.x = positions(values);
+            series.x = x;
             for (std::size_t v = 0; v < values.size(); ++v)
             {
                 const auto& rpe = scores[s * values.size() + v].rpe;

@@ -10,13 +10,20 @@
 
 namespace pointplane
 {
-/** RPE RMSE over the values of a parameter, a curve per sequence: translation and rotation. Values
- * that are not numbers stand at 0, 1, 2, ...
+/** How the values of a parameter stand on the horizontal axis. */
+enum class ValueAxis
+{
+    Linear,
+    Log,
+    Names  //!< one beside the other, each named; words always
+};
+
+/** RPE RMSE over the values of a parameter, a curve per sequence: translation and rotation.
  * \param scores of sequence s and value v at [s * values.size() + v] */
 [[nodiscard]] std::vector<Chart> sweepCharts(
     const std::string& parameter,
     const std::vector<std::string>& values,
     const std::vector<std::string>& sequences,
     const std::vector<OdometryScore>& scores,
-    bool logarithmic);
+    ValueAxis axis);
 }  // namespace pointplane

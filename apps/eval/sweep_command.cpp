@@ -216,8 +216,12 @@ std::string toCsv(const SweepResult& sweep)
 std::string toHtml(const SweepResult& sweep, bool logarithmic)
 {
     HtmlReport report("Sweep of " + sweep.parameter, sweep.protocol);
-    std::vector<Chart> charts =
-        sweepCharts(sweep.parameter, sweep.values, sweep.sequences, sweep.scores, logarithmic);
+    std::vector<Chart> charts = sweepCharts(
+        sweep.parameter,
+        sweep.values,
+        sweep.sequences,
+        sweep.scores,
+        logarithmic ? ValueAxis::Log : ValueAxis::Linear);
     for (const Chart& chart : charts)
     {
         report.addChart(chart);

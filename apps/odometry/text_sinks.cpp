@@ -3,12 +3,11 @@
 
 #include <pointplane/mrpt_io/mrpt_poses.h>
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
-#include <cstdio>
 #include <iomanip>
 #include <sstream>
+
+#include "tum_line.h"
 
 namespace pointplane
 {
@@ -29,20 +28,7 @@ void TrajectorySink::add(const OutputItem& item)
     }
     const Eigen::Isometry3d T =
         robotFrame_ ? fromMrpt(item.frame->motion.pose.mean) : item.frame->result.pose.mean;
-    const Eigen::Quaterniond q(T.linear());
-    char numbers[256];
-    std::snprintf(
-        numbers,
-        sizeof(numbers),
-        " %.9f %.9f %.9f %.9f %.9f %.9f %.9f",
-        T.translation().x(),
-        T.translation().y(),
-        T.translation().z(),
-        q.x(),
-        q.y(),
-        q.z(),
-        q.w());
-    file_.writeLine(stampText(item.source.observation->timestamp) + numbers);
+    file_.writeLine(tumLine(item.source.observation->timestamp, T));
 }
 
 std::string TrajectorySink::description() const

@@ -9,13 +9,12 @@
 #include <algorithm>
 #include <deque>
 #include <future>
-#include <iomanip>
 #include <optional>
-#include <sstream>
 #include <thread>
 
 #include "ProgressBar.h"
 #include "TextOutput.h"
+#include "tum_line.h"
 
 namespace pointplane
 {
@@ -57,25 +56,6 @@ class Renderers
     int started_{0};
 };
 
-std::string tumLine(double stamp, const Eigen::Isometry3d& T)
-{
-    const Eigen::Quaterniond q(T.linear());
-    std::ostringstream line;
-    line << stampText(fromSeconds(stamp)) << std::fixed << std::setprecision(9);
-    for (const double value :
-         {T.translation().x(),
-          T.translation().y(),
-          T.translation().z(),
-          q.x(),
-          q.y(),
-          q.z(),
-          q.w()})
-    {
-        line << ' ' << value;
-    }
-    return line.str();
-}
-
 void writeGroundTruth(const SimulatedSequence& sequence, const SequenceOutput& output)
 {
     TextOutput file(groundTruthOf(output.path));
@@ -89,7 +69,8 @@ void writeGroundTruth(const SimulatedSequence& sequence, const SequenceOutput& o
     {
         const double stamp = sequence.stamp(i);
         const Eigen::Isometry3d T_world_cam = sequence.truth(stamp);
-        file.writeLine(tumLine(stamp, robot ? robotFromCamera(T_world_cam) : T_world_cam));
+        file.writeLine(
+            tumLine(fromSeconds(stamp), robot ? robotFromCamera(T_world_cam) : T_world_cam));
     }
     file.close();
 }

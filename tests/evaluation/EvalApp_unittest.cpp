@@ -3,6 +3,7 @@
 
 #include <sstream>
 
+#include "run_app.h"
 #include "test_trajectories.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,22 +14,7 @@ using testing::HasSubstr;
 
 namespace
 {
-struct CommandRun
-{
-    int code{0};
-    std::string out, err;
-};
-
-CommandRun run(const std::vector<std::string>& args)
-{
-    std::ostringstream out;
-    std::ostringstream err;
-    CommandRun result;
-    result.code = runEval(args, out, err);
-    result.out = out.str();
-    result.err = err.str();
-    return result;
-}
+test::AppRun run(const std::vector<std::string>& args) { return test::runApp(runEval, args); }
 
 /** Straight motion at 10 Hz, `factor` times as fast as 1 m/s. */
 std::string straightLine(double factor)
@@ -52,11 +38,13 @@ class EvalApp : public testing::Test
 
 TEST_F(EvalApp, rpeTableAndBothSpellings)
 {
-    const CommandRun hyphens = run({"rpe", truth, estimate, "--fixed-delta", "--delta-unit", "s"});
+    const test::AppRun hyphens =
+        run({"rpe", truth, estimate, "--fixed-delta", "--delta-unit", "s"});
     EXPECT_EQ(hyphens.code, 0) << hyphens.err;
     EXPECT_THAT(hyphens.out, HasSubstr("fixed delta 1 s"));
     EXPECT_THAT(hyphens.out, HasSubstr("translation [m]      0.050000"));
-    const CommandRun underscores = run({"rpe", truth, estimate, "--fixed_delta", "--delta_unit=s"});
+    const test::AppRun underscores =
+        run({"rpe", truth, estimate, "--fixed_delta", "--delta_unit=s"});
     EXPECT_EQ(underscores.out, hyphens.out);
 }
 
@@ -83,7 +71,7 @@ TEST_F(EvalApp, gateSetsTheExitCode)
     };
     EXPECT_EQ(with("--max-rmse", "0.0501").code, 0);
     EXPECT_EQ(with("--max-rmse-deg", "0.1").code, 0);
-    const CommandRun exceeded = with("--max-rmse", "0.0499");
+    const test::AppRun exceeded = with("--max-rmse", "0.0499");
     EXPECT_EQ(exceeded.code, 1);
     EXPECT_THAT(exceeded.err, HasSubstr("translation RMSE 0.050000 m exceeds"));
     EXPECT_EQ(run({"ate", truth, estimate, "--max-rmse", "0.01"}).code, 1);
@@ -91,7 +79,7 @@ TEST_F(EvalApp, gateSetsTheExitCode)
 
 TEST_F(EvalApp, jsonAndCsv)
 {
-    const CommandRun json = run({"rpe", truth, estimate, "--fixed-delta", "--json", "-"});
+    const test::AppRun json = run({"rpe", truth, estimate, "--fixed-delta", "--json", "-"});
     const auto parsed = nlohmann::json::parse(json.out);
     EXPECT_EQ(parsed["pairs"], 40);
     EXPECT_NEAR(parsed["translation"]["rmse"], 0.05, 1e-9);
@@ -111,7 +99,7 @@ TEST_F(EvalApp, jsonAndCsv)
 TEST_F(EvalApp, compareMarksTheBest)
 {
     const std::string worse = writeFile(files, "worse.txt", straightLine(1.1));
-    const CommandRun r = run(
+    const test::AppRun r = run(
         {"compare",
          truth,
          worse,
@@ -135,12 +123,12 @@ TEST_F(EvalApp, reportsOfOneRun)
     for (const char* command : {"rpe", "ate"})
     {
         const std::string directory = files / command;
-        const CommandRun r = run({command, truth, estimate, "--report", directory});
+        const test::AppRun r = run({command, truth, estimate, "--report", directory});
         EXPECT_EQ(r.code, 0) << r.err;
         EXPECT_THAT(r.err, HasSubstr("index.html"));
         EXPECT_THAT(test::readBytes(directory + "/index.html"), HasSubstr("Path from above"));
     }
-    const CommandRun noTable =
+    const test::AppRun noTable =
         run({"rpe", truth, estimate, "--report", files / "r", "--diagnostics", files / "none.csv"});
     EXPECT_EQ(noTable.code, 2);
     EXPECT_THAT(noTable.err, HasSubstr("none.csv"));
@@ -155,11 +143,11 @@ TEST_F(EvalApp, failuresSayWhyAndSetTheExitCode)
     EXPECT_EQ(run({"--help"}).code, 0);
     EXPECT_EQ(run({"--version"}).code, 0);
 
-    const CommandRun missing = run({"rpe", truth, files / "none.txt"});
+    const test::AppRun missing = run({"rpe", truth, files / "none.txt"});
     EXPECT_EQ(missing.code, 2);
     EXPECT_THAT(missing.err, HasSubstr("none.txt"));
 
-    const CommandRun unwritable =
+    const test::AppRun unwritable =
         run({"rpe", truth, estimate, "--fixed-delta", "--json", files / "no/dir.json"});
     EXPECT_EQ(unwritable.code, 3);
     EXPECT_THAT(unwritable.err, HasSubstr("no/dir.json"));

@@ -17,6 +17,7 @@
 #include "EvalApp.h"
 #include "matchers.h"
 #include "mrpt_trajectories.h"
+#include "run_app.h"
 #include "test_trajectories.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -97,18 +98,7 @@ std::string messageOf(F&& f)
     return "no exception";
 }
 
-struct CommandRun
-{
-    int code{0};
-    std::string out, err;
-};
-CommandRun run(const std::vector<std::string>& args)
-{
-    std::ostringstream out;
-    std::ostringstream err;
-    const int code = runEval(args, out, err);
-    return {code, out.str(), err.str()};
-}
+test::AppRun run(const std::vector<std::string>& args) { return test::runApp(runEval, args); }
 
 std::string writeTruth(const test::TempDir& dir)
 {
@@ -188,11 +178,11 @@ TEST(MrptTrajectories, interpolatorTextAsMrptWritesIt)
         path.insert(fromSeconds(truth().stamps[k]), toMrpt(truth().poses[k]));
     }
     ASSERT_TRUE(path.saveToTextFile(dir / "path.txt"));
-    const CommandRun r =
+    const test::AppRun r =
         run({"rpe", writeTruth(dir), dir / "path.txt", "--fixed-delta", "--csv", "-"});
     EXPECT_EQ(r.code, 0) << r.err;
     EXPECT_THAT(r.out, HasSubstr("translation,m,29,"));
-    const CommandRun gate =
+    const test::AppRun gate =
         run({"rpe", dir / "path.txt", writeTruth(dir), "--fixed-delta", "--max-rmse", "1e-5"});
     EXPECT_EQ(gate.code, 0) << gate.out;
 }
@@ -224,7 +214,7 @@ TEST(MrptTrajectories, aDamagedRawlogIsScoredUpToTheDamageAndSaysSo)
     writeFormat2(dir / "a.rawlog", {"VO"});
     std::filesystem::resize_file(
         dir / "a.rawlog", std::filesystem::file_size(dir / "a.rawlog") * 3 / 4);
-    const CommandRun r = run({"rpe", writeTruth(dir), dir / "a.rawlog", "--fixed-delta"});
+    const test::AppRun r = run({"rpe", writeTruth(dir), dir / "a.rawlog", "--fixed-delta"});
     EXPECT_EQ(r.code, 1);
     EXPECT_THAT(r.err, testing::AllOf(HasSubstr("a.rawlog"), HasSubstr("only what comes before")));
     EXPECT_THAT(r.out, HasSubstr("translation"));
@@ -235,14 +225,14 @@ TEST(MrptTrajectories, neesEndToEnd)
     test::TempDir dir;
     writeFormat2(dir / "a.rawlog", {"VO"});
     const std::string truthFile = writeTruth(dir);
-    const CommandRun r =
+    const test::AppRun r =
         run({"nees", truthFile, dir / "a.rawlog", "--interval", "1f,5f", "--max-nees", "1.5"});
     EXPECT_EQ(r.code, 0) << r.err;
     EXPECT_THAT(r.out, HasSubstr("increments of 5f: 35, of which 7 one after the other"));
     EXPECT_THAT(r.out, HasSubstr("verdict: consistent"));
     EXPECT_EQ(run({"nees", truthFile, dir / "a.rawlog", "--min-nees", "5"}).code, 1);
 
-    const CommandRun pooled = run(
+    const test::AppRun pooled = run(
         {"nees",
          truthFile,
          dir / "a.rawlog",

@@ -5,6 +5,7 @@
 
 #include "EvalApp.h"
 #include "reproduce_output.h"
+#include "run_app.h"
 #include "run_processes.h"
 #include "test_trajectories.h"
 #include <gmock/gmock.h>
@@ -16,18 +17,7 @@ using testing::HasSubstr;
 
 namespace
 {
-struct CommandRun
-{
-    int code{0};
-    std::string out, err;
-};
-CommandRun run(const std::vector<std::string>& args)
-{
-    std::ostringstream out;
-    std::ostringstream err;
-    const int code = runEval(args, out, err);
-    return {code, out.str(), err.str()};
-}
+test::AppRun run(const std::vector<std::string>& args) { return test::runApp(runEval, args); }
 
 /** 51 poses along x at 10 Hz, 1 m/s times `factor`. */
 std::string straightLine(const std::string& factor)
@@ -87,7 +77,7 @@ TEST_F(FakePrograms, sweepScoresEveryValue)
 {
     const std::string rawlog = writeFile(dir, "a.rawlog", "");
     ASSERT_EQ(std::system((straightLine("1") + " > " + (dir / "a.groundtruth.txt")).c_str()), 0);
-    const CommandRun r = run(
+    const test::AppRun r = run(
         {"sweep",
          "PoseSolver.alpha",
          rawlog,
@@ -110,7 +100,7 @@ TEST_F(FakePrograms, aFailedRunIsSaidAndTheOthersAreKept)
 {
     const std::string rawlog = writeFile(dir, "a.rawlog", "");
     ASSERT_EQ(std::system((straightLine("1") + " > " + (dir / "a.groundtruth.txt")).c_str()), 0);
-    const CommandRun r = run(
+    const test::AppRun r = run(
         {"sweep",
          "PoseSolver.alpha",
          rawlog,
@@ -157,7 +147,7 @@ TEST_F(FakePrograms, reproduceWritesTheTablesAndWhatIsMissing)
         }
     }
     const std::string config = writeFile(dir, "config-paper.ini", "");
-    const CommandRun r = run(
+    const test::AppRun r = run(
         {"reproduce",
          sequences,
          "--paper-config",
@@ -173,9 +163,10 @@ TEST_F(FakePrograms, reproduceWritesTheTablesAndWhatIsMissing)
          "--json",
          dir / "out.json"});
     EXPECT_EQ(r.code, 1) << r.err;  // one run failed
-    EXPECT_THAT(r.out, HasSubstr("| fr1/desk       | 10.0 mm / 0.00 deg | 43 / 2.3  | 10.0 mm"));
+    EXPECT_THAT(
+        r.out, HasSubstr("| fr1/desk       | 10.0 / 0.00 | 43 / 2.3  | 10.0 / 0.00 | 38 / 2.2 |"));
     EXPECT_THAT(r.out, HasSubstr("### Table 2"));
-    EXPECT_THAT(r.out, HasSubstr("| 1.1   | 100.0 mm / 0.00 deg | 100.0 mm"));
+    EXPECT_THAT(r.out, HasSubstr("| 1.1            | 100.0 / 0.00 | 100.0 / 0.00   |"));
     EXPECT_THAT(
         r.out,
         HasSubstr("Missing of the paper's sequences: fr3/structure_notexture_far, fr3/cabinet. "
@@ -183,7 +174,9 @@ TEST_F(FakePrograms, reproduceWritesTheTablesAndWhatIsMissing)
                   "fr1/360."));
     EXPECT_THAT(r.out, HasSubstr("- fr1/desk, alpha, bad: pointplane-odometry: exit code 2"));
     EXPECT_EQ(nlohmann::json::parse(test::readBytes(dir / "out.json"))["runs"].size(), 44u);
-    EXPECT_THAT(test::readBytes(dir / "report/index.html"), HasSubstr("Fig. 3"));
+    const std::string html = test::readBytes(dir / "report/index.html");
+    EXPECT_THAT(html, HasSubstr("Fig. 3"));
+    EXPECT_THAT(html, HasSubstr(R"("xNames":["1.1","bad"])"));
 
     EXPECT_EQ(run({"reproduce", dir / "nowhere", "--paper-config", config}).code, 2);
 }

@@ -32,7 +32,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     file.assign(data, size);
     try
     {
-        RawlogReader reader(file.path());
+        RawlogReader reader(file.path(), RawlogClasses::Known);
         std::size_t numObjects = 0;
         while (const auto object = reader.next())
         {

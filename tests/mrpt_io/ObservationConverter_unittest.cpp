@@ -314,6 +314,18 @@ TEST(ObservationConverter, everyBadFrameHasItsText)
         with([](Scan& s)
              { s.cameraParams.distortion = mrpt::img::DistortionModel::kannala_brandt; }),
         HasSubstr("fisheye"));
+    EXPECT_EQ(
+        with([](Scan& s) { s.sensorPose.x(1e200); }),
+        "sensorPose is farther than any robot is large");
+    EXPECT_EQ(
+        with(
+            [](Scan& s)
+            {
+                mrpt::math::CMatrixDouble33 shear = mrpt::math::CMatrixDouble33::Identity();
+                shear(0, 1) = 2;
+                s.relativePoseIntensityWRTDepth.setRotationMatrix(shear);
+            }),
+        "relativePoseIntensityWRTDepth has no rotation matrix");
 }
 
 TEST(ObservationConverter, tinyAndHugeImages)

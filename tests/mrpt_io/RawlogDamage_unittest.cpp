@@ -4,6 +4,7 @@
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/external_range.h>
 
+#include <mrpt/obs/CObservationRange.h>
 #include <mrpt/serialization/CArchive.h>
 
 #include <random>
@@ -96,6 +97,23 @@ TEST(RawlogDamage, sizesInOtherSensorsAreNotBelieved)
             EXPECT_LT(after.ru_maxrss - before.ru_maxrss, 100'000) << name << " at byte " << at;
         }
     }
+}
+
+TEST(RawlogDamage, onRequestMrptIsNotAskedForClassesThatAreNotKnown)
+{
+    const TempDir dir;
+    {
+        RawlogWriter writer(dir / "a.rawlog");
+        writer.write(*test::sampleScan(0));
+        writer.write(mrpt::obs::CObservationRange());
+        writer.close();
+    }
+    EXPECT_EQ(readAll(dir / "a.rawlog").objects.size(), 2U);
+    RawlogReader reader(dir / "a.rawlog", RawlogClasses::Known);
+    EXPECT_TRUE(reader.next());
+    EXPECT_FALSE(reader.next());
+    EXPECT_EQ(reader.ending().kind, RawlogEnd::Damaged);
+    EXPECT_THAT(reader.ending().message, testing::HasSubstr("class CObservationRange of"));
 }
 
 /** What a rawlog is made of. */

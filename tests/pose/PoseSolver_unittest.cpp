@@ -159,6 +159,23 @@ TEST(PoseSolver, gradientOfThePapersCostVanishes)
     }
 }
 
+/** A pair counts as an inlier where its Tukey weight (1 - (r / limit)^2)^2 is above one half. */
+TEST(PoseSolver, inliersArePairsOfMoreThanHalfTheirWeight)
+{
+    PairWorld world(3);
+    world.addPoints(60);
+    world.T_base_cur = world.randomMotion(0.05, kFiveDeg);
+    const PoseSolver::TParams params;
+    for (const auto& [share, expected] : {std::pair(0.45, 60), std::pair(0.65, 59)})
+    {
+        std::vector<PointPair> pairs = world.drawPoints(0);
+        const Eigen::Matrix3d cov = pointResidual(pairs[0], world.T_base_cur).cov;
+        const Eigen::Vector3d sigmas = Eigen::Matrix3d(cov.llt().matrixL()).col(0);
+        pairs[0].base.mean += share * params.tukeySigmas * sigmas;
+        EXPECT_EQ(solve(params, pairs, {}).numPointInliers, expected) << share;
+    }
+}
+
 TEST(PoseSolver, fullAndDiagonalWeightsAgreeOnDiagonalCovariances)
 {
     PairWorld world(10);

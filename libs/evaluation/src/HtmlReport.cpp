@@ -165,6 +165,7 @@ void HtmlReport::addChart(const Chart& chart)
     json["equalScales"] = chart.equalScales;
     json["logX"] = chart.logX;
     json["logY"] = chart.logY;
+    json["xNames"] = chart.xNames;
     json["yNames"] = chart.yNames;
     json["series"] = nlohmann::json::array();
     for (const ChartSeries& series : chart.series)

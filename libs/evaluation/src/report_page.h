@@ -23,7 +23,7 @@ h2{font-size:1rem;margin:0 0 .5rem}
 .scroll{overflow-x:auto}
 table{border-collapse:collapse;font-variant-numeric:tabular-nums;font-size:.88rem}
 th,td{padding:.25rem .6rem;text-align:right;border-bottom:1px solid #e6ebf0;white-space:nowrap}
-th:first-child,td:first-child{text-align:left}
+th:first-child,td:first-child{text-align:left;position:sticky;left:0;background:#fff}
 .plot{position:relative;width:100%;height:320px}
 .plot.map{height:auto;aspect-ratio:1}
 img{max-width:100%;height:auto;display:block;border-radius:4px}
@@ -70,19 +70,22 @@ charts.forEach((c, index) => {
     scales.y2.grid = {drawOnChartArea: false};
     scales.y.beginAtZero = scales.y2.beginAtZero = !c.logY;
   }
-  if (c.yNames.length) {
-    scales.y.min = -0.5; scales.y.max = c.yNames.length - 0.5;
-    scales.y.ticks = {stepSize: 1, callback: v => c.yNames[v] || ''};
-    scales.y.afterBuildTicks = a => { a.ticks = c.yNames.map((_, v) => ({value: v})); };
-  }
+  const nameTicks = (scale, names, margin) => {
+    if (!names.length) return;
+    scale.min = -margin; scale.max = names.length - 1 + margin;
+    scale.ticks = {stepSize: 1, maxRotation: 0, callback: v => names[v] || ''};
+    scale.afterBuildTicks = a => { a.ticks = names.map((_, v) => ({value: v})); };
+  };
+  nameTicks(scales.x, c.xNames, 0.2);
+  nameTicks(scales.y, c.yNames, 0.5);
   const chart = new Chart(document.getElementById('chart' + index), {
     type: 'scatter', data: {datasets}, options: {
       animation: false, maintainAspectRatio: false, responsive: true, scales,
       interaction: {mode: 'nearest', intersect: false},
       onResize: ch => { if (c.equalScales && ch.chartArea) setTimeout(() => equalScales(ch), 0); },
       plugins: {legend: {position: 'bottom', labels: {boxWidth: 12, boxHeight: 2}},
-        tooltip: {callbacks: {label: t => t.dataset.label + ': (' + number(t.parsed.x) + ', ' +
-          number(t.parsed.y) + ')'}}}}});
+        tooltip: {callbacks: {label: t => t.dataset.label + ': (' +
+          (c.xNames[t.parsed.x] || number(t.parsed.x)) + ', ' + number(t.parsed.y) + ')'}}}}});
   if (c.equalScales) equalScales(chart);
 });
 // For tests: how many charts were drawn, and whether the page is wider than the window.

@@ -212,6 +212,10 @@ void ObjectScanner::copyBody(const Header& header, int depth)
 
 void ObjectScanner::opaque(const Header& header)
 {
+    require(
+        askMrpt_,
+        "class " + header.className + " of serialisation version " +
+            std::to_string(header.version) + ", whose layout is not known");
     // MRPT reads the header again from our copy, then the rest from the file; all is recorded.
     ReplayStream stream(*bytes_, header.begin, &in_);
     auto archive = mrpt::serialization::archiveFrom(static_cast<mrpt::io::CStream&>(stream));

@@ -37,7 +37,8 @@ class ObjectScanner
         bool isKnown{false};
     };
 
-    explicit ObjectScanner(GzInput& in) : in_(in) {}
+    /** \param askMrpt otherwise objects of other classes are a Problem */
+    ObjectScanner(GzInput& in, bool askMrpt) : in_(in), askMrpt_(askMrpt) {}
 
     /** Copies the next object. False if the input ended before its first byte.
      * \throws Problem */
@@ -93,6 +94,7 @@ class ObjectScanner
     void opaque(const Header& header);
 
     GzInput& in_;
+    bool askMrpt_;
     std::vector<std::uint8_t>* bytes_{nullptr};
     std::vector<Resolution> resolutions_;
     std::size_t cameraResolutionAt_{0};  // in the buffer, of the latest camera

@@ -68,6 +68,15 @@ void require(bool condition, const std::string& problem)
     return camera;
 }
 
+/** Poses of damaged files may be any numbers. */
+void requirePose(const Eigen::Isometry3d& T, const std::string& name)
+{
+    constexpr double kLongestArm = 1e4;  // [m]; covariances lose their last digits beyond
+    require(T.matrix().allFinite(), name + " is not finite");
+    require(T.linear().isUnitary(1e-4), name + " has no rotation matrix");
+    require(T.translation().norm() < kLongestArm, name + " is farther than any robot is large");
+}
+
 [[nodiscard]] bool sameProjection(const PinholeCamera& a, const PinholeCamera& b)
 {
     const auto near = [](double x, double y) { return std::abs(x - y) < 1e-6; };
@@ -220,7 +229,7 @@ void ObservationConverter::Impl::fill(
 {
     require(scan.hasRangeImage, "observation has no range image");
     const Eigen::Isometry3d T_robot_body = fromMrpt(scan.sensorPose);
-    require(T_robot_body.matrix().allFinite(), "sensorPose is not finite");
+    requirePose(T_robot_body, "sensorPose");
     const PinholeCamera depthCamera = cameraOf(scan.cameraParams, "cameraParams");
     const cv::Mat depth = depthOf(scan, depthCamera);
     if (!scan.hasIntensityImage)
@@ -238,7 +247,7 @@ void ObservationConverter::Impl::fill(
         "intensity image is " + sizeText(gray.cols, gray.rows) +
             " but cameraParamsIntensity is for " + sizeText(camera.width, camera.height));
     const Eigen::Isometry3d T_body_cam = fromMrpt(scan.relativePoseIntensityWRTDepth);
-    require(T_body_cam.matrix().allFinite(), "relativePoseIntensityWRTDepth is not finite");
+    requirePose(T_body_cam, "relativePoseIntensityWRTDepth");
     const Eigen::Isometry3d T_cam_depth = T_body_cam.inverse() * opticalInBody();
     const bool registered =
         T_cam_depth.isApprox(Eigen::Isometry3d::Identity(), 1e-6) &&

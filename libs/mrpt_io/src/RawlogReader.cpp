@@ -73,7 +73,10 @@ void restoreResolutions(
 
 struct RawlogReader::Impl
 {
-    explicit Impl(const std::string& thePath) : path(thePath), in(thePath), scanner(in) {}
+    Impl(const std::string& thePath, RawlogClasses classes)
+        : path(thePath), in(thePath), scanner(in, classes == RawlogClasses::All)
+    {
+    }
 
     void readAhead();
     void endHere(const std::string& problem);
@@ -136,7 +139,8 @@ void RawlogReader::Impl::readAhead()
     }
 }
 
-RawlogReader::RawlogReader(const std::string& path) : impl_(std::make_unique<Impl>(path))
+RawlogReader::RawlogReader(const std::string& path, RawlogClasses classes)
+    : impl_(std::make_unique<Impl>(path, classes))
 {
     impl_->externals = imagesDirectory(path);
     impl_->readAhead();

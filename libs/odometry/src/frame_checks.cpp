@@ -12,7 +12,7 @@ bool sameCamera(const PinholeCamera& a, const PinholeCamera& b)
 {
     return a.width == b.width && a.height == b.height && a.fx == b.fx && a.fy == b.fy &&
            a.cx == b.cx && a.cy == b.cy && a.distortion == b.distortion &&
-           a.depthAtUndistortedPixel == b.depthAtUndistortedPixel;
+           (!a.isDistorted() || a.depthAtUndistortedPixel == b.depthAtUndistortedPixel);
 }
 
 /** Why a frame cannot be used, or empty. */

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "corner_sigma.h"
+
 namespace pointplane
 {
 namespace
@@ -86,6 +88,7 @@ void PointTracker::TParams::check() const
         "searchRadiusFraction = " << searchRadiusFraction << " is not positive");
     POINTPLANE_CHECK(minZncc >= 0 && minZncc < 1, "minZncc = " << minZncc << " is not in [0, 1)");
     POINTPLANE_CHECK(sigmaPx > 0, "sigmaPx = " << sigmaPx << " is not positive");
+    POINTPLANE_CHECK(maxNoisePx > 0, "maxNoisePx = " << maxNoisePx << " is not positive");
     POINTPLANE_CHECK(
         depthVarianceFactor > 0,
         "depthVarianceFactor = " << depthVarianceFactor << " is not positive");
@@ -111,6 +114,27 @@ std::vector<cv::Mat> PointTracker::pyramid(const cv::Mat& gray) const
     return out;
 }
 
+/** \param pyramid with derivatives. Corners are looked for in the halved image, four times as fast:
+ * a patch that is searched for needs structure in it, its centre may be anywhere. */
+std::vector<cv::Point2f> PointTracker::corners(const std::vector<cv::Mat>& pyramid) const
+{
+    constexpr size_t kHalved = 2;  // images and derivatives take turns
+    const bool isHalved = pyramid.size() > kHalved;
+    const float scale = isHalved ? 2.0F : 1.0F;
+    std::vector<cv::Point2f> out;
+    cv::goodFeaturesToTrack(
+        pyramid[isHalved ? kHalved : 0],
+        out,
+        2 * params_.maxPoints,
+        params_.cornerQuality,
+        params_.minSpacingFraction * pyramid[0].cols / static_cast<double>(scale));
+    for (cv::Point2f& corner : out)
+    {
+        corner *= scale;
+    }
+    return out;
+}
+
 PointReference PointTracker::makeReference(const RgbdFrame& frame) const
 {
     PointReference out;
@@ -120,18 +144,16 @@ PointReference PointTracker::makeReference(const RgbdFrame& frame) const
     }
     cv::buildOpticalFlowPyramid(
         frame.gray, out.pyramid, {params_.windowPx, params_.windowPx}, params_.numLevels - 1, true);
-    std::vector<cv::Point2f> corners;
-    cv::goodFeaturesToTrack(
-        frame.gray,
-        corners,
-        2 * params_.maxPoints,
-        params_.cornerQuality,
-        params_.minSpacingFraction * frame.gray.cols);
-    for (const cv::Point2f& corner : corners)
+    const double noise = imageNoise(frame.gray);
+    for (const cv::Point2f& corner : corners(out.pyramid))
     {
-        const auto feature =
-            lifter_.lift(frame, Eigen::Vector2f(corner.x, corner.y).cast<double>());
-        if (feature && isInside(corner, frame.gray))
+        if (!isInside(corner, frame.gray) ||
+            cornerSigma(out.pyramid[1], corner, params_.windowPx, noise) > params_.maxNoisePx)
+        {
+            continue;
+        }
+        if (const auto feature =
+                lifter_.lift(frame, Eigen::Vector2f(corner.x, corner.y).cast<double>()))
         {
             out.points.push_back(*feature);
         }
@@ -139,6 +161,28 @@ PointReference PointTracker::makeReference(const RgbdFrame& frame) const
         {
             break;
         }
+    }
+    return out;
+}
+
+/** Lucas-Kanade surely finds what lies within a quarter of the window at the coarsest level: no
+ * more levels than the radius needs. A wide search is for a first guess, which a few points give.
+ */
+PointTracker::Search PointTracker::searchFor(double radius_px, bool isWide, size_t numPoints) const
+{
+    constexpr size_t kWidePoints = 60;
+    Search out;
+    out.numLevels = 1;
+    while (out.numLevels < params_.numLevels &&
+           (params_.windowPx / 4.0) * (1 << (out.numLevels - 1)) < radius_px)
+    {
+        ++out.numLevels;
+    }
+    if (isWide)
+    {
+        out.step = std::max<size_t>(1, numPoints / kWidePoints);
+        out.maxIterations = 10;
+        out.epsilon_px = 0.1;
     }
     return out;
 }
@@ -152,7 +196,9 @@ std::vector<PointTrack> PointTracker::track(
 {
     std::vector<int> indices;
     std::vector<cv::Point2f> from, to;
-    for (size_t i = 0; i < reference.points.size(); ++i)
+    const double radius = radiusFactor * params_.searchRadiusFraction * frame.gray.cols;
+    const Search search = searchFor(radius, radiusFactor > 1, reference.points.size());
+    for (size_t i = 0; i < reference.points.size(); i += search.step)
     {
         const PointFeature& point = reference.points[i];
         const Eigen::Vector3d p_cur = T_cur_ref * point.p_cam.mean;
@@ -175,7 +221,6 @@ std::vector<PointTrack> PointTracker::track(
         return tracks;
     }
     const std::vector<cv::Point2f> predicted = to;
-    const double radius = radiusFactor * params_.searchRadiusFraction * frame.gray.cols;
     std::vector<uchar> found;
     cv::calcOpticalFlowPyrLK(
         reference.pyramid,
@@ -185,8 +230,8 @@ std::vector<PointTrack> PointTracker::track(
         found,
         cv::noArray(),
         {params_.windowPx, params_.windowPx},
-        params_.numLevels - 1,
-        {cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 20, 0.01},
+        search.numLevels - 1,
+        {cv::TermCriteria::COUNT | cv::TermCriteria::EPS, search.maxIterations, search.epsilon_px},
         cv::OPTFLOW_USE_INITIAL_FLOW);
     for (size_t k = 0; k < indices.size(); ++k)
     {

@@ -31,6 +31,7 @@ struct Chart
     std::vector<ChartSeries> series;
     bool equalScales{false};  //!< a metre is as long in both directions (maps)
     bool logX{false}, logY{false};
+    std::vector<std::string> xNames{};  //!< for whole numbers on the horizontal axis
     std::vector<std::string> yNames{};  //!< for whole numbers on the left axis, e.g. states
 };
 

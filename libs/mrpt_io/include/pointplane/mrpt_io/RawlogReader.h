@@ -19,6 +19,15 @@ enum class RawlogEnd
     Damaged     //!< the bytes are not what was written
 };
 
+/** Which objects a reader takes. */
+enum class RawlogClasses
+{
+    /** Also those that MRPT alone can read. It believes the lengths in them, so that a damaged one
+     * may take gigabytes of memory. */
+    All,
+    Known  //!< only those whose layout is known here; another one is damage: for files of strangers
+};
+
 /** How and where reading ended. */
 struct RawlogEnding
 {
@@ -34,13 +43,14 @@ struct RawlogEnding
  * Damage is never taken for the end of the file, as it is by MRPT's own reader: the checksum and
  * the length of gz data are verified, and sizes inside images, range images and strings are checked
  * against what the file holds before MRPT sees them, which would otherwise allocate without limit
- * or crash. A plain (not gz) file that stops exactly between two objects cannot be told from a
- * complete one. Not thread-safe. */
+ * or crash (in the classes of RGB-D, wheels, IMU, 2D laser and single cameras). A plain (not gz)
+ * file that stops exactly between two objects cannot be told from a complete one. Not thread-safe.
+ */
 class RawlogReader
 {
  public:
     /** \throws InputError if the file is missing, empty, unreadable or not a rawlog */
-    explicit RawlogReader(const std::string& path);
+    explicit RawlogReader(const std::string& path, RawlogClasses classes = RawlogClasses::All);
     ~RawlogReader();
     RawlogReader(const RawlogReader&) = delete;
     RawlogReader& operator=(const RawlogReader&) = delete;

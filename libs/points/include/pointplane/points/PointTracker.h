@@ -40,6 +40,7 @@ class PointTracker
         int maxPoints{200};
         double minSpacingFraction{0.016};
         double cornerQuality{0.001};
+        double maxNoisePx{0.1};
         int windowPx{15};
         int numLevels{4};
         double searchRadiusFraction{0.02};
@@ -53,6 +54,10 @@ class PointTracker
             v("maxPoints", maxPoints, "-", "corners of a reference frame");
             v("minSpacingFraction", minSpacingFraction, "-", "between corners, of the image width");
             v("cornerQuality", cornerQuality, "-", "weakest corner relative to the strongest");
+            v("maxNoisePx",
+              maxNoisePx,
+              "px",
+              "corners that the image's noise moves by more are not used: blank walls have none");
             v("windowPx", windowPx, "px", "side of the patch that is searched for");
             v("numLevels", numLevels, "-", "pyramid levels");
             v("searchRadiusFraction",
@@ -75,10 +80,11 @@ class PointTracker
     /** The image pyramid that makeReference and track need. */
     [[nodiscard]] std::vector<cv::Mat> pyramid(const cv::Mat& gray) const;
 
-    /** Corners (Shi & Tomasi 1994) with depth. */
+    /** Corners (Shi & Tomasi 1994) of the image at half its size, with depth. */
     [[nodiscard]] PointReference makeReference(const RgbdFrame& frame) const;
 
-    /** \param T_cur_ref predicted motion \param radiusFactor widens the search for a bad prediction
+    /** \param T_cur_ref predicted motion \param radiusFactor above 1 widens the search for a bad
+     * prediction; only some of the points, spread over the list, are then looked for, less exactly
      * \return in the reference's order */
     [[nodiscard]] std::vector<PointTrack> track(
         const PointReference& reference,
@@ -88,6 +94,17 @@ class PointTracker
         double radiusFactor = 1) const;
 
  private:
+    /** How thoroughly points are searched for. */
+    struct Search
+    {
+        int numLevels{1};
+        size_t step{1};  //!< every step-th point
+        int maxIterations{20};
+        double epsilon_px{0.01};
+    };
+    [[nodiscard]] Search searchFor(double radius_px, bool isWide, size_t numPoints) const;
+    [[nodiscard]] std::vector<cv::Point2f> corners(const std::vector<cv::Mat>& pyramid) const;
+
     TParams params_;
     PointLifter lifter_;
 };

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FrameTimes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <numeric>
+
+namespace pointplane
+{
+namespace
+{
+[[nodiscard]] double cpuMs()
+{
+    timespec now{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
+}  // namespace
+
+void FrameTimes::addCpu(const std::function<void()>& work)
+{
+    const double start = cpuMs();
+    work();
+    add(cpuMs() - start);
+}
+
+void FrameTimes::addWall(const std::function<void()>& work)
+{
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    add(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
+            .count());
+}
+
+double FrameTimes::mean() const
+{
+    return std::accumulate(ms_.begin(), ms_.end(), 0.0) / static_cast<double>(ms_.size());
+}
+
+double FrameTimes::quantile(double q) const
+{
+    std::vector<double> sorted = ms_;
+    const auto at = sorted.begin() + std::lround(q * static_cast<double>(sorted.size() - 1));
+    std::nth_element(sorted.begin(), at, sorted.end());
+    return *at;
+}
+}  // namespace pointplane

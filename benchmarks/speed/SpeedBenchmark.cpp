@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SpeedBenchmark.h"
+
+#include <pointplane/mrpt_io/params_ini.h>
+#include <pointplane/odometry/Odometry.h>
+#include <pointplane/planes/PlaneExtractor.h>
+
+#include <opencv2/core/utility.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <ostream>
+#include <sstream>
+
+#include "FrameTimes.h"
+#include "markdown_section.h"
+#include "methods.h"
+#include "sequences.h"
+
+namespace pointplane
+{
+namespace
+{
+const char* const kConfigs[] = {"config.ini", "config-fast.ini", "config-paper.ini"};
+
+/** One odometry, once on one thread and once on two. */
+struct Contender
+{
+    std::string name;
+    std::unique_ptr<Method> oneThread, twoThreads;
+    FrameTimes cpu, wall;
+};
+
+[[nodiscard]] Contender contender(const NamedMethod& one, const NamedMethod& two)
+{
+    return {one.name, one.create(), two.create(), {}, {}};
+}
+
+[[nodiscard]] std::string number(double value)
+{
+    char text[32];
+    std::snprintf(text, sizeof text, "%.1f", value);
+    return text;
+}
+
+[[nodiscard]] const Contender& named(const std::vector<Contender>& all, const std::string& name)
+{
+    return *std::find_if(
+        all.begin(), all.end(), [&](const Contender& c) { return c.name == name; });
+}
+}  // namespace
+
+SpeedBenchmark::SpeedBenchmark(CLI::App& app)
+{
+    app.add_option("--data", data_, "folder with TUM sequences")
+        ->envname("POINTPLANE_DATA")
+        ->required();
+    app.add_option("--config-directory", configDirectory_, "with config.ini and its relatives")
+        ->capture_default_str();
+    app.add_option("--frames", maxFrames_, "of each sequence, at most; 0 = all")
+        ->capture_default_str();
+    app.add_flag("--ours", oursAlone_, "leave the peers out");
+    app.add_option("--markdown", markdownFile_, "also replace the section `speed` of this page");
+}
+
+std::string SpeedBenchmark::config(const std::string& name) const
+{
+    return configDirectory_ + "/" + name;
+}
+
+std::size_t SpeedBenchmark::numFrames(const BenchmarkSequence& sequence) const
+{
+    return maxFrames_ == 0 ? sequence.numFrames : std::min(maxFrames_, sequence.numFrames);
+}
+
+std::string SpeedBenchmark::wholeTable(const BenchmarkSequence& sequence) const
+{
+    std::vector<Contender> all;
+    for (const char* name : kConfigs)
+    {
+        all.push_back(contender(
+            ourMethod(name, config(name), {"Pipeline.numThreads=1"}),
+            ourMethod(name, config(name), {"Pipeline.numThreads=2"})));
+    }
+    for (const NamedMethod& peer : oursAlone_ ? std::vector<NamedMethod>{} : peerMethods())
+    {
+        all.push_back(contender(peer, peer));
+    }
+    for (std::size_t k = 0; k < numFrames(sequence); ++k)
+    {
+        const RgbdFrame frame = sequence.frame(k);
+        for (Contender& c : all)
+        {
+            cv::setNumThreads(1);
+            c.cpu.addCpu([&] { (void)c.oneThread->process(frame); });
+            cv::setNumThreads(2);
+            c.wall.addWall([&] { (void)c.twoThreads->process(frame); });
+        }
+    }
+    std::ostringstream out;
+    out << "| method | one thread, median ms | p99 | two threads, median ms | p99 |"
+        << (oursAlone_ ? "\n" : " times RgbdICP | times Rgbd |\n") << "|---|---|---|---|---|"
+        << (oursAlone_ ? "\n" : "---|---|\n");
+    for (const Contender& c : all)
+    {
+        out << "| " << c.name << " | " << number(c.cpu.median()) << " | " << number(c.cpu.p99())
+            << " | " << number(c.wall.median()) << " | " << number(c.wall.p99()) << " |";
+        for (const char* peer : {"OpenCV RgbdICPOdometry", "OpenCV RgbdOdometry"})
+        {
+            if (!oursAlone_)
+            {
+                out << ' ' << number(named(all, peer).cpu.median() / c.cpu.median()) << " |";
+            }
+        }
+        out << '\n';
+    }
+    return out.str();
+}
+
+std::string SpeedBenchmark::stageTable(const BenchmarkSequence& sequence) const
+{
+    struct Stages
+    {
+        std::unique_ptr<Odometry> odometry;
+        FrameTimes points, planes, matching, pose, rest, total;
+    };
+    cv::setNumThreads(1);
+    Stages all[std::size(kConfigs)];
+    for (std::size_t i = 0; i < std::size(kConfigs); ++i)
+    {
+        all[i].odometry = std::make_unique<Odometry>(loadOdometryParams(config(kConfigs[i])));
+    }
+    PlaneExtractor extractor({}, {});
+    FrameTimes extraction;
+    for (std::size_t k = 0; k < numFrames(sequence); ++k)
+    {
+        const RgbdFrame frame = sequence.frame(k);
+        for (Stages& s : all)
+        {
+            const FrameDiagnostics d = s.odometry->process(frame).diagnostics;
+            s.points.add(d.msPoints);
+            s.planes.add(d.msPlanes);
+            s.matching.add(d.msMatching);
+            s.pose.add(d.msPose);
+            s.rest.add(d.msTotal - d.msPoints - d.msPlanes - d.msMatching - d.msPose);
+            s.total.add(d.msTotal);
+        }
+        extraction.addCpu([&] { (void)extractor.extract(frame.depth, frame.camera); });
+    }
+    std::ostringstream out;
+    out << "| share of the mean time, % | pyramid or key points | planes | matching and tracking | "
+           "pose | references and the rest |\n"
+        << "|---|---|---|---|---|---|\n";
+    for (std::size_t i = 0; i < std::size(kConfigs); ++i)
+    {
+        const Stages& s = all[i];
+        out << "| " << kConfigs[i];
+        for (const FrameTimes* t : {&s.points, &s.planes, &s.matching, &s.pose, &s.rest, &s.total})
+        {
+            out << " | " << number(t->median());
+        }
+        out << " |\n";
+    }
+    out << "\nPlane extraction with fit and covariance: median " << number(extraction.median())
+        << " ms, p99 " << number(extraction.p99()) << " ms.\n";
+    return out.str();
+}
+
+void SpeedBenchmark::run(std::ostream& out, std::ostream& err) const
+{
+    std::string page = "\n";
+    for (const SequenceSource& source : tumSequences(data_))
+    {
+        const BenchmarkSequence sequence = source.open();
+        err << source.name << " (" << numFrames(sequence) << " frames)\n";
+        const std::string text = "### " + source.name + " (" + std::to_string(numFrames(sequence)) +
+                                 " frames)\n\n" + wholeTable(sequence) + "\n" +
+                                 stageTable(sequence) + "\n";
+        out << text << std::flush;
+        page += text;
+    }
+    if (!markdownFile_.empty())
+    {
+        replaceMarkdownSection(markdownFile_, "speed", page);
+    }
+}
+}  // namespace pointplane

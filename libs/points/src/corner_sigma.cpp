@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "corner_sigma.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <vector>
+
+namespace pointplane
+{
+double imageNoise(const cv::Mat& gray)
+{
+    constexpr int kStep = 4;                 // every fourth pixel tells enough
+    constexpr double kGain = 6;              // root of the mask's sum of squares
+    constexpr double kMedianSigma = 0.6745;  // median of |x| for a standard normal x
+    constexpr double kLeast = 0.3;           // rounding to whole grey levels
+    std::vector<int> responses;
+    responses.reserve(gray.total() / (kStep * kStep));
+    for (int v = 1; v + 1 < gray.rows; v += kStep)
+    {
+        const uchar* above = gray.ptr<uchar>(v - 1);
+        const uchar* here = gray.ptr<uchar>(v);
+        const uchar* below = gray.ptr<uchar>(v + 1);
+        for (int u = 1; u + 1 < gray.cols; u += kStep)
+        {
+            responses.push_back(std::abs(
+                above[u - 1] - 2 * above[u] + above[u + 1] - 2 * here[u - 1] + 4 * here[u] -
+                2 * here[u + 1] + below[u - 1] - 2 * below[u] + below[u + 1]));
+        }
+    }
+    if (responses.empty())
+    {
+        return kLeast;
+    }
+    const auto middle = responses.begin() + static_cast<std::ptrdiff_t>(responses.size() / 2);
+    std::nth_element(responses.begin(), middle, responses.end());
+    return std::max(kLeast, *middle / kMedianSigma / kGain);
+}
+
+double cornerSigma(
+    const cv::Mat& derivatives, const cv::Point2f& centre, int windowPx, double noise)
+{
+    constexpr double kGain = 32;
+    constexpr double kNoiseGain = 2 * (3 * 3 + 10 * 10 + 3 * 3) / (kGain * kGain);
+    const int half = windowPx / 2;
+    const cv::Rect patch =
+        cv::Rect(cvRound(centre.x) - half, cvRound(centre.y) - half, windowPx, windowPx) &
+        cv::Rect(0, 0, derivatives.cols, derivatives.rows);
+    double xx = 0, xy = 0, yy = 0;
+    for (int v = patch.y; v < patch.br().y; ++v)
+    {
+        const auto* row = derivatives.ptr<cv::Vec2s>(v);
+        for (int u = patch.x; u < patch.br().x; ++u)
+        {
+            const double gx = row[u][0] / kGain, gy = row[u][1] / kGain;
+            xx += gx * gx;
+            xy += gx * gy;
+            yy += gy * gy;
+        }
+    }
+    const double least = 0.5 * (xx + yy - std::hypot(xx - yy, 2 * xy));
+    const double structure = least - kNoiseGain * noise * noise * patch.area();
+    return structure > 0 ? noise * std::sqrt(2 / structure)
+                         : std::numeric_limits<double>::infinity();
+}
+}  // namespace pointplane

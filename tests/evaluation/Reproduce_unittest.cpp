@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/mrpt_io/ScanWriter.h>
+#include <pointplane/mrpt_io/mrpt_poses.h>
+#include <pointplane/simulation/SimulatedSequence.h>
+
+#include <Eigen/Geometry>
+#include <opencv2/imgcodecs.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "EvalApp.h"
+#include "TempDir.h"
+#include "run_app.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace pointplane
+{
+namespace
+{
+using testing::HasSubstr;
+
+/** A folder in the format of the TUM benchmark: images of a simulated desk at 10 Hz for 1.5 s. */
+void writeTumFolder(const std::string& folder)
+{
+    SimulationParams params;
+    params.width = 320;
+    params.height = 240;
+    params.fps = 10;
+    params.duration = 1.5;
+    params.motionScale = 0.3;  // as little from frame to frame as at 30 Hz
+    const SimulatedSequence sequence("desk", params, 1);
+    for (const char* sub : {"rgb", "depth"})
+    {
+        std::filesystem::create_directories(folder + "/" + sub);
+    }
+    std::ofstream rgb(folder + "/rgb.txt"), depth(folder + "/depth.txt");
+    std::ofstream truth(folder + "/groundtruth.txt");
+    truth.precision(9);
+    for (int i = 0; i < sequence.numFrames(); ++i)
+    {
+        cv::Mat colour;
+        const RgbdFrame frame = sequence.frame(i, &colour);
+        const std::string stamp = stampText(fromSeconds(frame.stamp));
+        const std::string name = std::to_string(i) + ".png";
+        ASSERT_TRUE(cv::imwrite(folder + "/rgb/" + name, colour));
+        ASSERT_TRUE(cv::imwrite(folder + "/depth/" + name, depthInUnits(frame.depth, 5000)));
+        rgb << stamp << " rgb/" << name << "\n";
+        depth << stamp << " depth/" << name << "\n";
+        const Eigen::Isometry3d T = sequence.truth(frame.stamp);
+        const Eigen::Quaterniond q(T.linear());
+        truth << stamp << ' ' << T.translation().transpose() << ' ' << q.coeffs().transpose()
+              << "\n";
+    }
+    const PinholeCamera camera = sequence.frame(0).camera;
+    std::ofstream(folder + "/camera.txt")
+        << camera.fx << ' ' << camera.fy << ' ' << camera.cx << ' ' << camera.cy << " 0 0 0 0 0 "
+        << camera.width << ' ' << camera.height << " 5000\n";
+}
+
+/** With the real programs, from images to tables. */
+TEST(Reproduce, fromATumFolderToTheTables)
+{
+    const test::TempDir dir;
+    writeTumFolder(dir / "sequences/rgbd_dataset_freiburg1_desk");
+    const test::AppRun r = test::runApp(
+        runEval,
+        {"reproduce",
+         dir / "sequences",
+         "--paper-config",
+         POINTPLANE_SOURCE_DIR "/config-paper.ini",
+         "--odometry",
+         POINTPLANE_ODOMETRY,
+         "--convert",
+         POINTPLANE_CONVERT,
+         "--alphas",
+         "0,10",
+         "--json",
+         dir / "out.json",
+         "--report",
+         dir / "report"});
+    ASSERT_EQ(r.code, 0) << r.err;
+    EXPECT_THAT(r.out, HasSubstr("Table 1"));
+    EXPECT_THAT(r.out, HasSubstr("| 43 / 2.3 "));
+    EXPECT_THAT(r.out, HasSubstr("| fr1/360 "));
+    EXPECT_THAT(test::readBytes(dir / "report/index.html"), HasSubstr("Fig. 3: Translation"));
+    // Ten of each configuration and two alphas, but alpha = 10 and SURF are the paper's own.
+    EXPECT_THAT(r.err, HasSubstr("[20/20, 0 s left]"));
+
+    const auto json = nlohmann::json::parse(test::readBytes(dir / "out.json"));
+    ASSERT_EQ(json["runs"].size(), 22U);
+    EXPECT_EQ(json["published"].size(), 4U);
+    double paperOwn = 0;
+    for (const auto& run : json["runs"])
+    {
+        const std::string name =
+            run["group"].get<std::string>() + ", " + run["variant"].get<std::string>();
+        ASSERT_TRUE(run.contains("translation")) << name << ": " << run;
+        EXPECT_EQ(run["pairs"], 5U) << name;  // of 16 poses
+        if (name == "tables, points and planes")
+        {
+            paperOwn = run["translation"];
+            EXPECT_LT(paperOwn, 0.05);
+        }
+        if (name == "default, points and planes")
+        {
+            EXPECT_LT(run["translation"], 0.01);
+        }
+        if (name == "alpha, 10" || name == "paper, points and planes, surf")
+        {
+            EXPECT_EQ(run["translation"], paperOwn) << name;
+        }
+    }
+}
+
+TEST(Reproduce, onlyTheTables)
+{
+    const test::TempDir dir;
+    writeTumFolder(dir / "mine");
+    const test::AppRun r = test::runApp(
+        runEval,
+        {"reproduce",
+         dir / "mine",
+         "--paper-config",
+         POINTPLANE_SOURCE_DIR "/config-paper.ini",
+         "--odometry",
+         POINTPLANE_ODOMETRY,
+         "--convert",
+         POINTPLANE_CONVERT,
+         "--only",
+         "tables"});
+    ASSERT_EQ(r.code, 0) << r.err;
+    EXPECT_THAT(r.err, HasSubstr("[3/3, 0 s left]"));
+    EXPECT_THAT(r.out, HasSubstr("Table 2"));
+    EXPECT_THAT(r.out, testing::Not(HasSubstr("Ablations")));
+    EXPECT_THAT(r.out, testing::Not(HasSubstr("alpha")));
+}
+}  // namespace
+}  // namespace pointplane

@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/points/PointTracker.h>
+
+#include <cmath>
+#include <set>
+#include <stdexcept>
+
+#include "texture.h"
+#include <gtest/gtest.h>
+
+namespace pointplane
+{
+namespace
+{
+using Eigen::Vector2d;
+
+constexpr double kDepth = 2;  // [m]
+
+/** A textured wall, square to the camera, moved by `shift` pixels. */
+RgbdFrame wall(const Vector2d& shift_px, unsigned noiseSeed, double coarsestPx = 80)
+{
+    const test::Texture texture(1, 5, coarsestPx);
+    test::GaussianSampler random(noiseSeed);
+    RgbdFrame out;
+    out.gray = test::renderImage(
+        640,
+        480,
+        [&](double u, double v) { return texture(u - shift_px.x(), v - shift_px.y()); },
+        1.5,
+        &random);
+    out.depth = cv::Mat(480, 640, CV_32FC1, cv::Scalar(kDepth));
+    return out;
+}
+
+/** Motion of the camera that moves the wall's picture by so much. */
+Eigen::Isometry3d motionFor(const Vector2d& shift_px, const PinholeCamera& camera)
+{
+    Eigen::Isometry3d T_cur_ref = Eigen::Isometry3d::Identity();
+    T_cur_ref.translation() << shift_px.x() * kDepth / camera.fx, shift_px.y() * kDepth / camera.fy,
+        0;
+    return T_cur_ref;
+}
+
+struct Errors
+{
+    Vector2d mean{0, 0};
+    double rms{0}, max{0};  // [px]
+};
+
+Errors errorsOf(
+    const PointReference& reference, const std::vector<PointTrack>& tracks, const Vector2d& shift)
+{
+    Errors out;
+    for (const PointTrack& t : tracks)
+    {
+        const Vector2d e = t.cur.uv_px - reference.points[static_cast<size_t>(t.ref)].uv_px - shift;
+        out.mean += e / static_cast<double>(tracks.size());
+        out.rms += e.squaredNorm() / static_cast<double>(tracks.size());
+        out.max = std::max(out.max, e.norm());
+    }
+    out.rms = std::sqrt(out.rms);
+    return out;
+}
+
+PointTracker makeTracker(const PointTracker::TParams& params = {})
+{
+    return PointTracker(params, {}, {});
+}
+
+TEST(PointTracker, FindsCornersSpreadOverTheImage)
+{
+    const RgbdFrame frame = wall({0, 0}, 1);
+    const PointReference reference = makeTracker().makeReference(frame);
+    EXPECT_EQ(reference.points.size(), 200U);
+    std::set<int> ninths;
+    for (size_t i = 0; i < reference.points.size(); ++i)
+    {
+        const Vector2d& a = reference.points[i].uv_px;
+        ninths.insert(static_cast<int>(a.x() / 214) + 3 * static_cast<int>(a.y() / 160));
+        for (size_t j = 0; j < i; ++j)
+        {
+            EXPECT_GE((a - reference.points[j].uv_px).norm(), 0.016 * 640 - 1e-6);
+        }
+    }
+    EXPECT_EQ(ninths.size(), 9U);
+}
+
+TEST(PointTracker, CornersHaveStructureInBothDirections)
+{
+    // A chessboard: its crossings are corners, its edges are not.
+    RgbdFrame frame = wall({0, 0}, 1);
+    constexpr int kSquare = 40;
+    for (int v = 0; v < 480; ++v)
+    {
+        for (int u = 0; u < 640; ++u)
+        {
+            frame.gray.at<uchar>(v, u) = (u / kSquare + v / kSquare) % 2 == 0 ? 60 : 180;
+        }
+    }
+    PointTracker::TParams params;
+    params.cornerQuality = 0.1;
+    const PointReference reference = makeTracker(params).makeReference(frame);
+    EXPECT_EQ(reference.points.size(), 15U * 11U);
+    for (const PointFeature& p : reference.points)
+    {
+        const Vector2d toCrossing(
+            std::remainder(p.uv_px.x() + 0.5, kSquare), std::remainder(p.uv_px.y() + 0.5, kSquare));
+        EXPECT_LT(toCrossing.norm(), 3);
+    }
+}
+
+TEST(PointTracker, RecoversShiftsOfAFractionOfAPixel)
+{
+    const PointTracker tracker = makeTracker();
+    const RgbdFrame first = wall({0, 0}, 1);
+    const PointReference reference = tracker.makeReference(first);
+    for (const Vector2d& shift : {Vector2d(0.25, 0.5), Vector2d(2.3, -1.6), Vector2d(-6.7, 7.1)})
+    {
+        const RgbdFrame second = wall(shift, 2);
+        const auto tracks = tracker.track(
+            reference, second, tracker.pyramid(second.gray), Eigen::Isometry3d::Identity());
+        EXPECT_GT(tracks.size(), 0.9 * static_cast<double>(reference.points.size()));
+        const Errors errors = errorsOf(reference, tracks, shift);
+        EXPECT_LT(errors.mean.norm(), 0.01);
+        EXPECT_LT(errors.rms, 0.08);  // the stated sigmaPx is 0.2
+        EXPECT_LT(errors.max, 0.5);
+    }
+}
+
+TEST(PointTracker, NarrowSearchKeepsToItsRadius)
+{
+    const PointTracker tracker = makeTracker();
+    const PointReference reference = tracker.makeReference(wall({0, 0}, 1));
+    const Vector2d shift(-28, 21);
+    const RgbdFrame second = wall(shift, 2);
+    const std::vector<cv::Mat> pyramid = tracker.pyramid(second.gray);
+    for (const PointTrack& t :
+         tracker.track(reference, second, pyramid, Eigen::Isometry3d::Identity()))
+    {
+        const Vector2d& from = reference.points[static_cast<size_t>(t.ref)].uv_px;
+        EXPECT_LE((t.cur.uv_px - from).norm(), 0.02 * 640 + 1e-3);
+    }
+    // With the motion known the same shift is tracked as exactly as a small one.
+    const auto predicted =
+        tracker.track(reference, second, pyramid, motionFor(shift, second.camera));
+    EXPECT_GT(predicted.size(), 0.8 * static_cast<double>(reference.points.size()));
+    EXPECT_LT(errorsOf(reference, predicted, shift).rms, 0.08);
+}
+
+TEST(PointTracker, WideSearchFindsLargeErrorsOfThePrediction)
+{
+    constexpr double kCoarsePx = 300;  // a wide search needs something coarse to hold on to
+    const PointTracker tracker = makeTracker();
+    const PointReference reference = tracker.makeReference(wall({0, 0}, 1, kCoarsePx));
+    const Vector2d shift(-28, 21);
+    const RgbdFrame second = wall(shift, 2, kCoarsePx);
+    const auto tracks = tracker.track(
+        reference, second, tracker.pyramid(second.gray), Eigen::Isometry3d::Identity(), 5);
+    int numRight = 0;
+    for (const PointTrack& t : tracks)
+    {
+        const Vector2d& from = reference.points[static_cast<size_t>(t.ref)].uv_px;
+        numRight += (t.cur.uv_px - from - shift).norm() < 0.5 ? 1 : 0;
+    }
+    EXPECT_GT(numRight, 30);
+    EXPECT_GT(numRight, 0.8 * static_cast<double>(tracks.size()));
+}
+
+TEST(PointTracker, RejectsWhatIsHidden)
+{
+    const PointTracker tracker = makeTracker();
+    const PointReference reference = tracker.makeReference(wall({0, 0}, 1));
+    RgbdFrame second = wall({1.5, 0.5}, 2);
+    // Something else in front of the middle, with a texture of its own.
+    const cv::Rect hidden(200, 140, 240, 200);
+    const test::Texture other(99, 5, 80);
+    for (int v = hidden.y; v < hidden.br().y; ++v)
+    {
+        for (int u = hidden.x; u < hidden.br().x; ++u)
+        {
+            second.gray.at<uchar>(v, u) = cv::saturate_cast<uchar>(other(u, v));
+        }
+    }
+    const auto tracks = tracker.track(
+        reference, second, tracker.pyramid(second.gray), Eigen::Isometry3d::Identity());
+    int numHidden = 0, numWrong = 0;
+    constexpr int kMargin = 8;
+    const cv::Rect inner(
+        hidden.x + kMargin,
+        hidden.y + kMargin,
+        hidden.width - 2 * kMargin,
+        hidden.height - 2 * kMargin);
+    for (const PointFeature& p : reference.points)
+    {
+        numHidden += inner.contains(cv::Point2d(p.uv_px.x(), p.uv_px.y())) ? 1 : 0;
+    }
+    for (const PointTrack& t : tracks)
+    {
+        const Vector2d& from = reference.points[static_cast<size_t>(t.ref)].uv_px;
+        numWrong += inner.contains(cv::Point2d(from.x(), from.y())) ? 1 : 0;
+    }
+    ASSERT_GT(numHidden, 15);
+    EXPECT_LE(numWrong, numHidden / 20);
+    EXPECT_GT(tracks.size(), 0.8 * static_cast<double>(reference.points.size()) - numHidden);
+}
+
+TEST(PointTracker, BrightnessDoesNotMatter)
+{
+    const PointTracker tracker = makeTracker();
+    const PointReference reference = tracker.makeReference(wall({0, 0}, 1));
+    RgbdFrame second = wall({1.5, 0.5}, 2);
+    second.gray.convertTo(second.gray, CV_8U, 0.9, 10);
+    const auto tracks = tracker.track(
+        reference, second, tracker.pyramid(second.gray), Eigen::Isometry3d::Identity());
+    EXPECT_GT(tracks.size(), 0.7 * static_cast<double>(reference.points.size()));
+    EXPECT_LT(errorsOf(reference, tracks, {1.5, 0.5}).rms, 0.3);
+}
+
+TEST(PointTracker, DropsPointsThatLeaveTheImage)
+{
+    const PointTracker tracker = makeTracker();
+    const PointReference reference = tracker.makeReference(wall({0, 0}, 1));
+    const Vector2d shift(300, 0);
+    const RgbdFrame second = wall(shift, 2);
+    size_t numInside = 0;
+    for (const PointFeature& p : reference.points)
+    {
+        numInside += p.uv_px.x() + shift.x() < 631 ? 1 : 0;
+    }
+    ASSERT_LT(numInside, reference.points.size());
+    const auto tracks = tracker.track(
+        reference, second, tracker.pyramid(second.gray), motionFor(shift, second.camera));
+    EXPECT_LE(tracks.size(), numInside);
+    EXPECT_GT(tracks.size(), 0.9 * static_cast<double>(numInside));
+    for (const PointTrack& t : tracks)
+    {
+        EXPECT_LT(t.cur.uv_px.x(), 632);
+    }
+
+    // Behind the camera nothing is seen.
+    Eigen::Isometry3d past = Eigen::Isometry3d::Identity();
+    past.translation().z() = -kDepth - 1;
+    EXPECT_TRUE(tracker.track(reference, second, tracker.pyramid(second.gray), past).empty());
+}
+
+TEST(PointTracker, ComesInTheReferencesOrderAndIsRepeatable)
+{
+    const PointTracker tracker = makeTracker();
+    const PointReference reference = tracker.makeReference(wall({0, 0}, 1));
+    const RgbdFrame second = wall({1.5, 0.5}, 2);
+    const auto track = [&]
+    {
+        return tracker.track(
+            reference, second, tracker.pyramid(second.gray), Eigen::Isometry3d::Identity());
+    };
+    const auto once = track(), again = track();
+    ASSERT_EQ(once.size(), again.size());
+    for (size_t i = 0; i < once.size(); ++i)
+    {
+        EXPECT_EQ(once[i].ref, again[i].ref);
+        EXPECT_EQ(once[i].cur.uv_px, again[i].cur.uv_px);
+        EXPECT_TRUE(i == 0 || once[i - 1].ref < once[i].ref);
+    }
+}
+
+TEST(PointTracker, HasNothingWithoutPictureTextureOrDepth)
+{
+    const PointTracker tracker = makeTracker();
+    RgbdFrame frame = wall({0, 0}, 1);
+    frame.gray = cv::Mat();
+    EXPECT_TRUE(tracker.makeReference(frame).points.empty());
+    EXPECT_TRUE(tracker.pyramid(frame.gray).empty());
+
+    frame = wall({0, 0}, 1);
+    frame.depth.setTo(std::nanf(""));
+    EXPECT_TRUE(tracker.makeReference(frame).points.empty());
+
+    frame = wall({0, 0}, 1);
+    frame.gray.setTo(128);
+    EXPECT_TRUE(tracker.makeReference(frame).points.empty());
+}
+
+TEST(PointTracker, BlankWallHasNoCorners)
+{
+    RgbdFrame frame = wall({0, 0}, 1);
+    test::GaussianSampler random(3);
+    const auto grey = [](double u, double v) { return 90 + 0.1 * u + 0.05 * v; };
+    frame.gray = test::renderImage(640, 480, grey, 1.5, &random);
+    EXPECT_TRUE(makeTracker().makeReference(frame).points.empty());
+
+    PointTracker::TParams params;
+    params.maxNoisePx = 100;  // corners of noise
+    EXPECT_GT(makeTracker(params).makeReference(frame).points.size(), 100U);
+}
+
+TEST(PointTracker, OneLevelWorksToo)
+{
+    PointTracker::TParams params;
+    params.numLevels = 1;
+    const PointTracker tracker = makeTracker(params);
+    const PointReference reference = tracker.makeReference(wall({0, 0}, 1));
+    const RgbdFrame second = wall({1.5, 0.5}, 2);
+    const auto tracks = tracker.track(
+        reference, second, tracker.pyramid(second.gray), Eigen::Isometry3d::Identity());
+    EXPECT_GT(tracks.size(), 0.9 * static_cast<double>(reference.points.size()));
+    EXPECT_LT(errorsOf(reference, tracks, {1.5, 0.5}).rms, 0.08);
+}
+
+TEST(PointTracker, NamesTheParameterThatIsOutOfRange)
+{
+    PointTracker::TParams params;
+    params.windowPx = 3;
+    try
+    {
+        makeTracker(params);
+        FAIL() << "no exception";
+    }
+    catch (const std::invalid_argument& e)
+    {
+        EXPECT_NE(std::string(e.what()).find("windowPx = 3"), std::string::npos);
+    }
+}
+}  // namespace
+}  // namespace pointplane

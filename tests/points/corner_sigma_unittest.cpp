@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "corner_sigma.h"
+
+#include <opencv2/imgproc.hpp>
+#include <opencv2/video/tracking.hpp>
+
+#include <cmath>
+
+#include "texture.h"
+#include <gtest/gtest.h>
+
+using namespace pointplane;
+
+namespace
+{
+constexpr int kWindowPx = 15;
+
+cv::Mat blankWall(double noise)
+{
+    test::GaussianSampler random(3);
+    return test::renderImage(
+        640, 480, [](double u, double v) { return 90 + 0.1 * u + 0.05 * v; }, noise, &random);
+}
+
+cv::Mat derivativesOf(const cv::Mat& gray)
+{
+    std::vector<cv::Mat> pyramid;
+    cv::buildOpticalFlowPyramid(gray, pyramid, {kWindowPx, kWindowPx}, 0, true);
+    return pyramid[1];
+}
+}  // namespace
+
+TEST(ImageNoise, IsThatOfTheImage)
+{
+    for (const double sigma : {1.5, 3.0, 6.0})
+    {
+        EXPECT_NEAR(imageNoise(blankWall(sigma)), std::hypot(sigma, 0.29), 0.25);
+    }
+}
+
+TEST(ImageNoise, SeesPastTexture)
+{
+    const test::Texture texture(1, 8, 80);
+    test::GaussianSampler random(3);
+    EXPECT_LT(imageNoise(test::renderImage(640, 480, texture, 2, &random)), 3.5);
+}
+
+TEST(ImageNoise, IsAtLeastThatOfRounding)
+{
+    EXPECT_DOUBLE_EQ(imageNoise(cv::Mat(480, 640, CV_8UC1, cv::Scalar(7))), 0.3);
+    EXPECT_DOUBLE_EQ(imageNoise(cv::Mat(2, 2, CV_8UC1, cv::Scalar(7))), 0.3);
+}
+
+TEST(CornerSigma, OfAStepCornerIsByHand)
+{
+    // A dark quarter in the middle of the patch: along each of its two sides, 8 px inside the patch
+    // have a step of 100, which Scharr sees as a gradient of 50 in two pixels beside each other.
+    cv::Mat gray(100, 100, CV_8UC1, cv::Scalar(150));
+    gray(cv::Rect(50, 50, 50, 50)).setTo(50);
+    const double lambda = 7.5 * 2 * 50 * 50;
+    EXPECT_NEAR(
+        cornerSigma(derivativesOf(gray), {50, 50}, kWindowPx, 1.5),
+        1.5 * std::sqrt(2 / lambda),
+        1e-3);
+}
+
+TEST(CornerSigma, OfAnEdgeIsInfinite)
+{
+    cv::Mat gray(100, 100, CV_8UC1, cv::Scalar(150));
+    gray(cv::Rect(50, 0, 50, 100)).setTo(50);
+    EXPECT_TRUE(std::isinf(cornerSigma(derivativesOf(gray), {50, 50}, kWindowPx, 1.0)));
+}
+
+TEST(CornerSigma, OfNoiseIsLarge)
+{
+    const cv::Mat gray = blankWall(1.5), derivatives = derivativesOf(gray);
+    const double noise = imageNoise(gray);
+    for (int v = 20; v < 460; v += 40)
+    {
+        for (int u = 20; u < 620; u += 40)
+        {
+            const cv::Point2f centre(static_cast<float>(u), static_cast<float>(v));
+            EXPECT_GT(cornerSigma(derivatives, centre, kWindowPx, noise), 0.1);
+        }
+    }
+}

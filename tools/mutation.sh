@@ -1,0 +1,70 @@
+#!/usr/bin/env bash
+# Breaks one line at a time, in a copy of the tree, and runs the tests that should notice.
+# Fails when a mutant survives, or when a line that is to be broken is not there any more.
+build_dir=build/mutation/build
+source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
+source tools/instrumented.sh
+
+# file | the line's text | what it becomes | tests
+mutants=(
+    'libs/pose/src/residuals.cpp|-Eigen::Matrix3d::Identity(), hat(p_base)|-Eigen::Matrix3d::Identity(), -hat(p_base)|pose_residuals'
+    'libs/pose/src/residuals.cpp|(Eigen::Matrix3d::Identity() + s * u|(Eigen::Matrix3d::Identity() - s * u|pose_residuals'
+    'libs/pose/src/residuals.cpp|Identity() - 2 * theta * theta|Identity() - theta * theta|pose_residuals'
+    'libs/pose/src/PoseSolver.cpp|gain * gain * w * w * JtW|gain * gain * w * JtW|pose_PoseSolver pose_PoseSolverCovariance'
+    'libs/pose/src/PoseSolver.cpp|w > 0.5 ? 1 : 0|w > 0.05 ? 1 : 0|pose_PoseSolver'
+    'libs/core/src/se3.cpp|a.z(), 0, -a.x(), -a.y(), a.x(), 0|a.z(), 0, -a.y(), -a.x(), a.y(), 0|core_se3'
+    'libs/core/src/se3.cpp|topRightCorner<3, 3>() = hat|bottomLeftCorner<3, 3>() = hat|core_se3 core_PoseGaussian'
+    'libs/core/src/Plane.cpp|= -n.transpose() / (norm * norm)|= n.transpose() / (norm * norm)|core_Plane'
+    'libs/sensor/src/DepthNoise.cpp|topLeftCorner<2, 2>() +=|bottomRightCorner<2, 2>() +=|sensor_DepthNoise'
+    'libs/sensor/src/PinholeCamera.cpp|6 * k[3] * x|2 * k[3] * x|sensor_PinholeCamera'
+    'libs/planes/src/PlaneFitter.cpp|b -= w * P|b += w * P|planes_PlaneFitter'
+    'libs/planes/src/PlaneMatcher.cpp|dot(plane.n) >= minCosine|dot(plane.n) <= minCosine|planes_PlaneMatcher'
+)
+readonly tree=build/mutation/tree log=build/mutation/log
+
+install_packages "${build_packages[@]}"
+rm -rf "$tree"
+mkdir -p "$tree"
+# shellcheck disable=SC2046  # no name in this tree has a space
+cp --parents $(git ls-files CMakeLists.txt cmake libs tests) "$tree"
+
+source_dir=$tree
+configure_instrumented -DPOINTPLANE_BUILD_APPS=OFF -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O1
+
+# passes TEST...: builds and runs; a mutant that does not compile would prove nothing.
+passes() {
+    local name
+    cmake --build "$build_dir" --parallel "$(num_jobs)" --target "${@/#/test_}" >"$log" 2>&1 ||
+        die "does not compile, see $log"
+    for name in "$@"; do
+        timeout 300 "$build_dir/tests/test_$name" >"$log" 2>&1 || return 1
+    done
+}
+
+say "the tests as they are"
+declare -A all_tests=()
+for mutant in "${mutants[@]}"; do
+    for name in ${mutant##*|}; do all_tests[$name]=1; done
+done
+passes "${!all_tests[@]}" || die "fails without any mutation, see $log"
+
+say "${#mutants[@]} mutants"
+survivors=0
+for mutant in "${mutants[@]}"; do
+    IFS='|' read -r file old new tests <<<"$mutant"
+    original=$(<"$tree/$file")
+    mutated=${original/"$old"/"$new"}
+    [[ $mutated != "$original" ]] || die "$file has no '$old' any more: change tools/mutation.sh"
+    printf '%s\n' "$mutated" >"$tree/$file"
+    # shellcheck disable=SC2086  # a list of names
+    if passes $tests; then
+        verdict=SURVIVED
+        survivors=$((survivors + 1))
+    else
+        verdict=caught
+    fi
+    printf '%-8s  %-34s %s -> %s\n' "$verdict" "$file" "$old" "$new"
+    printf '%s\n' "$original" >"$tree/$file"
+done
+printf '%d of %d mutants caught\n' "$((${#mutants[@]} - survivors))" "${#mutants[@]}"
+exit $((survivors > 0))
