@@ -27,9 +27,7 @@ for part in $parts; do
         replace planes "$work/planes.md"
         ;;
     memory)
-        sequence=$(basename "$(find "$data" -mindepth 1 -maxdepth 1 -type d -name '*fr3*' | sort | head -1)")
-        "$build/bin/pointplane-convert" tum "$data/$sequence" -o "$work/memory.rawlog" >/dev/null
-        { echo && benchmarks/memory.sh "$build/bin" "$work/memory.rawlog" && echo; } >"$work/memory.md"
+        { echo && benchmarks/memory.sh "$build/bin" && echo; } >"$work/memory.md"
         replace memory "$work/memory.md"
         ;;
     *)

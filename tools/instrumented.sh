@@ -1,7 +1,8 @@
 # shellcheck shell=bash disable=SC2034
 # Sourced by the tools that build with sanitizers or coverage, after setup.sh.
 
-readonly clang_packages=(clang libclang-rt-dev)
+# llvm: its symbolizer makes the reports readable.
+readonly clang_packages=(clang libclang-rt-dev llvm)
 
 # -O1 and assertions: what sanitizers are made for.
 readonly clang_address_options=(

@@ -15,6 +15,7 @@
 
 #include <filesystem>
 #include <map>
+#include <tuple>
 
 namespace pointplane
 {
@@ -115,6 +116,27 @@ std::vector<StampedPose> PoseCollector::result(
     }
     return found->second;
 }
+
+struct KeyFrame
+{
+    mrpt::poses::CPose3DPDF::ConstPtr pdf;
+    mrpt::obs::CSensoryFrame::ConstPtr observations;
+};
+
+/** From CSimpleMap::get() of MRPT 2.14. */
+template <class Map>
+auto keyFrameOf(const Map& map, std::size_t k) -> decltype(KeyFrame{map.get(k).pose, map.get(k).sf})
+{
+    return {map.get(k).pose, map.get(k).sf};
+}
+
+/** From that of MRPT 2.5, which gives a tuple. */
+template <class Map>
+auto keyFrameOf(const Map& map, std::size_t k)
+    -> decltype(KeyFrame{std::get<0>(map.get(k)), std::get<1>(map.get(k))})
+{
+    return {std::get<0>(map.get(k)), std::get<1>(map.get(k))};
+}
 }  // namespace
 
 Trajectory readRawlogTrajectory(const std::string& path, const std::string& sensorLabel)
@@ -154,10 +176,8 @@ Trajectory readSimplemapTrajectory(const std::string& path)
     std::vector<StampedPose> poses;
     for (std::size_t k = 0; k < map.size(); ++k)
     {
-        mrpt::poses::CPose3DPDF::Ptr pdf;
-        mrpt::obs::CSensoryFrame::Ptr frame;
-        map.get(k, pdf, frame);
-        if (!pdf || !frame || frame->empty())
+        const auto [pdf, observations] = keyFrameOf(map, k);
+        if (!pdf || !observations || observations->empty())
         {
             throw InputError(
                 "'" + path + "': key frame " + std::to_string(k) + " has no observation, " +
@@ -165,7 +185,8 @@ Trajectory readSimplemapTrajectory(const std::string& path)
         }
         mrpt::poses::CPose3DPDFGaussian gaussian;
         gaussian.copyFrom(*pdf);
-        poses.push_back(stamped(toSeconds((*frame->begin())->timestamp), fromMrpt(gaussian)));
+        poses.push_back(
+            stamped(toSeconds((*observations->begin())->timestamp), fromMrpt(gaussian)));
     }
     if (poses.empty())
     {

@@ -158,9 +158,9 @@ std::string SpeedBenchmark::stageTable(const BenchmarkSequence& sequence) const
     {
         const Stages& s = all[i];
         out << "| " << kConfigs[i];
-        for (const FrameTimes* t : {&s.points, &s.planes, &s.matching, &s.pose, &s.rest, &s.total})
+        for (const FrameTimes* t : {&s.points, &s.planes, &s.matching, &s.pose, &s.rest})
         {
-            out << " | " << number(t->median());
+            out << " | " << std::lround(100 * t->mean() / s.total.mean());
         }
         out << " |\n";
     }

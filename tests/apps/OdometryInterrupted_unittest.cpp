@@ -82,7 +82,7 @@ TEST_F(OdometryInterrupted, aFullDiskIsExitCode3AndLeavesNothingThatLooksComplet
             numFull += *code == kExitEnvironment ? 1 : 0;
         }
         const bool large = std::string(option) == "-o" || std::string(option) == "--simplemap";
-        EXPECT_TRUE(numFull > 1 || !large) << option << ": " << numFull;
+        EXPECT_TRUE(numFull > 0 || !large) << option;
     }
 }
 

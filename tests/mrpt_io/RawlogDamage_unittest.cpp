@@ -7,6 +7,8 @@
 #include <mrpt/obs/CObservationRange.h>
 #include <mrpt/serialization/CArchive.h>
 
+#include <opencv2/core.hpp>
+
 #include <random>
 
 #include "TempDir.h"
@@ -114,6 +116,60 @@ TEST(RawlogDamage, onRequestMrptIsNotAskedForClassesThatAreNotKnown)
     EXPECT_FALSE(reader.next());
     EXPECT_EQ(reader.ending().kind, RawlogEnd::Damaged);
     EXPECT_THAT(reader.ending().message, testing::HasSubstr("class CObservationRange of"));
+}
+
+/** A scan whose colour is JPEG, as MRPT serialises it. */
+std::string jpegScan()
+{
+    mrpt::img::CImage::DISABLE_JPEG_COMPRESSION(false);
+    std::vector<std::uint8_t> bytes;
+    mrpt::serialization::ObjectToOctetVector(test::sampleScan(0).get(), bytes);
+    mrpt::img::CImage::DISABLE_JPEG_COMPRESSION(true);
+    return {bytes.begin(), bytes.end()};
+}
+
+TEST(RawlogDamage, jpegImagesAreThoseThatMrptReads)
+{
+    const TempDir dir;
+    const std::string bytes = jpegScan();
+    writeBytes(dir / "a.rawlog", bytes);
+    const RawlogContents contents = readAll(dir / "a.rawlog");
+    ASSERT_EQ(contents.objects.size(), 1U);
+    mrpt::serialization::CSerializable::Ptr expected;
+    mrpt::serialization::OctetVectorToObject({bytes.begin(), bytes.end()}, expected);
+    const auto imageOf = [](const mrpt::serialization::CSerializable::Ptr& object)
+    {
+        return std::dynamic_pointer_cast<mrpt::obs::CObservation3DRangeScan>(object)
+            ->intensityImage.asCvMatRef()
+            .clone();
+    };
+    EXPECT_EQ(cv::norm(imageOf(contents.objects[0]), imageOf(expected), cv::NORM_INF), 0);
+}
+
+/** libjpeg's own answer to a damaged image, which MRPT leaves it to, is to end the process. */
+TEST(RawlogDamage, noDamagedJpegEndsTheProcess)
+{
+    const TempDir dir;
+    const std::string bytes = jpegScan();
+    const std::size_t begin = bytes.find("\xff\xd8\xff");
+    ASSERT_NE(begin, std::string::npos);
+    int reported = 0;
+    for (std::size_t at = begin; at < begin + 700 && at < bytes.size(); ++at)
+    {
+        std::string damaged = bytes;
+        damaged[at] = static_cast<char>(damaged[at] ^ 0x55);
+        writeBytes(dir / "b.rawlog", damaged);
+        try
+        {
+            (void)readAll(dir / "b.rawlog");
+        }
+        catch (const InputError& error)
+        {
+            EXPECT_THAT(error.what(), testing::HasSubstr("b.rawlog"));
+            ++reported;
+        }
+    }
+    EXPECT_GT(reported, 20);
 }
 
 /** What a rawlog is made of. */

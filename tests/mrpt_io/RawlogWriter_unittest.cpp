@@ -37,6 +37,32 @@ TEST(RawlogWriter, theFileAppearsWhenItIsComplete)
     EXPECT_EQ(writer.numObjects(), 1U);
 }
 
+TEST(RawlogWriter, commentsAreTheSameBytesWithAnyMrpt)
+{
+    const TempDir dir;
+    const std::string path = dir / "a.rawlog";
+    RawlogWriter writer(path);
+    mrpt::obs::CObservationComment comment;
+    comment.text = "a=1";
+    comment.timestamp = mrpt::Clock::time_point(mrpt::Clock::duration(0x0102030405060708));
+    writer.write(comment);
+    writer.close();
+    const std::string expected = std::string("\x9e") + "mrpt::obs::CObservationComment" +
+                                 std::string("\0\3\0\0\0", 5) + "a=1" +
+                                 "\x08\x07\x06\x05\x04\x03\x02\x01" + "\x88";
+    std::string bytes(expected.size() + 1, ' ');
+    mrpt::io::CFileGZInputStream file(path);
+    bytes.resize(file.Read(bytes.data(), bytes.size()));
+    EXPECT_EQ(bytes, expected);
+
+    const auto objects = readAll(path).objects;
+    ASSERT_EQ(objects.size(), 1U);
+    const auto read = std::dynamic_pointer_cast<mrpt::obs::CObservationComment>(objects[0]);
+    ASSERT_TRUE(read);
+    EXPECT_EQ(read->text, comment.text);
+    EXPECT_EQ(read->timestamp, comment.timestamp);
+}
+
 TEST(RawlogWriter, mrptReadsIt)
 {
     const TempDir dir;

@@ -48,9 +48,11 @@ class PairWorld
     {
         for (int i = 0; i < n; ++i)
         {
-            addPlane(
-                Eigen::Vector3d(sampler_.uniform(-1, 1), sampler_.uniform(-1, 1), -1),
-                sampler_.uniform(1, 3));
+            // One after the other: compilers differ in the order of arguments.
+            const double d = sampler_.uniform(1, 3);
+            const double y = sampler_.uniform(-1, 1);
+            const double x = sampler_.uniform(-1, 1);
+            addPlane({x, y, -1}, d);
         }
     }
 

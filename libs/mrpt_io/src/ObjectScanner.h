@@ -78,7 +78,8 @@ class ObjectScanner
     void pixelLabels();
     void image(int version);
     void grayPixels(int version);
-    void colourPixels(int version);
+    void colourPixels(std::size_t versionAt, int version);
+    void jpegPixels(std::size_t versionAt, std::int32_t width, std::int32_t height);
     void camera(int version);
     void pose3D(int version);
 

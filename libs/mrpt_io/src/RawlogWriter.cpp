@@ -3,6 +3,7 @@
 #include <pointplane/mrpt_io/errors.h>
 
 #include <mrpt/io/CMemoryStream.h>
+#include <mrpt/obs/CObservationComment.h>
 #include <mrpt/serialization/CArchive.h>
 #include <mrpt/serialization/CSerializable.h>
 
@@ -14,6 +15,22 @@
 
 namespace pointplane
 {
+namespace
+{
+/** Version 0 of the class, which every MRPT reads. MRPT 2.14 writes version 1, which adds the label
+ * and which MRPT 2.5 refuses. */
+void writeComment(
+    const mrpt::obs::CObservationComment& comment, mrpt::serialization::CArchive& archive)
+{
+    const std::string name = "mrpt::obs::CObservationComment";
+    archive << static_cast<std::uint8_t>(0x80U | name.size());
+    archive.WriteBuffer(name.data(), name.size());
+    archive << std::uint8_t{0} << comment.text
+            << static_cast<std::uint64_t>(comment.timestamp.time_since_epoch().count())
+            << std::uint8_t{0x88};
+}
+}  // namespace
+
 struct RawlogWriter::Impl
 {
     Impl(const std::string& thePath, const Options& theOptions)
@@ -60,7 +77,15 @@ void RawlogWriter::write(const mrpt::serialization::CSerializable& object)
     }
     mrpt::io::CMemoryStream buffer;
     auto archive = mrpt::serialization::archiveFrom(buffer);
-    archive << object;
+    const auto* comment = dynamic_cast<const mrpt::obs::CObservationComment*>(&object);
+    if (comment != nullptr && comment->sensorLabel.empty())
+    {
+        writeComment(*comment, archive);
+    }
+    else
+    {
+        archive << object;
+    }
     const auto size = static_cast<std::size_t>(buffer.getTotalBytesCount());
     impl_->file->write(buffer.getRawBufferData(), size);
     ++impl_->numObjects;

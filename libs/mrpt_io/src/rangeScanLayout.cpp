@@ -147,6 +147,7 @@ void ObjectScanner::image(int version)
     require(
         version >= 7 && version <= 9,
         "an image of serialisation version " + std::to_string(version) + " (7 to 9 are supported)");
+    const std::size_t versionAt = bytes_->size() - 1;
     if (copyBool())
     {
         copyString();  // external file
@@ -154,7 +155,7 @@ void ObjectScanner::image(int version)
     }
     if (copyBool())
     {
-        colourPixels(version);
+        colourPixels(versionAt, version);
     }
     else
     {
@@ -182,7 +183,7 @@ void ObjectScanner::grayPixels(int version)
     copy(size);
 }
 
-void ObjectScanner::colourPixels(int version)
+void ObjectScanner::colourPixels(std::size_t versionAt, int version)
 {
     // Negative: raw pixels. Positive: JPEG follows.
     const auto width = copyValue<std::int32_t>();
@@ -197,9 +198,7 @@ void ObjectScanner::colourPixels(int version)
     }
     else if (width > 0 && height > 0)
     {
-        const auto size = copyValue<std::uint32_t>();
-        require(size <= pixels * 6 + 65536, "a JPEG image larger than its pixels");
-        copy(size);
+        jpegPixels(versionAt, width, height);
     }
 }
 

@@ -40,7 +40,7 @@ class PointTracker
         int maxPoints{200};
         double minSpacingFraction{0.016};
         double cornerQuality{0.001};
-        double maxNoisePx{0.1};
+        double maxNoisePx{0.2};
         int windowPx{15};
         int numLevels{4};
         double searchRadiusFraction{0.02};
