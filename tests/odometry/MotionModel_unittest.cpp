@@ -3,11 +3,14 @@
 #include <pointplane/core/se3.h>
 #include <pointplane/odometry/MotionModel.h>
 
+#include <Eigen/LU>
+
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
 #include "matchers.h"
+#include "monte_carlo.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

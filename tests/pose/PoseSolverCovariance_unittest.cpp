@@ -178,7 +178,7 @@ TEST(PoseSolverCovariance, ofPoseAndVelocityTogether)
         for (size_t k = 0; k < points.size(); ++k)
         {
             // Rows from top to bottom are exposed within 30 ms.
-            const double s = 0.03 * (static_cast<double>(k) / points.size() - 0.5);
+            const double s = 0.03 * (static_cast<double>(k) / static_cast<double>(points.size()) - 0.5);
             Matrix36d D;
             D << s * Eigen::Matrix3d::Identity(), -s * hat(points[k].cur.mean);
             points[k].dCur_dV = D;

@@ -148,11 +148,11 @@ TEST(PoseSolver, gradientOfThePapersCostVanishes)
         Matrix6d H = Matrix6d::Zero();
         for (const PointPair& pair : points)
         {
-            add(pointResidual(pair, e.pose().mean), 1, gradient, H);
+            add(pointResidual(pair, e.motion.mean), 1, gradient, H);
         }
         for (const PlanePair& pair : planes)
         {
-            add(planeResidualClosestPoint(pair, e.pose().mean), 10, gradient, H);
+            add(planeResidualClosestPoint(pair, e.motion.mean), 10, gradient, H);
         }
         // The step that the gradient still asks for, in sigmas.
         EXPECT_LT(std::sqrt(gradient.dot(H.ldlt().solve(gradient))), 1e-2) << weighting;
@@ -169,7 +169,7 @@ TEST(PoseSolver, inliersArePairsOfMoreThanHalfTheirWeight)
     for (const auto& [share, expected] : {std::pair(0.45, 60), std::pair(0.65, 59)})
     {
         std::vector<PointPair> pairs = world.drawPoints(0);
-        const Eigen::Matrix3d cov = pointResidual(pairs[0], world.T_base_cur).cov;
+        const Eigen::Matrix3d cov = pointResidual(pairs[0], Motion{world.T_base_cur, Vector6d::Zero()}).cov;
         const Eigen::Vector3d sigmas = Eigen::Matrix3d(cov.llt().matrixL()).col(0);
         pairs[0].base.mean += share * params.tukeySigmas * sigmas;
         EXPECT_EQ(solve(params, pairs, {}).numPointInliers, expected) << share;

@@ -71,8 +71,13 @@ ShutterCalibrator::ShutterCalibrator(const TParams& params)
     : params_(params), estimate_(params.readoutColour, params.readoutDepth, params.depthDelay)
 {
     params_.check();
-    information_ = Eigen::Matrix3d::Identity() / (params_.sigmaPrior * params_.sigmaPrior);
+    information_ = priorInformation();
     informationVector_ = information_ * estimate_;
+}
+
+Eigen::Matrix3d ShutterCalibrator::priorInformation() const
+{
+    return Eigen::Matrix3d::Identity() / (params_.sigmaPrior * params_.sigmaPrior);
 }
 
 ShutterModel ShutterCalibrator::complete(const ShutterModel& source) const
@@ -136,8 +141,11 @@ Matrix6d ShutterCalibrator::update(
     informationVector_ += information * estimate_ - gradient;
     estimate_ =
         information_.ldlt().solve(informationVector_).cwiseMax(-kMaxTime).cwiseMin(kMaxTime);
-    // "Consider" covariance (Schmidt 1966): d pose / d shutter = -Hxx^-1 Hxs.
+    // "Consider" covariance (Schmidt 1966): d pose / d shutter = -Hxx^-1 Hxs. Frames repeat each
+    // other's residuals, the prior does not.
     const Eigen::Matrix<double, 6, 3> K = eliminated.topRows<6>();
-    return propagate(K, Eigen::Matrix3d(params_.varianceFactor * information_.inverse()));
+    const Eigen::Matrix3d known =
+        priorInformation() + (information_ - priorInformation()) / params_.varianceFactor;
+    return propagate(K, known.inverse().eval());
 }
 }  // namespace pointplane

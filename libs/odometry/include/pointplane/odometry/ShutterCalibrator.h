@@ -77,6 +77,8 @@ class ShutterCalibrator
     [[nodiscard]] const Eigen::Vector3d& estimate() const { return estimate_; }
 
  private:
+    [[nodiscard]] Eigen::Matrix3d priorInformation() const;
+
     TParams params_;
     Eigen::Vector3d estimate_;
     Eigen::Matrix3d information_;
