@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The real program with the real OpenNI2 runtime and a virtual camera.
 #include <algorithm>
+#include <cmath>
 
 #include "RenderedMotion.h"
 #include "VirtualCamera.h"
@@ -100,11 +101,18 @@ TEST_F(OpenNi2Recording, stampsAreUtcWithTheCamerasSpacing)
     ASSERT_EQ(scans.size(), 60U);
     EXPECT_GT(stampOf(*scans.front()), before);
     EXPECT_LT(stampOf(*scans.back()), after);
+    bool complete = true;
     for (std::size_t k = 1; k < scans.size(); ++k)
     {
-        // Host jitter is milliseconds; slewing may change 0.2 per mille.
-        EXPECT_NEAR(stampOf(*scans[k]) - stampOf(*scans[k - 1]), kPeriod, 1e-5) << "frame " << k;
+        // Host jitter is milliseconds; slewing may change 0.2 per mille. A busy machine may lose an
+        // image, which then is said.
+        const double spacing = stampOf(*scans[k]) - stampOf(*scans[k - 1]);
+        const double periods = std::max(1.0, std::round(spacing / kPeriod));
+        complete = complete && periods == 1;
+        EXPECT_NEAR(spacing, periods * kPeriod, periods * 1e-5) << "frame " << k;
     }
+    EXPECT_EQ(complete, err_.find("lost: 0 depth and 0 colour images") != std::string::npos)
+        << err_;
 }
 
 TEST_F(OpenNi2Recording, wrongTimeUnitOfADriverIsCorrected)

@@ -25,8 +25,8 @@ class ShutterCorrection
      * \param row of the pixel */
     [[nodiscard]] Matrix36d pointJacobian(const Eigen::Vector3d& P, double row) const;
 
-    /** dtheta_m / dV of a plane: theta_m - (delay I + readout L) g with g = theta x omega - (theta
-     * . rho) theta and L the plane's rowLever; derivation in docs/theory.md. */
+    /** dtheta_m / dV of a plane: theta_m - (delay I + readout L) g with g = theta x omega - theta
+     * theta^T rho and L the plane's rowLever; derivation in docs/theory.md. */
     [[nodiscard]] Matrix36d planeJacobian(const PlaneFeature& plane) const;
 
  private:
