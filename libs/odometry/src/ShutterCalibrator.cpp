@@ -71,13 +71,8 @@ ShutterCalibrator::ShutterCalibrator(const TParams& params)
     : params_(params), estimate_(params.readoutColour, params.readoutDepth, params.depthDelay)
 {
     params_.check();
-    information_ = priorInformation();
+    information_ = Eigen::Matrix3d::Identity() / (params_.sigmaPrior * params_.sigmaPrior);
     informationVector_ = information_ * estimate_;
-}
-
-Eigen::Matrix3d ShutterCalibrator::priorInformation() const
-{
-    return Eigen::Matrix3d::Identity() / (params_.sigmaPrior * params_.sigmaPrior);
 }
 
 ShutterModel ShutterCalibrator::complete(const ShutterModel& source) const
@@ -135,17 +130,17 @@ Matrix6d ShutterCalibrator::update(
         normal.add(residual, Js, noise.planes);
     }
     const Matrix123d eliminated = normal.Hxx.ldlt().solve(normal.Hxs);
-    const Eigen::Matrix3d information = normal.Hss - normal.Hxs.transpose() * eliminated;
-    const Eigen::Vector3d gradient = normal.gs - eliminated.transpose() * normal.gx;
+    // Frames repeat each other's residuals: each counts as a fraction of one.
+    const Eigen::Matrix3d information =
+        (normal.Hss - normal.Hxs.transpose() * eliminated) / params_.varianceFactor;
+    const Eigen::Vector3d gradient =
+        (normal.gs - eliminated.transpose() * normal.gx) / params_.varianceFactor;
     information_ += information;
     informationVector_ += information * estimate_ - gradient;
     estimate_ =
         information_.ldlt().solve(informationVector_).cwiseMax(-kMaxTime).cwiseMin(kMaxTime);
-    // "Consider" covariance (Schmidt 1966): d pose / d shutter = -Hxx^-1 Hxs. Frames repeat each
-    // other's residuals, the prior does not.
+    // "Consider" covariance (Schmidt 1966): d pose / d shutter = -Hxx^-1 Hxs.
     const Eigen::Matrix<double, 6, 3> K = eliminated.topRows<6>();
-    const Eigen::Matrix3d known =
-        priorInformation() + (information_ - priorInformation()) / params_.varianceFactor;
-    return propagate(K, known.inverse().eval());
+    return propagate(K, information_.inverse().eval());
 }
 }  // namespace pointplane

@@ -25,7 +25,7 @@ class ShutterCalibrator
         double depthDelay{0};
         bool selfCalibrate{true};
         double sigmaPrior{0.01};
-        double varianceFactor{30.0};
+        double varianceFactor{10.0};
 
         template <class V>
         void visit(V&& v)
@@ -50,7 +50,7 @@ class ShutterCalibrator
             v("varianceFactor",
               varianceFactor,
               "-",
-              "true variance of the refined values over what independent frames would give");
+              "each frame counts as the inverse of this: frames repeat each other's residuals");
         }
         /** \throws std::invalid_argument naming the key */
         void check() const;
@@ -77,8 +77,6 @@ class ShutterCalibrator
     [[nodiscard]] const Eigen::Vector3d& estimate() const { return estimate_; }
 
  private:
-    [[nodiscard]] Eigen::Matrix3d priorInformation() const;
-
     TParams params_;
     Eigen::Vector3d estimate_;
     Eigen::Matrix3d information_;
