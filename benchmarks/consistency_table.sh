@@ -24,7 +24,8 @@ quietly() {
     }
 }
 
-# nees RAWLOG TRUTH EVAL_OPTIONS -- [--set ...]: "1 frame / 10 frames / 1 s"
+# nees RAWLOG TRUTH EVAL_OPTIONS -- [--set ...]: 1 frame, 10 frames, 1 s; nothing where a frame was
+# only predicted, after which the covariance of a pose shrinks again
 nees() {
     local rawlog=$1 truth=$2 options=()
     shift 2
@@ -36,13 +37,16 @@ nees() {
     quietly "$bin/pointplane-odometry" -c config.ini "$rawlog" --quiet --only-poses \
         -o "$work/poses.rawlog" "$@"
     "$bin/pointplane-eval" nees "$truth" "$work/poses.rawlog" --body-from-gt optical --csv - \
-        "${options[@]}" | awk -F, '$4 == "joint" {printf "%s%s", sep, $5; sep = " "}'
+        "${options[@]}" 2>"$work/log" |
+        awk -F, '$4 == "joint" {printf "%s%s", sep, $5; sep = " "}' || true
 }
 
 # Lines of "a b c" to one cell with their averages.
 average() {
-    awk '{for (k = 1; k <= 3; ++k) sum[k] += $k}
-         END {printf "%.2f / %.2f / %.2f", sum[1] / NR, sum[2] / NR, sum[3] / NR}'
+    awk 'NF == 3 {for (k = 1; k <= 3; ++k) sum[k] += $k; ++n}
+         END {if (n) printf "%.2f / %.2f / %.2f", sum[1] / n, sum[2] / n, sum[3] / n
+              else printf "-"
+              if (n < NR) printf " (%d of %d)", n, NR}'
 }
 
 real() { # folder, eval options
