@@ -11,18 +11,10 @@ data=$(realpath "${POINTPLANE_DATA:?POINTPLANE_DATA must name the folder with th
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
+source benchmarks/quietly.sh
 
 plain=(--set NoiseScale.adaptive=false --set NoiseScale.pointFactor=1
     --set NoiseScale.planeFactor=1 --set Shutter.varianceFactor=1)
-
-# quietly COMMAND...: says what went wrong, nothing else.
-quietly() {
-    "$@" >"$work/log" 2>&1 || {
-        printf 'error: %s\n' "$*" >&2
-        cat "$work/log" >&2
-        return 1
-    }
-}
 
 # nees RAWLOG TRUTH EVAL_OPTIONS -- [--set ...]: 1 frame, 10 frames, 1 s; nothing where a frame was
 # only predicted, after which the covariance of a pose shrinks again

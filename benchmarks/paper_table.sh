@@ -9,15 +9,7 @@ data=$(realpath "${POINTPLANE_DATA:?POINTPLANE_DATA must name the folder with th
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-
-# quietly COMMAND...: says what went wrong, nothing else.
-quietly() {
-    "$@" >"$work/log" 2>&1 || {
-        printf 'error: %s\n' "$*" >&2
-        cat "$work/log" >&2
-        return 1
-    }
-}
+source benchmarks/quietly.sh
 
 # RMSE of translation [mm] and rotation [deg] of the table that pointplane-eval prints.
 rpe() {

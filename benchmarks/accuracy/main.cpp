@@ -1,33 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pointplane/mrpt_io/errors.h>
-
-#include <iostream>
-
 #include "AccuracyBenchmark.h"
+#include "run_benchmark.h"
 
 int main(int argc, char** argv)
 {
-    CLI::App app{
-        "Accuracy of pointplane's configurations and of the odometries in OpenCV and MRPT"};
-    const pointplane::AccuracyBenchmark benchmark(app);
-    try
-    {
-        app.parse(argc, argv);
-        benchmark.run(std::cout, std::cerr);
-        return pointplane::kExitOk;
-    }
-    catch (const CLI::ParseError& e)
-    {
-        return app.exit(e) == 0 ? pointplane::kExitOk : pointplane::kExitBadInput;
-    }
-    catch (const pointplane::EnvironmentError& e)
-    {
-        std::cerr << "benchmark_accuracy: " << pointplane::oneLine(e) << "\n";
-        return pointplane::kExitEnvironment;
-    }
-    catch (const std::exception& e)
-    {
-        std::cerr << "benchmark_accuracy: " << pointplane::oneLine(e) << "\n";
-        return pointplane::kExitBadInput;
-    }
+    return pointplane::runBenchmark<pointplane::AccuracyBenchmark>(
+        argc,
+        argv,
+        "benchmark_accuracy",
+        "Accuracy of pointplane's configurations and of the odometries in OpenCV and MRPT");
 }

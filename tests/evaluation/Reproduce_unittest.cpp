@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <vector>
 
 #include "EvalApp.h"
 #include "TempDir.h"
@@ -61,27 +62,31 @@ void writeTumFolder(const std::string& folder)
         << camera.width << ' ' << camera.height << " 5000\n";
 }
 
-/** With the real programs, from images to tables. */
+/** The command with the real programs. */
+test::AppRun reproduce(const std::string& folder, const std::vector<std::string>& options)
+{
+    std::vector<std::string> args{
+        "reproduce",
+        folder,
+        "--paper-config",
+        POINTPLANE_SOURCE_DIR "/config-paper.ini",
+        "--odometry",
+        POINTPLANE_ODOMETRY,
+        "--convert",
+        POINTPLANE_CONVERT};
+    args.insert(args.end(), options.begin(), options.end());
+    return test::runApp(runEval, args);
+}
+}  // namespace
+
+/** From images to tables. */
 TEST(Reproduce, fromATumFolderToTheTables)
 {
     const test::TempDir dir;
     writeTumFolder(dir / "sequences/rgbd_dataset_freiburg1_desk");
-    const test::AppRun r = test::runApp(
-        runEval,
-        {"reproduce",
-         dir / "sequences",
-         "--paper-config",
-         POINTPLANE_SOURCE_DIR "/config-paper.ini",
-         "--odometry",
-         POINTPLANE_ODOMETRY,
-         "--convert",
-         POINTPLANE_CONVERT,
-         "--alphas",
-         "0,10",
-         "--json",
-         dir / "out.json",
-         "--report",
-         dir / "report"});
+    const test::AppRun r = reproduce(
+        dir / "sequences",
+        {"--alphas", "0,10", "--json", dir / "out.json", "--report", dir / "report"});
     ASSERT_EQ(r.code, 0) << r.err;
     EXPECT_THAT(r.out, HasSubstr("Table 1"));
     EXPECT_THAT(r.out, HasSubstr("| 43 / 2.3 "));
@@ -120,23 +125,11 @@ TEST(Reproduce, onlyTheTables)
 {
     const test::TempDir dir;
     writeTumFolder(dir / "mine");
-    const test::AppRun r = test::runApp(
-        runEval,
-        {"reproduce",
-         dir / "mine",
-         "--paper-config",
-         POINTPLANE_SOURCE_DIR "/config-paper.ini",
-         "--odometry",
-         POINTPLANE_ODOMETRY,
-         "--convert",
-         POINTPLANE_CONVERT,
-         "--only",
-         "tables"});
+    const test::AppRun r = reproduce(dir / "mine", {"--only", "tables"});
     ASSERT_EQ(r.code, 0) << r.err;
     EXPECT_THAT(r.err, HasSubstr("[3/3, 0 s left]"));
     EXPECT_THAT(r.out, HasSubstr("Table 2"));
     EXPECT_THAT(r.out, testing::Not(HasSubstr("Ablations")));
     EXPECT_THAT(r.out, testing::Not(HasSubstr("alpha")));
 }
-}  // namespace
 }  // namespace pointplane

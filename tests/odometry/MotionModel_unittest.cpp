@@ -47,7 +47,6 @@ MotionModel moving()
 TEST(MotionModel, knowsNothingAtTheStart)
 {
     const MotionModel model({});
-    EXPECT_FALSE(model.hasVelocity());
     const MotionGaussian p = model.predict(kFrame);
     EXPECT_TRUE(p.mean.T_base_cur.isApprox(Eigen::Isometry3d::Identity()));
     EXPECT_TRUE(isPositiveDefinite(p.cov));
@@ -59,7 +58,6 @@ TEST(MotionModel, knowsNothingAtTheStart)
 TEST(MotionModel, keepsTheVelocity)
 {
     const MotionModel model = moving();
-    EXPECT_TRUE(model.hasVelocity());
     for (const double dt : {kFrame, 0.1})
     {
         const MotionGaussian p = model.predict(dt);
@@ -159,7 +157,6 @@ TEST(MotionModel, followsAnIncrementAlone)
 {
     MotionModel model({});
     model.follow(se3Exp(velocity() * kFrame), kFrame);
-    EXPECT_TRUE(model.hasVelocity());
     EXPECT_THAT(model.velocity(), test::IsMatrixNear(velocity(), 1e-12));
     EXPECT_TRUE(isPositiveDefinite(model.predict(kFrame).cov));
 }
@@ -221,7 +218,6 @@ TEST(MotionModel, resetForgets)
     MotionModel model = moving();
     model.coast(0.1);
     model.reset();
-    EXPECT_FALSE(model.hasVelocity());
     EXPECT_EQ(model.predict(kFrame).cov, MotionModel({}).predict(kFrame).cov);
 }
 

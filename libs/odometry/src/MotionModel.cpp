@@ -21,8 +21,8 @@ constexpr double kUnknownAngularVelocity = 1.0;  // [rad/s]
 /** After a longer time nothing more can become unknown; stamps may be any number. */
 constexpr double kLongestStep = 24 * 3600.0;
 
-/** Of the least random walk, to start with. */
-constexpr double kInitial = 10;
+/** Random walk to start with, over the least one. */
+constexpr double kInitialWalk = 10;
 
 /** Of a velocity that decays, all that can become unknown of it in the end. */
 constexpr double kLongestCoasting = 1.0;
@@ -83,7 +83,6 @@ void MotionModel::follow(const Eigen::Isometry3d& T_prev_cur, double dt)
 {
     velocity_ = se3Log(T_prev_cur) / std::min(dt, kLongestStep);
     cov_ = (dt * density_).cwiseMin(1.0).asDiagonal();
-    measured_ = true;
     coasting_ = 0;
 }
 
@@ -112,7 +111,6 @@ Vector6d MotionModel::update(const MotionGaussian& measured, double dt)
 
     velocity_ = measured.mean.velocity;
     cov_ = measured.cov.bottomRightCorner<6, 6>();
-    measured_ = true;
     coasting_ = 0;
     return smoothed;
 }
@@ -132,20 +130,19 @@ Vector6d MotionModel::smallestDensity() const
 
 void MotionModel::coast(double dt)
 {
-    const double kept = std::pow(params_.decay, dt / kFramePeriod);
-    velocity_ *= kept;
     // What decays is uncertain by as much as it decays; the rest is white acceleration.
+    const Vector6d decayed = (1 - std::pow(params_.decay, dt / kFramePeriod)) * velocity_;
+    velocity_ -= decayed;
     const double t = std::min(dt, kLongestCoasting - coasting_);
     coasting_ += t;
-    cov_.diagonal() += t * density_ + (1 - kept) * velocity_.cwiseAbs2();
+    cov_.diagonal() += t * density_ + decayed.cwiseAbs2();
 }
 
 void MotionModel::reset()
 {
     velocity_.setZero();
-    measured_ = false;
     coasting_ = 0;
-    density_ = kInitial * kInitial * smallestDensity();
+    density_ = kInitialWalk * kInitialWalk * smallestDensity();
     cov_ = perAxis(kUnknownVelocity, kUnknownAngularVelocity).cwiseAbs2().asDiagonal();
 }
 }  // namespace pointplane

@@ -46,14 +46,14 @@ int PoseStage::minMatches() const { return fuses() ? 1 : kMinMatches; }
 
 /** The velocity follows the pose as motions do, but the pose is hardly pulled to the predicted one:
  * a jerk must not be smoothed away. The paper's gate wants to know what the frame alone says. */
-MotionPrior PoseStage::priorFrom(const Prediction& predicted) const
+MotionPrior PoseStage::priorFrom(const MotionGaussian& motion, const PoseGaussian& pose) const
 {
     if (!fuses())
     {
-        return MotionPrior::fixedVelocity(predicted.motion.mean);
+        return MotionPrior::fixedVelocity(motion.mean);
     }
-    MotionPrior prior = MotionPrior::from(predicted.motion);
-    prior.pose = predicted.pose.cov.ldlt().solve(Matrix6d::Identity());
+    MotionPrior prior = MotionPrior::from(motion);
+    prior.pose = pose.cov.ldlt().solve(Matrix6d::Identity());
     return prior;
 }
 
@@ -67,6 +67,7 @@ PoseStage::Prediction PoseStage::predict(double dt)
     out.motion = motion_.predict(dt);
     out.pose = out.motion.pose();
     out.pose.cov += motion_.jerk(dt);
+    out.prior = priorFrom(out.motion, out.pose);
     return out;
 }
 
@@ -84,8 +85,8 @@ PoseEstimate PoseStage::estimate(
     out.motion = predicted.motion;
     if (static_cast<int>(points.size() + planes.size()) >= minMatches())
     {
-        out = solver_.solve(
-            points, planes, predicted.motion.mean, priorFrom(predicted), noise_.factors());
+        out =
+            solver_.solve(points, planes, predicted.motion.mean, predicted.prior, noise_.factors());
     }
     diagnostics.iterations += out.iterations;
     diagnostics.numPointPairs = static_cast<int>(points.size());
@@ -145,7 +146,7 @@ PoseStage::Measured PoseStage::accept(
     Measured out;
     out.T_prev_cur = estimate.motion.pose();
     out.T_prev_cur.cov += shutter_.update(
-        pairs, associations, estimate.motion.mean, priorFrom(predicted), noise_.factors());
+        pairs, associations, estimate.motion.mean, predicted.prior, noise_.factors());
     if (fuses())
     {
         out.previousVelocity = motion_.update(estimate.motion, dt);

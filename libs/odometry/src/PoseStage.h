@@ -22,6 +22,7 @@ class PoseStage
     {
         MotionGaussian motion;  //!< by velocities as they have been changing
         PoseGaussian pose;      //!< the same, with the chance of a jerk
+        MotionPrior prior;      //!< what of both the solver is told
     };
 
     /** What the motion model says of a frame `dt` [s] after the previous measured one. */
@@ -59,7 +60,8 @@ class PoseStage
  private:
     [[nodiscard]] bool fuses() const { return pipeline_.degeneracy == "fuse"; }
     [[nodiscard]] int minMatches() const;
-    [[nodiscard]] MotionPrior priorFrom(const Prediction& predicted) const;
+    [[nodiscard]] MotionPrior priorFrom(
+        const MotionGaussian& motion, const PoseGaussian& pose) const;
 
     PipelineParams pipeline_;
     PoseSolver solver_;

@@ -15,7 +15,6 @@ bool sameCamera(const PinholeCamera& a, const PinholeCamera& b)
            (!a.isDistorted() || a.depthAtUndistortedPixel == b.depthAtUndistortedPixel);
 }
 
-/** Why a frame cannot be used, or empty. */
 std::string problemOf(const RgbdFrame& frame)
 {
     if (std::string problem = frame.camera.problem(); !problem.empty())
@@ -40,5 +39,4 @@ std::string problemOf(const RgbdFrame& frame)
     }
     return out.str();
 }
-
 }  // namespace pointplane

@@ -61,9 +61,6 @@ class MotionModel
     /** No measurement over `dt`: the velocity decays, its uncertainty grows. */
     void coast(double dt);
 
-    /** A motion has been measured since the start or reset(). */
-    [[nodiscard]] bool hasVelocity() const { return measured_; }
-
     /** Body velocity at the latest measured frame, decayed since [m/s, rad/s]. */
     [[nodiscard]] const Vector6d& velocity() const { return velocity_; }
 
@@ -81,6 +78,5 @@ class MotionModel
     Matrix6d cov_;  //!< of velocity_
     Vector6d density_;
     double coasting_;  //!< time since the latest measurement, counted up to a limit [s]
-    bool measured_;
 };
 }  // namespace pointplane

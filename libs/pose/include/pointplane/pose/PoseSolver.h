@@ -76,8 +76,7 @@ class PoseSolver
               priorStudentDof,
               "-",
               "degrees of freedom of Student's t for the predicted pose: small = quick to believe "
-              "a "
-              "jerk, 0 = Gaussian");
+              "a jerk, 0 = Gaussian");
             v("maxIterations", maxIterations, "-", "Levenberg-Marquardt iterations");
         }
         void check() const;
