@@ -99,4 +99,29 @@ TEST(LatestPair, theNewestReplacesTheOthers)
     latest.close();
     EXPECT_FALSE(latest.take().has_value());
 }
+
+TEST(LatestPair, aSourceThatCanWaitLosesNothing)
+{
+    constexpr int kCount = 100;
+    LatestPair latest;
+    std::thread source(
+        [&]
+        {
+            for (int i = 1; i <= kCount; ++i)
+            {
+                ImagePair pair;
+                pair.stamp = i;
+                latest.putWhenTaken(pair);
+            }
+            latest.close();
+        });
+    double expected = 1;
+    while (const auto pair = latest.take())
+    {
+        EXPECT_EQ(pair->stamp, expected++);
+    }
+    source.join();
+    EXPECT_EQ(expected, kCount + 1);
+    EXPECT_EQ(latest.numReplaced(), 0U);
+}
 }  // namespace
