@@ -321,4 +321,29 @@ TEST(PointTracker, NamesTheParameterThatIsOutOfRange)
     }
 }
 }  // namespace
+/** Three misses, then every eighth frame, each point in its turn. */
+TEST(PointTracker, pointsThatAreMissingAreLookedForNowAndThen)
+{
+    PointReference reference;
+    reference.points.resize(2);
+    EXPECT_TRUE(reference.isDue(0) && reference.isDue(1));
+    int looked[2] = {0, 0}, both = 0;
+    for (int frame = 0; frame < 3 + 4 * 8; ++frame)
+    {
+        looked[0] += reference.isDue(0) ? 1 : 0;
+        looked[1] += reference.isDue(1) ? 1 : 0;
+        both += frame >= 3 && reference.isDue(0) && reference.isDue(1) ? 1 : 0;
+        reference.note({});
+    }
+    EXPECT_EQ(looked[0], 3 + 4);
+    EXPECT_EQ(looked[1], 3 + 4);
+    EXPECT_EQ(both, 0);
+
+    PointTrack found;
+    found.ref = 1;
+    reference.note({found});
+    EXPECT_TRUE(reference.isDue(1));
+    EXPECT_EQ(reference.misses[1], 0);
+    EXPECT_GT(reference.misses[0], 3);
+}
 }  // namespace pointplane

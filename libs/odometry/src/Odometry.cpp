@@ -179,6 +179,10 @@ bool Odometry::Impl::track(const RgbdFrame& frame, OdometryResult& result)
     const PoseStage::Measured measured =
         poseStage.accept(estimate, predicted, pairs, associations, dt);
     window.refinePreviousVelocity(measured.previousVelocity);
+    for (const Association& association : associations)
+    {
+        window.notePoints(association.reference->id, association.points);
+    }
     current.velocity = measured.velocity;
     finish(measured.T_prev_cur, result);
     advance(frame, associations);

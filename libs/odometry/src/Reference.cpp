@@ -71,6 +71,17 @@ void ReferenceWindow::refinePreviousVelocity(const Vector6d& velocity)
     }
 }
 
+void ReferenceWindow::notePoints(int id, const std::vector<PointTrack>& tracks)
+{
+    for (Reference& keyframe : keyframes_)
+    {
+        if (keyframe.id == id)
+        {
+            keyframe.points.note(tracks);
+        }
+    }
+}
+
 void ReferenceWindow::add(Reference frame, bool isKeyframe)
 {
     hasPrevious_ = true;

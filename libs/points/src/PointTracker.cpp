@@ -68,6 +68,26 @@ double zncc(
 }
 }  // namespace
 
+void PointReference::note(const std::vector<PointTrack>& tracks)
+{
+    misses.resize(points.size(), 0);
+    for (int& count : misses)
+    {
+        ++count;
+    }
+    for (const PointTrack& track : tracks)
+    {
+        misses[static_cast<size_t>(track.ref)] = 0;
+    }
+}
+
+bool PointReference::isDue(size_t point) const
+{
+    constexpr int kPatience = 3, kTurns = 8;
+    return point >= misses.size() || misses[point] < kPatience ||
+           (misses[point] + static_cast<int>(point)) % kTurns == 0;
+}
+
 void PointTracker::TParams::check() const
 {
     POINTPLANE_CHECK(
@@ -197,12 +217,13 @@ std::vector<PointTrack> PointTracker::track(
     std::vector<int> indices;
     std::vector<cv::Point2f> from, to;
     const double radius = radiusFactor * params_.searchRadiusFraction * frame.gray.cols;
-    const Search search = searchFor(radius, radiusFactor > 1, reference.points.size());
+    const bool isWide = radiusFactor > 1;
+    const Search search = searchFor(radius, isWide, reference.points.size());
     for (size_t i = 0; i < reference.points.size(); i += search.step)
     {
         const PointFeature& point = reference.points[i];
         const Eigen::Vector3d p_cur = T_cur_ref * point.p_cam.mean;
-        if (!(p_cur.z() > 0.1))
+        if (!(p_cur.z() > 0.1) || !(isWide || reference.isDue(i)))
         {
             continue;
         }

@@ -73,6 +73,9 @@ class ReferenceWindow
     /** Corrects the velocity of the previous frame, now that the next one is known. */
     void refinePreviousVelocity(const Vector6d& velocity);
 
+    /** Takes in which points of a frame in the window have been found again. */
+    void notePoints(int id, const std::vector<PointTrack>& tracks);
+
     void add(Reference frame, bool isKeyframe);
 
     /** Forgets all; the next frame starts a new window. */

@@ -13,19 +13,27 @@
 
 namespace pointplane
 {
+/** A point found again. */
+struct PointTrack
+{
+    int ref{0};        //!< index into PointReference::points
+    PointFeature cur;  //!< where it is in the current frame
+};
+
 /** The points of a reference frame, ready to be found again. */
 struct PointReference
 {
     std::vector<PointFeature> points;
     std::vector<cv::Mat> pyramid;  //!< tracking: of the grey image, with derivatives
     cv::Mat descriptors;           //!< matching: a row a point
-};
+    std::vector<int> misses;       //!< tracking: frames in a row without each point
 
-/** A point found again. */
-struct PointTrack
-{
-    int ref{0};        //!< index into PointReference::points
-    PointFeature cur;  //!< where it is in the current frame
+    /** Takes in which points a frame has found again. */
+    void note(const std::vector<PointTrack>& tracks);
+
+    /** Points that have been missing for some frames are looked for now and then, in turns: searches
+     * in vain take longest. */
+    [[nodiscard]] bool isDue(size_t point) const;
 };
 
 /** Corners of a reference image and their sub-pixel positions in later images: pyramidal
@@ -84,7 +92,7 @@ class PointTracker
     [[nodiscard]] PointReference makeReference(const RgbdFrame& frame) const;
 
     /** \param T_cur_ref predicted motion \param radiusFactor above 1 widens the search for a bad
-     * prediction; only some of the points, spread over the list, are then looked for, less exactly
+     * prediction; only some of the points, spread over the list, are then looked for, less exactly; else those that are due
      * \return in the reference's order */
     [[nodiscard]] std::vector<PointTrack> track(
         const PointReference& reference,
