@@ -78,11 +78,15 @@ ShutterCalibrator::ShutterCalibrator(const TParams& params)
 ShutterModel ShutterCalibrator::complete(const ShutterModel& source) const
 {
     const auto known = [](double a, double b) { return std::isfinite(a) ? a : b; };
+    // Who knows the readouts knows when images are exposed. Otherwise the delay comes from time
+    // stamps, which tell when they arrived.
+    const bool tellsExposure = std::isfinite(source.readoutColour) &&
+                               std::isfinite(source.readoutDepth) &&
+                               std::isfinite(source.depthDelay);
     return {
         known(source.readoutColour, estimate_[0]),
         known(source.readoutDepth, estimate_[1]),
-        // Time stamps tell when an image arrived, not when it was exposed: always refined.
-        (std::isfinite(source.depthDelay) ? source.depthDelay : 0) + estimate_[2]};
+        known(source.depthDelay, 0) + (tellsExposure ? 0 : estimate_[2])};
 }
 
 Matrix6d ShutterCalibrator::update(

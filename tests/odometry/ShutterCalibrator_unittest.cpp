@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/odometry/ShutterCalibrator.h>
+
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+namespace pointplane
+{
+namespace
+{
+constexpr double kUnknown = ShutterModel::kUnknown;
+
+ShutterCalibrator::TParams params()
+{
+    ShutterCalibrator::TParams out;
+    out.readoutColour = 0.021;
+    out.readoutDepth = 0.022;
+    out.depthDelay = -0.003;
+    return out;
+}
+}  // namespace
+
+TEST(ShutterCalibrator, completesWhatTheSourceDoesNotTell)
+{
+    const ShutterModel all = ShutterCalibrator(params()).complete({});
+    EXPECT_EQ(all.readoutColour, 0.021);
+    EXPECT_EQ(all.readoutDepth, 0.022);
+    EXPECT_EQ(all.depthDelay, -0.003);
+
+    const ShutterModel some = ShutterCalibrator(params()).complete({0.025, kUnknown, kUnknown});
+    EXPECT_EQ(some.readoutColour, 0.025);
+    EXPECT_EQ(some.readoutDepth, 0.022);
+}
+
+/** Stamps tell when an image arrived. */
+TEST(ShutterCalibrator, addsToADelayFromStamps)
+{
+    const ShutterModel out = ShutterCalibrator(params()).complete({kUnknown, kUnknown, 0.010});
+    EXPECT_DOUBLE_EQ(out.depthDelay, 0.007);
+}
+
+TEST(ShutterCalibrator, believesASourceThatKnowsItsShutter)
+{
+    const ShutterModel out = ShutterCalibrator(params()).complete({0.027, 0.024, -0.010});
+    EXPECT_EQ(out.readoutColour, 0.027);
+    EXPECT_EQ(out.readoutDepth, 0.024);
+    EXPECT_EQ(out.depthDelay, -0.010);
+}
+
+TEST(ShutterCalibrator, refusesParametersOutOfRange)
+{
+    const auto refused = [](auto change)
+    {
+        ShutterCalibrator::TParams p = params();
+        change(p);
+        EXPECT_THROW(ShutterCalibrator{p}, std::invalid_argument);
+    };
+    refused([](auto& p) { p.readoutColour = 1; });
+    refused([](auto& p) { p.readoutDepth = -1; });
+    refused([](auto& p) { p.depthDelay = kUnknown; });
+    refused([](auto& p) { p.sigmaPrior = 0; });
+    refused([](auto& p) { p.varianceFactor = 0; });
+}
+}  // namespace pointplane
