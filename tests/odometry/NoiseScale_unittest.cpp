@@ -64,7 +64,35 @@ TEST(NoiseScale, staysWithinReason)
     EXPECT_NEAR(noise.factors().planes, 0.1, 1e-6);
 }
 
-TEST(NoiseScale, commonErrorsComeOnTop)
+/** References disagree by what they were told too little of, until the factor is right. */
+TEST(NoiseScale, followsTheDisagreementOfTheReferences)
+{
+    NoiseScale::TParams params;
+    NoiseScale noise(params);
+    const double truePoints = 5, truePlanes = 0.3;
+    for (int i = 0; i < 900; ++i)
+    {
+        const NoiseFactors told = noise.factors();
+        PoseEstimate frame = with(1, 1);
+        frame.pointDisagreement = {truePoints / told.points, 1};
+        frame.planeDisagreement = {2 * truePlanes / told.planes, 2};
+        noise.update(frame, 1.0 / 30);
+    }
+    EXPECT_NEAR(noise.factors().points, truePoints * params.pointFactor, 0.01);
+    EXPECT_NEAR(noise.factors().planes, truePlanes * params.planeFactor, 0.01);
+}
+
+TEST(NoiseScale, referencesThatCannotDisagreeTellNothing)
+{
+    NoiseScale noise(bare());
+    PoseEstimate frame;
+    frame.pointDisagreement = {0, 0};
+    const NoiseFactors before = noise.factors();
+    noise.update(frame, 1);
+    EXPECT_EQ(noise.factors().points, before.points);
+}
+
+TEST(NoiseScale, constantFactorsComeOnTop)
 {
     NoiseScale::TParams params;
     params.adaptive = false;
@@ -85,6 +113,7 @@ TEST(NoiseScale, refusesParametersOutOfRange)
         EXPECT_THROW(NoiseScale{params}, std::invalid_argument);
     };
     refused([](auto& p) { p.timeConstant = 0; });
+    refused([](auto& p) { p.agreementTimeConstant = 0; });
     refused([](auto& p) { p.pointFactor = 0; });
     refused([](auto& p) { p.planeFactor = -1; });
 }

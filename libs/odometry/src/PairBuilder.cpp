@@ -28,7 +28,10 @@ void PairBuilder::build(
             PlaneGaussian past_ref = ref.plane_cam;
             past_ref.theta_m += past.planeJacobian(ref) * reference.velocity;
             planes.push_back(
-                {transformed(T_base_ref, past_ref), cur.plane_cam, current.planeJacobian(cur)});
+                {transformed(T_base_ref, past_ref),
+                 cur.plane_cam,
+                 current.planeJacobian(cur),
+                 reference.id});
         }
         for (const PointTrack& track : association.points)
         {
@@ -42,6 +45,7 @@ void PairBuilder::build(
             pair.base.cov = propagate(T_base_ref.linear(), ref.p_cam.cov);
             pair.cur = cur.p_cam;
             pair.dCur_dV = current.pointJacobian(cur.p_cam.mean, cur.uv_px.y());
+            pair.reference = reference.id;
             points.push_back(pair);
         }
     }

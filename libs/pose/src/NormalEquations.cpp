@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace pointplane
 {
@@ -38,21 +39,14 @@ NormalEquations::NormalEquations(
 {
 }
 
-void NormalEquations::evaluate(const Motion& motion, bool updateScale)
+void NormalEquations::evaluate(const Motion& motion)
 {
     residuals_.clear();
-    squaredNorms_.clear();
-    for (const PointPair& pair : points_)
+    for (size_t i = 0; i < points_.size() + planes_.size(); ++i)
     {
-        push(pointResidual(pair, motion));
+        residuals_.push_back(weighted(i, motion));
     }
-    for (const PlanePair& pair : planes_)
-    {
-        push(
-            params_.planeResidual == "minimal" ? planeResidualMinimal(pair, motion)
-                                               : planeResidualClosestPoint(pair, motion));
-    }
-    if (updateScale && !points_.empty())
+    if (!points_.empty())
     {
         // Below one only by chance or by a pessimistic noise model: never tighten the gate for it.
         scale_ = std::max(params_.weighting == "none" ? 0.1 : 1.0, std::sqrt(pointVariance()));
@@ -61,34 +55,75 @@ void NormalEquations::evaluate(const Motion& motion, bool updateScale)
     planeSum_ = {};
     for (size_t i = 0; i < residuals_.size(); ++i)
     {
-        if (i < points_.size())
-        {
-            add(pointSum_, i, true, 1, noise_.points);
-        }
-        else
-        {
-            add(planeSum_, i, false, params_.alpha, noise_.planes);
-        }
+        add(isPoint(i) ? pointSum_ : planeSum_, i);
     }
 }
 
-void NormalEquations::push(const Residual& residual)
+double NormalEquations::costAt(const Motion& motion) const
 {
-    Eigen::Matrix3d W;
-    if (params_.weighting == "full")
+    double cost = 0;
+    for (size_t i = 0; i < points_.size() + planes_.size(); ++i)
     {
-        W = residual.cov.inverse();
+        cost += gain(i) * robust(weighted(i, motion).squaredNorm, isPoint(i)).second;
     }
-    else if (params_.weighting == "diagonal")
+    return cost;
+}
+
+/** \param offset of the pairs' first residual */
+template <class Pairs>
+std::vector<FeatureSum> NormalEquations::byReference(const Pairs& pairs, size_t offset) const
+{
+    std::map<int, FeatureSum> sums;
+    for (size_t i = 0; i < pairs.size(); ++i)
     {
-        W = residual.cov.diagonal().cwiseInverse().asDiagonal();  // [P17, after Eq. 10]
+        add(sums[pairs[i].reference], offset + i);
+    }
+    std::vector<FeatureSum> out;
+    for (const auto& [reference, sum] : sums)
+    {
+        out.push_back(sum);
+    }
+    return out;
+}
+
+std::vector<FeatureSum> NormalEquations::pointsByReference() const
+{
+    return byReference(points_, 0);
+}
+
+std::vector<FeatureSum> NormalEquations::planesByReference() const
+{
+    return byReference(planes_, points_.size());
+}
+
+NormalEquations::Weighted NormalEquations::weighted(size_t i, const Motion& motion) const
+{
+    Weighted out;
+    if (isPoint(i))
+    {
+        out.residual = pointResidual(points_[i], motion);
     }
     else
     {
-        W = Eigen::Matrix3d::Identity() / (kUnweightedSigma * kUnweightedSigma);
+        const PlanePair& pair = planes_[i - points_.size()];
+        out.residual = params_.planeResidual == "minimal" ? planeResidualMinimal(pair, motion)
+                                                          : planeResidualClosestPoint(pair, motion);
     }
-    residuals_.push_back({residual, W});
-    squaredNorms_.push_back(residual.r.dot(W * residual.r));
+    const Residual& residual = out.residual;
+    if (params_.weighting == "full")
+    {
+        out.W = residual.cov.inverse();
+    }
+    else if (params_.weighting == "diagonal")
+    {
+        out.W = residual.cov.diagonal().cwiseInverse().asDiagonal();  // [P17, after Eq. 10]
+    }
+    else
+    {
+        out.W = Eigen::Matrix3d::Identity() / (kUnweightedSigma * kUnweightedSigma);
+    }
+    out.squaredNorm = residual.r.dot(out.W * residual.r);
+    return out;
 }
 
 /** Weight and cost of a squared Mahalanobis norm. */
@@ -107,14 +142,19 @@ std::pair<double, double> NormalEquations::robust(double squaredNorm, bool isPoi
     return {1, squaredNorm};
 }
 
-/** \param gain alpha of planes \param noise true variance over the propagated one */
-void NormalEquations::add(FeatureSum& sum, size_t i, bool isPoint, double gain, double noise) const
+double NormalEquations::gain(size_t i) const
 {
-    const auto& [residual, W] = residuals_[i];
-    const auto [w, cost] = robust(squaredNorms_[i], isPoint);
-    const double g = gain / noise;
+    return isPoint(i) ? 1 / noise_.points : params_.alpha / noise_.planes;
+}
+
+void NormalEquations::add(FeatureSum& sum, size_t i) const
+{
+    const auto& [residual, W, squaredNorm] = residuals_[i];
+    const auto [w, cost] = robust(squaredNorm, isPoint(i));
+    const double noise = isPoint(i) ? noise_.points : noise_.planes;
+    const double g = gain(i);
     sum.cost += g * cost;
-    sum.weightedChi2 += w * squaredNorms_[i];
+    sum.weightedChi2 += w * squaredNorm;
     sum.weightSum += w;
     sum.numInliers += w > 0.5 ? 1 : 0;
     if (w > 0)
@@ -122,9 +162,18 @@ void NormalEquations::add(FeatureSum& sum, size_t i, bool isPoint, double gain, 
         Eigen::Matrix<double, 3, 12> J;
         J << residual.J, residual.J_V;
         const Eigen::Matrix<double, 12, 3> JtW = J.transpose() * W;
-        sum.H += g * w * JtW * J;
+        const Matrix12d JtWJ = JtW * J;
+        sum.H += g * w * JtWJ;
         sum.g += g * w * JtW * residual.r;
-        sum.M += noise * g * g * w * w * JtW * residual.cov * JtW.transpose();
+        // W Sigma W = W of weights that are the inverse covariance.
+        if (params_.weighting == "full")
+        {
+            sum.M += noise * g * g * w * w * JtWJ;
+        }
+        else
+        {
+            sum.M += noise * g * g * w * w * JtW * residual.cov * JtW.transpose();
+        }
     }
 }
 
@@ -134,9 +183,11 @@ double NormalEquations::relativeMedian(size_t begin, size_t end) const
     {
         return 0;
     }
-    std::vector<double> norms(
-        squaredNorms_.begin() + static_cast<std::ptrdiff_t>(begin),
-        squaredNorms_.begin() + static_cast<std::ptrdiff_t>(end));
+    std::vector<double> norms;
+    for (size_t i = begin; i < end; ++i)
+    {
+        norms.push_back(residuals_[i].squaredNorm);
+    }
     const auto middle = norms.begin() + static_cast<std::ptrdiff_t>(norms.size() / 2);
     std::nth_element(norms.begin(), middle, norms.end());
     return *middle / kMedianChi2Of3;

@@ -30,8 +30,14 @@ class NormalEquations
         const std::vector<PlanePair>& planes,
         const NoiseFactors& noise);
 
-    /** \param updateScale re-estimates the robust scale of the points at this motion */
-    void evaluate(const Motion& motion, bool updateScale);
+    /** Residuals and sums at this motion; the robust scale of the points is estimated from it. */
+    void evaluate(const Motion& motion);
+
+    /** Cost of all pairs at another motion, with the robust scale of the latest evaluate(). */
+    [[nodiscard]] double costAt(const Motion& motion) const;
+
+    /** Cost at the latest evaluate(). */
+    [[nodiscard]] double cost() const { return pointSum_.cost + planeSum_.cost; }
 
     [[nodiscard]] const FeatureSum& points() const { return pointSum_; }
     [[nodiscard]] const FeatureSum& planes() const { return planeSum_; }
@@ -41,9 +47,25 @@ class NormalEquations
     [[nodiscard]] double pointVariance() const;
     [[nodiscard]] double planeVariance() const;
 
+    /** The share of each reference frame in points() and planes(). */
+    [[nodiscard]] std::vector<FeatureSum> pointsByReference() const;
+    [[nodiscard]] std::vector<FeatureSum> planesByReference() const;
+
  private:
-    void push(const Residual& residual);
-    void add(FeatureSum& sum, size_t i, bool isPoint, double gain, double noise) const;
+    /** A residual, the weight matrix that it is given, and its squared norm by that. */
+    struct Weighted
+    {
+        Residual residual;
+        Eigen::Matrix3d W;
+        double squaredNorm{0};
+    };
+
+    [[nodiscard]] Weighted weighted(size_t i, const Motion& motion) const;
+    [[nodiscard]] double gain(size_t i) const;
+    void add(FeatureSum& sum, size_t i) const;
+    [[nodiscard]] bool isPoint(size_t i) const { return i < points_.size(); }
+    template <class Pairs>
+    [[nodiscard]] std::vector<FeatureSum> byReference(const Pairs& pairs, size_t offset) const;
     [[nodiscard]] std::pair<double, double> robust(double squaredNorm, bool isPoint) const;
     [[nodiscard]] double relativeMedian(size_t begin, size_t end) const;
 
@@ -51,8 +73,7 @@ class NormalEquations
     const std::vector<PointPair>& points_;
     const std::vector<PlanePair>& planes_;
     NoiseFactors noise_;
-    std::vector<std::pair<Residual, Eigen::Matrix3d>> residuals_;  //!< and their weights W
-    std::vector<double> squaredNorms_;
+    std::vector<Weighted> residuals_;  //!< of the points, then of the planes
     double scale_{1};
     FeatureSum pointSum_, planeSum_;
 };

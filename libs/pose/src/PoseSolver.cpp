@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "NormalEquations.h"
+#include "disagreement.h"
 
 namespace pointplane
 {
@@ -104,12 +105,10 @@ PoseEstimate PoseSolver::solve(
     PoseEstimate out;
     Motion x = start;
     double lambda = 1e-6;
-    const auto totalCost = [&](const Motion& motion)
-    { return equations.points().cost + equations.planes().cost + prior.cost(motion); };
     while (out.iterations < params_.maxIterations && !out.converged)
     {
-        equations.evaluate(x, true);
-        const double cost = totalCost(x);
+        equations.evaluate(x);
+        const double cost = equations.cost() + prior.cost(x);
         const Matrix12d information = prior.information(x);
         const Matrix12d H = equations.points().H + equations.planes().H + information;
         const Vector12d g =
@@ -122,8 +121,8 @@ PoseEstimate PoseSolver::solve(
             const Vector12d step = -damped.ldlt().solve(g);
             const Motion candidate{
                 se3Exp(step.head<6>()) * x.T_base_cur, x.velocity + step.tail<6>()};
-            equations.evaluate(candidate, false);
-            accepted = step.allFinite() && totalCost(candidate) <= cost * (1 + 1e-12);
+            accepted = step.allFinite() &&
+                       equations.costAt(candidate) + prior.cost(candidate) <= cost * (1 + 1e-12);
             out.converged = step.head<3>().norm() < kStepTolerance &&
                             step.segment<3>(3).norm() < kStepTolerance;
             lambda = accepted ? std::max(1e-9, lambda * 0.1) : lambda * 10;
@@ -138,7 +137,7 @@ PoseEstimate PoseSolver::solve(
             }
         }
     }
-    equations.evaluate(x, true);
+    equations.evaluate(x);
     const FeatureSum& p = equations.points();
     const FeatureSum& m = equations.planes();
     const Matrix12d known = prior.information(x) + kDamping * Matrix12d::Identity();
@@ -155,6 +154,13 @@ PoseEstimate PoseSolver::solve(
     out.planeChi2PerDof = m.weightSum > 0 ? m.weightedChi2 / (3 * m.weightSum) : 0;
     out.pointVariance = equations.pointVariance();
     out.planeVariance = equations.planeVariance();
+    const std::vector<FeatureSum> pointGroups = equations.pointsByReference();
+    const std::vector<FeatureSum> planeGroups = equations.planesByReference();
+    if (pointGroups.size() + planeGroups.size() > 1)
+    {
+        out.pointDisagreement = disagreementOf(pointGroups, H, out.motion.cov);
+        out.planeDisagreement = disagreementOf(planeGroups, H, out.motion.cov);
+    }
     out.numPointInliers = p.numInliers;
     return out;
 }

@@ -9,8 +9,9 @@ namespace pointplane
 /** The variance of a camera's points and planes over the propagated one.
  *
  * Residuals of the frames so far tell how large errors are that differ between features; sensors
- * differ by more than a factor of ten here. What a frame's features have in common residuals do not
- * show: a constant factor stands for it (docs/theory.md). */
+ * differ by more than a factor of ten here. Errors that the features of a frame have in common show
+ * where reference frames contradict each other about the pose. What all references share shows
+ * nowhere: a constant factor stands for it (docs/theory.md). */
 class NoiseScale
 {
  public:
@@ -18,8 +19,9 @@ class NoiseScale
     {
         bool adaptive{true};
         double timeConstant{1.0};
-        double pointFactor{4.0};
-        double planeFactor{4.0};
+        double agreementTimeConstant{2.0};
+        double pointFactor{3.5};
+        double planeFactor{3.5};
 
         template <class V>
         void visit(V&& v)
@@ -29,10 +31,14 @@ class NoiseScale
               "-",
               "the variance of points and planes follows that of their residuals");
             v("timeConstant", timeConstant, "s", "over which it follows");
+            v("agreementTimeConstant",
+              agreementTimeConstant,
+              "s",
+              "over which it follows the disagreement of the reference frames");
             v("pointFactor",
               pointFactor,
               "-",
-              "true variance of points over that, for errors that they have in common");
+              "true variance of points over that, for errors that all references share");
             v("planeFactor", planeFactor, "-", "true variance of planes over that");
         }
         /** \throws std::invalid_argument naming the key */
@@ -48,6 +54,7 @@ class NoiseScale
 
  private:
     TParams params_;
-    NoiseFactors residuals_;  //!< of the residuals alone
+    NoiseFactors residuals_;  //!< by the residuals alone
+    NoiseFactors common_;     //!< over that, by the disagreement of the references
 };
 }  // namespace pointplane

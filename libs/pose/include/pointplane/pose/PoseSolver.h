@@ -18,6 +18,14 @@ struct NoiseFactors
     double planes{1};
 };
 
+/** How far groups of features, those of each reference frame, draw the pose away from where all
+ * together put it. */
+struct Disagreement
+{
+    double observed{0};  //!< squared, in units of the covariances
+    double expected{0};  //!< were errors as large as claimed and independent; 0 = nothing to compare
+};
+
 /** What the solver found. */
 struct PoseEstimate
 {
@@ -30,6 +38,8 @@ struct PoseEstimate
     double planeChi2PerDof{0};  //!< mean squared Mahalanobis norm / 3 of planes
     double pointVariance{0};    //!< of points over the propagated one, from the median; 0 = none
     double planeVariance{0};    //!< of planes, likewise
+    Disagreement pointDisagreement;  //!< of the references' points, with all other features
+    Disagreement planeDisagreement;  //!< of their planes, likewise
     int numPointInliers{0};     //!< points with a Tukey weight above 1/2
     int iterations{0};
     bool converged{false};

@@ -15,6 +15,7 @@ struct PointPair
     PointGaussian base;                    //!< from a reference frame, in the base frame [m]
     PointGaussian cur;                     //!< in the current camera, were it at rest [m]
     Matrix36d dCur_dV{Matrix36d::Zero()};  //!< rolling shutter: cur is at cur.mean + dCur_dV V
+    int reference{0};                      //!< which of the frames that cur is compared with
 };
 
 /** The same plane seen twice. */
@@ -23,5 +24,6 @@ struct PlanePair
     PlaneGaussian base;                    //!< from a reference frame, in the base frame
     PlaneGaussian cur;                     //!< in the current camera, were it at rest
     Matrix36d dCur_dV{Matrix36d::Zero()};  //!< rolling shutter: cur is at theta_m + dCur_dV V
+    int reference{0};                      //!< which of the frames that cur is compared with
 };
 }  // namespace pointplane

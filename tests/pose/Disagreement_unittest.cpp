@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/pose/PoseSolver.h>
+
+#include <vector>
+
+#include "synthetic_pairs.h"
+#include <gtest/gtest.h>
+
+namespace pointplane
+{
+namespace
+{
+constexpr int kRuns = 300;
+
+PoseSolver::TParams gaussian()
+{
+    PoseSolver::TParams params;
+    params.tukeySigmas = 0;
+    params.planeStudentDof = 0;
+    params.priorStudentDof = 0;
+    return params;
+}
+
+test::PairWorld world(unsigned seed)
+{
+    test::PairWorld out(seed);
+    out.addPoints(40);
+    out.addPlanes(6);
+    out.T_base_cur = out.randomMotion(0.03, 0.035);
+    return out;
+}
+
+/** Every other feature comes from another reference. */
+template <class Pairs>
+void splitInTwo(Pairs& pairs)
+{
+    for (size_t i = 0; i < pairs.size(); ++i)
+    {
+        pairs[i].reference = static_cast<int>(i % 2);
+    }
+}
+
+struct Ratios
+{
+    double points{0}, planes{0};
+};
+
+/** Mean disagreement of two references over the expected one.
+ * \param noise scale of sigma over the claimed one
+ * \param sigmaCommon [m, rad] of an error of pose that all points of a reference have in common */
+Ratios disagreement(unsigned seed, double noise, double sigmaCommon)
+{
+    test::PairWorld w = world(seed);
+    const PoseSolver solver(gaussian());
+    Disagreement points, planes;
+    for (int run = 0; run < kRuns; ++run)
+    {
+        std::vector<PointPair> pointPairs = w.drawPoints(noise);
+        std::vector<PlanePair> planePairs = w.drawPlanes(noise);
+        splitInTwo(pointPairs);
+        splitInTwo(planePairs);
+        const Eigen::Isometry3d errors[2] = {
+            se3Exp(sigmaCommon * w.sampler().vector<6>()),
+            se3Exp(sigmaCommon * w.sampler().vector<6>())};
+        for (PointPair& pair : pointPairs)
+        {
+            pair.base.mean = errors[pair.reference] * pair.base.mean;
+        }
+        const PoseEstimate e =
+            solver.solve(pointPairs, planePairs, Eigen::Isometry3d::Identity(), std::nullopt);
+        points.observed += e.pointDisagreement.observed;
+        points.expected += e.pointDisagreement.expected;
+        planes.observed += e.planeDisagreement.observed;
+        planes.expected += e.planeDisagreement.expected;
+    }
+    return {points.observed / points.expected, planes.observed / planes.expected};
+}
+}  // namespace
+
+/** Mean of kRuns squares with more than ten degrees of freedom each: 3 sigma are below 8 %. */
+TEST(Disagreement, isAsExpectedOfIndependentErrors)
+{
+    const Ratios r = disagreement(71, 1, 0);
+    EXPECT_NEAR(r.points, 1, 0.1);
+    EXPECT_NEAR(r.planes, 1, 0.1);
+}
+
+TEST(Disagreement, growsWithTheSquareOfTheNoise)
+{
+    const Ratios r = disagreement(72, 3, 0);
+    EXPECT_NEAR(r.points, 9, 0.9);
+    EXPECT_NEAR(r.planes, 9, 0.9);
+}
+
+/** Residuals hardly show it: each reference's points agree with each other. */
+TEST(Disagreement, showsErrorsThatPointsHaveInCommon)
+{
+    EXPECT_GT(disagreement(73, 1, 3e-3).points, 3);
+}
+
+TEST(Disagreement, oneReferenceOfOneKindHasNothingToCompareWith)
+{
+    test::PairWorld w = world(74);
+    const PoseEstimate e =
+        PoseSolver(gaussian()).solve(w.drawPoints(), {}, Eigen::Isometry3d::Identity(), {});
+    EXPECT_EQ(e.pointDisagreement.expected, 0);
+    EXPECT_EQ(e.planeDisagreement.expected, 0);
+}
+
+TEST(Disagreement, pointsAndPlanesOfOneReferenceAreCompared)
+{
+    test::PairWorld w = world(75);
+    const PoseEstimate e =
+        PoseSolver(gaussian())
+            .solve(w.drawPoints(), w.drawPlanes(), Eigen::Isometry3d::Identity(), {});
+    EXPECT_GT(e.pointDisagreement.expected, 0);
+    EXPECT_GT(e.planeDisagreement.expected, 0);
+}
+}  // namespace pointplane
