@@ -168,4 +168,14 @@ TEST(TrajectoryCharts, showWhatTheyAreGiven)
     const auto increments = neesIncrements(truth, estimate, {}, {});
     const Chart nees = neesChart(estimate, increments, consistencyOf(increments, 59, {}));
     EXPECT_EQ(nees.series[0].y[5], increments[5].nees / 6);
+
+    const auto sigmas = errorAgainstSigmaCharts(estimate, increments);
+    ASSERT_EQ(sigmas.size(), 2u);  // translation, rotation
+    for (int k = 0; k < 6; ++k)
+    {
+        const ChartSeries& axis = sigmas[k / 3].series[k % 3];
+        EXPECT_EQ(axis.x[5], estimate.stamps[increments[5].i] - estimate.stamps[0]);
+        EXPECT_EQ(axis.y[5], increments[5].error[k] / std::sqrt(increments[5].cov(k, k)));
+    }
+    EXPECT_THAT(sigmas[1].series[3].y, testing::Contains(3.0));  // the level of 3 sigma
 }
