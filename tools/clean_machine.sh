@@ -31,12 +31,14 @@ if [[ -n ${POINTPLANE_DATA:-} ]]; then
     data=$(realpath "$POINTPLANE_DATA")
 fi
 
-# In a mount namespace of its own.
+# In a mount namespace of its own; the root there is a mount, as on a machine, so that the tests of
+# full disks may mount theirs.
 export dir data command
 source=$(git rev-parse --show-toplevel) commit=$(git rev-parse HEAD)
 export source commit
 # shellcheck disable=SC2016  # expanded there
 unshare --mount bash -euo pipefail -c '
+    mount --bind "$dir" "$dir"
     mount -t proc proc "$dir/proc"
     mount --rbind /dev "$dir/dev"
     mount --bind "$source" "$dir/source"
