@@ -31,8 +31,8 @@ struct PointReference
     /** Takes in which points a frame has found again. */
     void note(const std::vector<PointTrack>& tracks);
 
-    /** Points that have been missing for some frames are looked for now and then, in turns: searches
-     * in vain take longest. */
+    /** Points that have been missing for some frames are searched only now and then, in turns: a
+     * search in vain takes longest. */
     [[nodiscard]] bool isDue(size_t point) const;
 };
 
