@@ -4,7 +4,6 @@
 #include <pointplane/evaluation/nees.h>
 #include <pointplane/evaluation/units.h>
 
-#include <array>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
@@ -28,32 +27,31 @@ void InputOptions::addTo(CLI::App& command)
         ->group("Input");
 }
 
+std::vector<double> numbersFromOption(const std::string& text)
+{
+    std::istringstream in(text);
+    in.imbue(std::locale::classic());
+    std::vector<double> out;
+    char comma = ',';
+    for (double value = 0; comma == ',' && in >> value; in >> comma)
+    {
+        out.push_back(value);
+        comma = 0;
+    }
+    return comma == 0 && in.eof() ? out : std::vector<double>();
+}
+
 Eigen::Isometry3d poseFromOption(const std::string& text)
 {
     if (text == "optical")
     {
         return poseFromOption("0,0,0,-90,0,-90");
     }
-    std::array<double, 6> v{};
-    std::istringstream in(text);
-    in.imbue(std::locale::classic());
-    for (std::size_t k = 0; k < v.size(); ++k)
+    const std::vector<double> v = numbersFromOption(text);
+    if (v.size() != 6)
     {
-        char comma = ',';
-        in >> v[k];
-        if (k + 1 < v.size())
-        {
-            in >> comma;
-        }
-        if (!in || comma != ',')
-        {
-            throw std::invalid_argument(
-                "'" + text + "' is not a pose: give x,y,z,yaw,pitch,roll in m and deg, or optical");
-        }
-    }
-    if (in.peek() != std::istringstream::traits_type::eof())
-    {
-        throw std::invalid_argument("'" + text + "' has more than six numbers for a pose");
+        throw std::invalid_argument(
+            "'" + text + "' is not a pose: give x,y,z,yaw,pitch,roll in m and deg, or optical");
     }
     Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
     pose.linear() = (Eigen::AngleAxisd(v[3] / kDegreesPerRadian, Eigen::Vector3d::UnitZ()) *

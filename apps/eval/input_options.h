@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -31,6 +32,9 @@ struct InputOptions
         const std::string& path, CommandContext& context) const;
     [[nodiscard]] Trajectory loadEstimate(const std::string& path, CommandContext& context) const;
 };
+
+/** Numbers from "a,b,c"; none when the text is anything else. */
+[[nodiscard]] std::vector<double> numbersFromOption(const std::string& text);
 
 /** Pose from "x,y,z,yaw,pitch,roll" [m, deg], in MRPT's order and convention, or from "optical":
  * optical axes (x right, y down, z forward) in a body with x forward, y left, z up. */

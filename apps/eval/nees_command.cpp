@@ -2,6 +2,8 @@
 #include <pointplane/evaluation/nees.h>
 #include <pointplane/evaluation/units.h>
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <ostream>
 
@@ -21,7 +23,7 @@ struct NeesCommand
     std::vector<std::string> intervals{"1f", "10f", "1s"};
     InputOptions input;
     NeesOptions options;
-    double sigmaRotationDeg{0};
+    std::string sigmaRotationDeg{"0"};  //!< s or x,y,z
     bool nearest{false};
     double minNees{-1};
     double maxNees{-1};
@@ -31,6 +33,24 @@ struct NeesCommand
     void addTo(CLI::App& command);
     void run(CommandContext& context) const;
 };
+
+/** Standard deviations [rad] from "s" or "x,y,z" [deg]. */
+Eigen::Vector3d sigmaFromOption(const std::string& text)
+{
+    std::vector<double> v = numbersFromOption(text);
+    if (v.size() == 1)
+    {
+        v.resize(3, v.front());
+    }
+    const auto isSigma = [](double value) { return std::isfinite(value) && value >= 0; };
+    if (v.size() != 3 || !std::all_of(v.begin(), v.end(), isSigma))
+    {
+        throw std::invalid_argument(
+            "--gt-sigma-rot-deg: '" + text +
+            "' is neither a standard deviation in deg nor three as x,y,z");
+    }
+    return Eigen::Vector3d(v[0], v[1], v[2]) / kDegreesPerRadian;
+}
 
 void NeesCommand::addTo(CLI::App& command)
 {
@@ -57,9 +77,9 @@ void NeesCommand::addTo(CLI::App& command)
         .add_option(
             "--gt-sigma-rot-deg",
             sigmaRotationDeg,
-            "Standard deviation of each ground-truth rotation, per axis [deg]")
+            "Standard deviation of each ground-truth rotation [deg]: one for all axes, or x,y,z, "
+            "about the axes of the ground truth's body")
         ->capture_default_str()
-        ->check(CLI::NonNegativeNumber)
         ->group("Protocol");
     command.add_option("--offset", options.offset, "Added to the estimate's stamps [s]")
         ->capture_default_str()
@@ -87,7 +107,7 @@ void NeesCommand::run(CommandContext& context) const
         throw std::invalid_argument("--report is of one run; give one ground truth and estimate");
     }
     NeesOptions resolved = options;
-    resolved.truthSigmaRotation = sigmaRotationDeg / kDegreesPerRadian;
+    resolved.truthSigmaRotation = sigmaFromOption(sigmaRotationDeg);
     resolved.truthAt = nearest ? TruthAt::NearestStamp : TruthAt::Interpolated;
     resolved.T_truth_body = input.T_truth_body();
 

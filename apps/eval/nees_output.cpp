@@ -92,15 +92,24 @@ void printInterval(const NeesResult& r, std::ostream& out)
 }
 }  // namespace
 
+std::string describeTruthNoise(const NeesOptions& options)
+{
+    const Eigen::Vector3d deg = options.truthSigmaRotation * kDegreesPerRadian;
+    const std::string translation = format("sigma %g m and ", options.truthSigmaTranslation);
+    return translation +
+           (deg == Eigen::Vector3d::Constant(deg.x())
+                ? format("%g deg per axis and pose", deg.x())
+                : format("%g, %g, %g deg about x, y, z per pose", deg.x(), deg.y(), deg.z()));
+}
+
 std::string describe(const NeesReport& report)
 {
     return format(
         "normalised estimation error squared of increments, %zu run(s), ground truth %s with "
-        "sigma %g m and %g deg per axis and pose",
+        "%s",
         report.files.size() / 2,
         report.options.truthAt == TruthAt::Interpolated ? "interpolated" : "at the nearest stamp",
-        report.options.truthSigmaTranslation,
-        report.options.truthSigmaRotation * kDegreesPerRadian);
+        describeTruthNoise(report.options).c_str());
 }
 
 void printTable(const NeesReport& report, std::ostream& out)
@@ -122,6 +131,9 @@ nlohmann::ordered_json toJson(const NeesReport& report)
     json["title"] = "Covariance consistency";
     json["protocol"] = describe(report);
     json["files"] = report.files;
+    json["truthSigmaTranslation"] = report.options.truthSigmaTranslation;
+    const Eigen::Vector3d& sigma = report.options.truthSigmaRotation;
+    json["truthSigmaRotation"] = {sigma.x(), sigma.y(), sigma.z()};
     json["intervals"] = nlohmann::ordered_json::array();
     for (const NeesResult& r : report.results)
     {

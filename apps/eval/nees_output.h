@@ -15,6 +15,8 @@ struct NeesReport
     std::vector<NeesResult> results;  //!< one per interval
 };
 
+/** "sigma 0.0001 m and 0.06 deg per axis and pose", or the three angles. */
+[[nodiscard]] std::string describeTruthNoise(const NeesOptions& options);
 [[nodiscard]] std::string describe(const NeesReport& report);
 void printTable(const NeesReport& report, std::ostream& out);
 [[nodiscard]] nlohmann::ordered_json toJson(const NeesReport& report);

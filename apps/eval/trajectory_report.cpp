@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "nees_output.h"
 #include "result_output.h"
 
 namespace pointplane
@@ -83,10 +84,8 @@ void addConsistency(HtmlReport& report, const ReportedRun& run)
     }
     charts.insert(charts.end(), errors.begin(), errors.end());
     report.addTable(
-        format(
-            "NEES per degree of freedom (1 is consistent), ground-truth noise %g m and %g deg",
-            run.nees.truthSigmaTranslation,
-            run.nees.truthSigmaRotation * kDegreesPerRadian),
+        "NEES per degree of freedom (1 is consistent), ground truth with " +
+            describeTruthNoise(run.nees),
         {"increments of",
          "verdict",
          "independent",

@@ -99,7 +99,7 @@ constexpr double kMotionCaptureSigmaAngle = 0.06 * M_PI / 180;  // [rad]
     if (startsWith(out.name, "tum_") || startsWith(out.name, "rgbd_dataset_"))
     {
         out.nees.truthSigmaTranslation = kMotionCaptureSigma;
-        out.nees.truthSigmaRotation = kMotionCaptureSigmaAngle;
+        out.nees.truthSigmaRotation.setConstant(kMotionCaptureSigmaAngle);
     }
     return out;
 }

@@ -21,6 +21,7 @@
 #include "test_trajectories.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 using namespace pointplane;
 using testing::HasSubstr;
@@ -246,6 +247,28 @@ TEST(MrptTrajectories, neesEndToEnd)
     EXPECT_EQ(run({"nees", truthFile, truthFile}).code, 2);  // no covariances
     EXPECT_EQ(run({"nees", truthFile, dir / "a.rawlog", truthFile}).code, 2);
     EXPECT_EQ(run({"nees", truthFile, dir / "a.rawlog", "--interval", "3m"}).code, 2);
+}
+
+TEST(MrptTrajectories, neesStatesTheNoiseOfTheGroundTruth)
+{
+    test::TempDir dir;
+    writeFormat2(dir / "a.rawlog", {"VO"});
+    const std::string truth = writeTruth(dir);
+    const auto nees = [&](const std::string& sigma, const std::string& json) {
+        return run({"nees", truth, dir / "a.rawlog", "--gt-sigma-rot-deg", sigma, "--json", json});
+    };
+    EXPECT_THAT(nees("0.5", dir / "a.json").out, HasSubstr("and 0.5 deg per axis and pose"));
+    EXPECT_EQ(nees("0.5,0.5,0.5", "-").out, nees("0.5", "-").out);
+    const std::string report = nees("0.9,0.5,0", "-").out;
+    EXPECT_THAT(report, HasSubstr("and 0.9, 0.5, 0 deg about x, y, z per pose"));
+    const auto json = nlohmann::json::parse(report);
+    EXPECT_NEAR(json["truthSigmaRotation"][1], 0.5 * M_PI / 180, 1e-12);
+    for (const char* bad : {"", "x", "-1", "1,2", "1,2,3,4", "1,2,", "1 2 3", "1,2,x", "nan"})
+    {
+        const test::AppRun r = nees(bad, "-");
+        EXPECT_EQ(r.code, 2) << bad;
+        EXPECT_THAT(r.err, HasSubstr("--gt-sigma-rot-deg")) << bad;
+    }
 }
 
 TEST(MrptTrajectories, opticalGroundTruthOfAnEstimateInMrptAxes)

@@ -23,6 +23,18 @@ NeesResult neesOf(
         neesIncrements(truth, estimate, neesIntervalFromName(interval), options);
     return consistencyOf(increments, countIndependent(increments), neesIntervalFromName(interval));
 }
+
+/** Every pose with noise in its own frame. \param sigma [m] \param sigmaRotation [rad] */
+Trajectory withNoise(Trajectory truth, double sigma, const Eigen::Vector3d& sigmaRotation)
+{
+    test::GaussianSampler random(9);
+    for (Eigen::Isometry3d& T : truth.poses)
+    {
+        T.translation() += sigma * random.vector<3>();
+        T.linear() = T.linear() * so3Exp(sigmaRotation.cwiseProduct(random.vector<3>()));
+    }
+    return truth;
+}
 }  // namespace
 
 TEST(NeesInterval, parsesFramesAndSeconds)
@@ -116,19 +128,38 @@ TEST(Nees, statedGroundTruthNoiseIsAccountedFor)
 {
     const Trajectory exact = randomTrajectory(2000, 3);
     const Trajectory estimate = odometry(exact, 2);
-    test::GaussianSampler random(9);
-    Trajectory noisy = exact;
-    for (Eigen::Isometry3d& T : noisy.poses)
-    {
-        T.translation() += 0.005 * random.vector<3>();
-        T.linear() = T.linear() * so3Exp(0.003 * random.vector<3>());
-    }
+    const Trajectory noisy = withNoise(exact, 0.005, Eigen::Vector3d::Constant(0.003));
     EXPECT_TRUE(neesOf(noisy, estimate, "1f").joint.isOptimistic());
     NeesOptions options;
     options.truthSigmaTranslation = 0.005;
-    options.truthSigmaRotation = 0.003;
+    options.truthSigmaRotation.setConstant(0.003);
     EXPECT_NEAR(neesOf(noisy, estimate, "1f", options).joint.nees, 1, 0.06);
     EXPECT_NEAR(neesOf(noisy, estimate, "10f", options).joint.nees, 1, 0.1);
+}
+
+TEST(Nees, groundTruthNoiseMayDifferAboutEachAxis)
+{
+    const Eigen::Vector3d sigma(0.012, 0.004, 0.0015);
+    const Trajectory body = randomTrajectory(2000, 3);
+    const Trajectory estimate = odometry(body, 2);
+    NeesOptions options;
+    options.T_truth_body.linear() = so3Exp({1.2, -1.2, 1.2});  // other axes than the estimate's
+    const Trajectory truth = withNoise(withBody(body, options.T_truth_body.inverse()), 0, sigma);
+    options.truthSigmaRotation = sigma;
+    for (const char* interval : {"1f", "10f"})
+    {
+        const NeesResult r = neesOf(truth, estimate, interval, options);
+        EXPECT_NEAR(r.joint.nees, 1, 0.1) << interval;
+        for (const AxisConsistency& axis : r.axes)
+        {
+            EXPECT_NEAR(axis.test.nees, 1, 0.25) << interval;
+        }
+    }
+    // The same noise spread evenly is too little about one axis, too much about the others.
+    options.truthSigmaRotation.setConstant(std::sqrt(sigma.squaredNorm() / 3));
+    const NeesResult even = neesOf(truth, estimate, "1f", options);
+    EXPECT_GT(even.whitenedEigenvalues[5], 2);
+    EXPECT_LT(even.whitenedEigenvalues[0], 0.5);
 }
 
 TEST(Nees, bodyFramesOfTruthAndEstimateMayDiffer)
@@ -147,13 +178,8 @@ TEST(Nees, bodyFramesOfTruthAndEstimateMayDiffer)
         1e-6);
 
     // Noise of the truth's body moves the estimate's body by the lever arm too.
-    test::GaussianSampler random(9);
-    Trajectory noisy = truth;
-    for (Eigen::Isometry3d& T : noisy.poses)
-    {
-        T.linear() = T.linear() * so3Exp(0.01 * random.vector<3>());
-    }
-    options.truthSigmaRotation = 0.01;
+    const Trajectory noisy = withNoise(truth, 0, Eigen::Vector3d::Constant(0.01));
+    options.truthSigmaRotation.setConstant(0.01);
     EXPECT_NEAR(neesOf(noisy, estimate, "1f", options).joint.nees, 1, 0.12);
 }
 

@@ -105,7 +105,7 @@ std::vector<NeesIncrement> neesIncrements(
 
     Vector6d variances;
     variances.head<3>().setConstant(std::pow(options.truthSigmaTranslation, 2));
-    variances.tail<3>().setConstant(std::pow(options.truthSigmaRotation, 2));
+    variances.tail<3>() = options.truthSigmaRotation.cwiseAbs2();
     const Eigen::Isometry3d& T_truth_body = options.T_truth_body;
     const Matrix6d N = propagate(adjoint(T_truth_body.inverse()), Matrix6d(variances.asDiagonal()));
 

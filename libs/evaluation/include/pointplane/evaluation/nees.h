@@ -25,7 +25,8 @@ struct NeesOptions
     double offset{0};  //!< added to the estimate's stamps [s]
     TruthAt truthAt{TruthAt::Interpolated};
     double truthSigmaTranslation{0};  //!< of each ground-truth pose, per axis [m]
-    double truthSigmaRotation{0};     //!< of each ground-truth pose, per axis [rad]
+    /** Of each ground-truth pose, about the axes x, y, z of its body [rad]. */
+    Eigen::Vector3d truthSigmaRotation{Eigen::Vector3d::Zero()};
     /** The estimate's body in the ground truth's body frame (fixed); see withBody(). */
     Eigen::Isometry3d T_truth_body{Eigen::Isometry3d::Identity()};
 };
