@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "AccuracyBenchmark.h"
 
-#include <pointplane/mrpt_io/errors.h>
-
 #include <algorithm>
-#include <fstream>
 #include <ostream>
 
 #include "MethodRun.h"
 #include "accuracy_tables.h"
 #include "markdown_section.h"
+#include "selection.h"
+#include "text_file.h"
 
 namespace pointplane
 {
@@ -17,52 +16,6 @@ namespace
 {
 constexpr std::size_t kQuickFrames = 75;
 constexpr std::size_t kProgressStep = 50;  //!< frames
-
-/** One of the parts is in the name, or none was given. */
-[[nodiscard]] bool isWanted(const std::string& name, const std::vector<std::string>& parts)
-{
-    const auto contains = [&](const std::string& part)
-    { return name.find(part) != std::string::npos; };
-    return parts.empty() || std::any_of(parts.begin(), parts.end(), contains);
-}
-
-template <class Named>
-[[nodiscard]] std::vector<Named> wantedOf(
-    std::vector<Named> all, const std::vector<std::string>& parts, const std::string& option)
-{
-    std::vector<Named> out;
-    std::string known;
-    for (Named& item : all)
-    {
-        known += (known.empty() ? "" : ", ") + item.name;
-        if (isWanted(item.name, parts))
-        {
-            out.push_back(std::move(item));
-        }
-    }
-    if (out.empty())
-    {
-        throw InputError(option + ": nothing has that in its name; known are: " + known);
-    }
-    return out;
-}
-
-template <class T>
-void append(std::vector<T>& to, std::vector<T> from)
-{
-    std::move(from.begin(), from.end(), std::back_inserter(to));
-}
-
-void writeFile(const std::string& path, const std::string& text)
-{
-    std::ofstream file(path);
-    file << text;
-    file.close();
-    if (!file)
-    {
-        throw EnvironmentError(path + ": cannot be written");
-    }
-}
 }  // namespace
 
 AccuracyBenchmark::AccuracyBenchmark(CLI::App& app)
@@ -84,15 +37,13 @@ AccuracyBenchmark::AccuracyBenchmark(CLI::App& app)
 
 std::vector<SequenceScores> AccuracyBenchmark::scoreAll(std::ostream& out, std::ostream& err) const
 {
-    std::vector<SequenceSource> sources;
-    if (!data_.empty())
-    {
-        append(sources, tumSequences(data_));
-    }
-    append(sources, simulatedSequences(duration_));
-    sources = wantedOf(std::move(sources), sequences_, "--sequences");
+    const std::vector<SequenceSource> sources =
+        wantedOf(allSequences(data_, duration_), sequences_, "--sequences");
     std::vector<NamedMethod> methods = ourMethods(configDirectory_);
-    append(methods, peerMethods());
+    for (NamedMethod& peer : peerMethods())
+    {
+        methods.push_back(std::move(peer));
+    }
     methods = wantedOf(std::move(methods), methods_, "--methods");
 
     std::vector<SequenceScores> all;
@@ -127,7 +78,7 @@ void AccuracyBenchmark::run(std::ostream& out, std::ostream& err) const
     const std::vector<SequenceScores> all = scoreAll(out, err);
     if (!jsonFile_.empty())
     {
-        writeFile(jsonFile_, toJson(all).dump(2) + "\n");
+        writeTextFile(jsonFile_, toJson(all).dump(2) + "\n");
     }
     if (!markdownFile_.empty())
     {

@@ -159,4 +159,15 @@ std::vector<SequenceSource> simulatedSequences(double duration)
     }
     return out;
 }
+
+std::vector<SequenceSource> allSequences(const std::string& data, double duration)
+{
+    std::vector<SequenceSource> out =
+        data.empty() ? std::vector<SequenceSource>() : tumSequences(data);
+    for (SequenceSource& simulated : simulatedSequences(duration))
+    {
+        out.push_back(std::move(simulated));
+    }
+    return out;
+}
 }  // namespace pointplane

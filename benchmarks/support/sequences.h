@@ -37,4 +37,7 @@ struct SequenceSource
 /** Simulated scenes through a first generation Kinect, rolling shutter included, which the frames
  * tell. \param duration [s] */
 [[nodiscard]] std::vector<SequenceSource> simulatedSequences(double duration);
+
+/** Both, with the simulated ones alone when `data` is empty. */
+[[nodiscard]] std::vector<SequenceSource> allSequences(const std::string& data, double duration);
 }  // namespace pointplane

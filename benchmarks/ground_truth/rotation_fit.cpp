@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rotation_fit.h"
+
+#include <pointplane/core/se3.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pointplane
+{
+namespace
+{
+constexpr std::size_t kMinSightings = 10;
+constexpr int kIterations = 10;
+constexpr double kTukeySigmas = 4.685;
+constexpr double kSigmaOfMedian = 1 / 1.1774;  //!< of the length of 2-D Gaussian residuals
+constexpr double kMinSigma = 1e-6;             //!< where images and motion are exact
+
+using Residuals = std::vector<Eigen::Vector2d>;
+
+[[nodiscard]] Residuals residualsOf(
+    const std::vector<Sighting>& sightings, const Eigen::Matrix3d& R)
+{
+    Residuals out;
+    for (const Sighting& s : sightings)
+    {
+        out.emplace_back(s.seen - (R * s.p_cam).hnormalized());
+    }
+    return out;
+}
+
+[[nodiscard]] double sigmaOf(const Residuals& residuals)
+{
+    std::vector<double> lengths;
+    for (const Eigen::Vector2d& r : residuals)
+    {
+        lengths.push_back(r.norm());
+    }
+    const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+    std::nth_element(lengths.begin(), middle, lengths.end());
+    return std::max(kSigmaOfMedian * *middle, kMinSigma);
+}
+
+[[nodiscard]] double tukeyWeight(double u) { return u < 1 ? std::pow(1 - u * u, 2) : 0; }
+
+/** Of the normalised coordinates of exp(omega) * p with respect to omega, at 0. */
+[[nodiscard]] Eigen::Matrix<double, 2, 3> jacobianOf(const Eigen::Vector3d& p)
+{
+    const double x = p.x() / p.z(), y = p.y() / p.z();
+    Eigen::Matrix<double, 2, 3> J;
+    J << -x * y, 1 + x * x, -y,  //
+        -1 - y * y, x * y, x;
+    return J;
+}
+}  // namespace
+
+std::optional<Eigen::Vector3d> fitRotation(const std::vector<Sighting>& sightings)
+{
+    if (sightings.size() < kMinSightings)
+    {
+        return std::nullopt;
+    }
+    Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+    for (int k = 0; k < kIterations; ++k)
+    {
+        const Residuals residuals = residualsOf(sightings, R);
+        const double limit = kTukeySigmas * sigmaOf(residuals);
+        Eigen::Matrix3d H = Eigen::Matrix3d::Zero();
+        Eigen::Vector3d g = Eigen::Vector3d::Zero();
+        for (std::size_t i = 0; i < residuals.size(); ++i)
+        {
+            const Eigen::Matrix<double, 2, 3> J = jacobianOf(R * sightings[i].p_cam);
+            const double weight = tukeyWeight(residuals[i].norm() / limit);
+            H += weight * J.transpose() * J;
+            g += weight * J.transpose() * residuals[i];
+        }
+        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> es(H);
+        if (!(es.eigenvalues()[0] > 1e-6 * es.eigenvalues()[2]))
+        {
+            return std::nullopt;
+        }
+        R = so3Exp(H.ldlt().solve(g)) * R;
+    }
+    return so3Log(R);
+}
+}  // namespace pointplane

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+
+#include <optional>
+#include <vector>
+
+namespace pointplane
+{
+/** A point whose place is known, and where a camera sees it. */
+struct Sighting
+{
+    Eigen::Vector3d p_cam{0, 0, 1};  //!< where it should be [m]
+    Eigen::Vector2d seen{0, 0};      //!< normalised image coordinates of where it is
+};
+
+/** Rotation vector omega [rad], in camera axes, for which the points exp(omega) * p_cam are where
+ * they are seen: robust least squares (Tukey's weights, scale from the residuals). Nothing with
+ * fewer than ten sightings or when they do not determine it. */
+[[nodiscard]] std::optional<Eigen::Vector3d> fitRotation(const std::vector<Sighting>& sightings);
+}  // namespace pointplane
