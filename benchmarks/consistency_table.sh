@@ -1,92 +1,136 @@
 #!/usr/bin/env bash
 # Writes the tables of docs/consistency.md: are the covariances true? Joint NEES per degree of
 # freedom (1 = true, above = optimistic) of config.ini and of the plain H^-1 of the propagated noise.
-# usage: POINTPLANE_DATA=DIR benchmarks/consistency_table.sh BIN_DIR [RUNS_PER_SCENE]
+# usage: POINTPLANE_DATA=DIR benchmarks/consistency_table.sh BUILD [RUNS_PER_SCENE]
 set -euo pipefail
 shopt -s inherit_errexit
-readonly usage='usage: POINTPLANE_DATA=DIR benchmarks/consistency_table.sh BIN_DIR [RUNS_PER_SCENE]'
-bin=$(realpath "${1:?$usage}")
+readonly usage='usage: POINTPLANE_DATA=DIR benchmarks/consistency_table.sh BUILD [RUNS_PER_SCENE]'
+build=$(realpath "${1:?$usage}")
 runs=${2:-50}
 data=$(realpath "${POINTPLANE_DATA:?POINTPLANE_DATA must name the folder with the sequences}")
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
+bin=$build/bin
+ground_truth=$build/benchmarks/ground_truth/benchmark_ground_truth
+for program in "$bin"/pointplane-{convert,simulate,odometry,eval} "$ground_truth"; do
+    [[ -x $program ]] || {
+        echo "error: $program is not built (cmake -DPOINTPLANE_BUILD_BENCHMARKS=ON)" >&2
+        exit 2
+    }
+done
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 source benchmarks/quietly.sh
 
-plain=(--set NoiseScale.adaptive=false --set NoiseScale.pointFactor=1
-    --set NoiseScale.planeFactor=1 --set Shutter.varianceFactor=1)
+# estimate RAWLOG PREFIX: the poses of both variants, PREFIX.config.rawlog and PREFIX.plain.rawlog.
+estimate() {
+    local odometry=("$bin/pointplane-odometry" -c config.ini "$1" --quiet --jobs 1 --only-poses)
+    quietly "${odometry[@]}" -o "$2.config.rawlog"
+    quietly "${odometry[@]}" -o "$2.plain.rawlog" --set NoiseScale.adaptive=false \
+        --set NoiseScale.pointFactor=1 --set NoiseScale.planeFactor=1 \
+        --set Shutter.varianceFactor=1
+}
 
-# nees RAWLOG TRUTH EVAL_OPTIONS -- [--set ...]: 1 frame, 10 frames, 1 s; nothing where a frame was
-# only predicted, after which the covariance of a pose shrinks again
+# nees GT EST [GT EST]... [OPTION]...: "1 frame / 10 frames / 1 s" of all runs together.
 nees() {
-    local rawlog=$1 truth=$2 options=()
-    shift 2
-    while [[ $1 != -- ]]; do
-        options+=("$1")
-        shift
+    "$bin/pointplane-eval" nees "$@" --body-from-gt optical --csv - |
+        awk -F, '$4 == "joint" {printf "%s%.2f", sep, $5; sep = " / "}'
+}
+
+# A frame that was only predicted has a large covariance, which shrinks again afterwards; increments
+# over it have none. Such runs are not pooled. Any other failure is an error.
+has_increments() { # GT EST
+    nees "$@" >/dev/null 2>"$work/log" && return
+    grep -q 'is not positive definite' "$work/log" || {
+        cat "$work/log" >&2
+        exit 1
+    }
+    return 1
+}
+
+# simulated_run SCENE SEED: leaves the poses of both variants and the ground truth in $work.
+simulated_run() {
+    local prefix=$work/$1.$2 poses
+    local work=$prefix # for the logs of this run
+    mkdir "$work"
+    quietly "$bin/pointplane-simulate" "$1" -o "$work/in.rawlog" --seed "$2" --duration 3 --quiet
+    estimate "$work/in.rawlog" "$prefix"
+    mv "$work/in.groundtruth.txt" "$prefix.txt"
+    for poses in "$prefix".{config,plain}.rawlog; do
+        has_increments "$prefix.txt" "$poses" || rm "$poses"
     done
-    shift
-    quietly "$bin/pointplane-odometry" -c config.ini "$rawlog" --quiet --only-poses \
-        -o "$work/poses.rawlog" "$@"
-    "$bin/pointplane-eval" nees "$truth" "$work/poses.rawlog" --body-from-gt optical --csv - \
-        "${options[@]}" 2>"$work/log" |
-        awk -F, '$4 == "joint" {printf "%s%s", sep, $5; sep = " "}' || true
+    rm -r "$work"
 }
 
-# Lines of "a b c" to one cell with their averages.
-average() {
-    awk 'NF == 3 {for (k = 1; k <= 3; ++k) sum[k] += $k; ++n}
-         END {if (n) printf "%.2f / %.2f / %.2f", sum[1] / n, sum[2] / n, sum[3] / n
-              else printf "-"
-              if (n < NR) printf " (%d of %d)", n, NR}'
+# simulated_cell SCENE VARIANT: of all runs that can be pooled.
+simulated_cell() {
+    local files=() poses
+    for poses in "$work/$1".*."$2.rawlog"; do
+        [[ ! -e $poses ]] || files+=("${poses%."$2".rawlog}.txt" "$poses")
+    done
+    if ((${#files[@]} == 0)); then
+        printf -- '-'
+    else
+        nees "${files[@]}"
+    fi
+    ((${#files[@]} == 2 * runs)) || printf ' (%d of %d)' $((${#files[@]} / 2)) "$runs"
 }
 
-real() { # folder, eval options
-    local folder=$1 ours h_inverse
-    shift
-    quietly "$bin/pointplane-convert" tum "$data/$folder" -o "$work/in.rawlog" --quiet
-    ours=$(nees "$work/in.rawlog" "$work/in.groundtruth.txt" "$@" -- | average)
-    h_inverse=$(nees "$work/in.rawlog" "$work/in.groundtruth.txt" "$@" -- "${plain[@]}" | average)
-    rm -rf "$work"/in*
-    echo "| $folder | $ours | $h_inverse |"
+# truth_noise SEQUENCE: x,y,z in degrees as measured one frame apart; 0,0,0 where truth is exact.
+truth_noise() {
+    case $1 in
+    tum_*) awk -F, -v s="$1" '$1 == s && $2 == 1 {print $5 "," $6 "," $7}' "$work/noise.csv" ;;
+    *) echo 0,0,0 ;;
+    esac
 }
 
-simulated() { # scene
-    local scene=$1 seed ours=() h_inverse=()
+real() { # folder
+    local truth=$work/$1.groundtruth.txt noise options=() config plain
+    noise=$(truth_noise "$1")
+    [[ $noise == 0,0,0 ]] || options=(--gt-sigma-trans 0.0001 --gt-sigma-rot-deg "$noise")
+    quietly "$bin/pointplane-convert" tum "$data/$1" -o "$work/$1.rawlog" --quiet
+    estimate "$work/$1.rawlog" "$work/$1"
+    [[ $noise != 0,0,0 ]] || noise=exact
+    config=$(nees "$truth" "$work/$1.config.rawlog" "${options[@]}")
+    plain=$(nees "$truth" "$work/$1.plain.rawlog" "${options[@]}")
+    echo "| $1 | ${noise//,/ / } | $config | $plain |"
+}
+
+readonly scenes=(corner desk notexture cabinet corridor)
+export bin work
+export -f quietly estimate nees has_increments simulated_run
+for scene in "${scenes[@]}"; do
     for ((seed = 1; seed <= runs; ++seed)); do
-        quietly "$bin/pointplane-simulate" "$scene" -o "$work/in.rawlog" --seed "$seed" \
-            --duration 3 --quiet
-        ours+=("$(nees "$work/in.rawlog" "$work/in.groundtruth.txt" --)")
-        h_inverse+=("$(nees "$work/in.rawlog" "$work/in.groundtruth.txt" -- "${plain[@]}")")
-        rm -rf "$work"/in*
+        echo "$scene $seed"
     done
-    echo "| $scene | $(printf '%s\n' "${ours[@]}" | average) |" \
-        "$(printf '%s\n' "${h_inverse[@]}" | average) |"
-}
+done | xargs -P "$(nproc)" -L 1 bash -c '
+    set -euo pipefail
+    trap "((\$? == 0)) || exit 255" EXIT # at once, not after the other runs
+    simulated_run "$@"' run
 
 {
-    echo "Joint NEES per degree of freedom over 1 frame / 10 frames / 1 s."
+    echo "Noise of the ground truth's rotation per pose, about the camera's axes x / y / z [deg], by"
+    echo "\`benchmark_ground_truth\`:"
     echo
-    echo "| sequence | config.ini | plain H⁻¹ |"
-    echo "|---|---|---|"
-    mocap=(--gt-sigma-trans 0.0001 --gt-sigma-rot-deg)
-    real tum_fr1_xyz_part "${mocap[@]}" 0.06
-    real tum_fr3_structure_notexture_far_part "${mocap[@]}" 0.06
-    real icl_living_room_kt0_part
+    quietly "$ground_truth" --data "$data" --sequences tum_,icl_ --csv "$work/noise.csv"
+    grep '^|' "$work/log"
     echo
-    echo "The Kinect's with 0.085 deg of ground-truth noise instead of 0.06:"
+    echo "Joint NEES per degree of freedom over 1 frame / 10 frames / 1 s, with the ground truth's noise"
+    echo "stated as 0.1 mm and what was measured one frame apart:"
     echo
-    echo "| sequence | config.ini | plain H⁻¹ |"
-    echo "|---|---|---|"
-    real tum_fr1_xyz_part "${mocap[@]}" 0.085
-    real tum_fr3_structure_notexture_far_part "${mocap[@]}" 0.085
+    echo "| sequence | ground truth [deg] | config.ini | plain H⁻¹ |"
+    echo "|---|---|---|---|"
+    for folder in tum_fr1_xyz_part tum_fr3_structure_notexture_far_part icl_living_room_kt0_part; do
+        real "$folder"
+    done
     echo
-    echo "Simulated scenes, 3 s each, average over $runs seeds:"
+    echo "Simulated scenes, 3 s each, $runs seeds pooled:"
     echo
     echo "| scene | config.ini | plain H⁻¹ |"
     echo "|---|---|---|"
-    for scene in corner desk notexture cabinet corridor; do
-        simulated "$scene"
+    for scene in "${scenes[@]}"; do
+        config=$(simulated_cell "$scene" config)
+        plain=$(simulated_cell "$scene" plain)
+        echo "| $scene | $config | $plain |"
     done
 } >"$work/tables"
 sed -i -e "/^<!-- tables begin -->$/,/^<!-- tables end -->$/{/^<!-- tables begin -->$/{p;r $work/tables
