@@ -43,7 +43,10 @@ std::vector<Sighting> TruthRotationNoise::sightings(
     {
         const Eigen::Vector3d& p_from =
             reference.points[static_cast<std::size_t>(track.ref)].p_cam.mean;
-        out.push_back({T_to_from * p_from, to.camera.normalised(track.cur.uv_px)});
+        out.push_back(
+            {T_to_from * p_from,
+             to.camera.normalised(track.cur.uv_px),
+             track.cur.uv_px.y() / (to.camera.height - 1) - 0.5});
     }
     return out;
 }

@@ -21,13 +21,24 @@ constexpr double kMinSigma = 1e-6;             //!< where images and motion are 
 
 using Residuals = std::vector<Eigen::Vector2d>;
 
+/** The rotation at the middle row and how it grows over the rows. */
+struct RowRotation
+{
+    Eigen::Vector3d middle{Eigen::Vector3d::Zero()}, growth{Eigen::Vector3d::Zero()};  // [rad]
+
+    [[nodiscard]] Eigen::Vector3d moved(const Sighting& s) const
+    {
+        return so3Exp(middle + s.row * growth) * s.p_cam;
+    }
+};
+
 [[nodiscard]] Residuals residualsOf(
-    const std::vector<Sighting>& sightings, const Eigen::Matrix3d& R)
+    const std::vector<Sighting>& sightings, const RowRotation& rotation)
 {
     Residuals out;
     for (const Sighting& s : sightings)
     {
-        out.emplace_back(s.seen - (R * s.p_cam).hnormalized());
+        out.emplace_back(s.seen - rotation.moved(s).hnormalized());
     }
     return out;
 }
@@ -63,27 +74,31 @@ std::optional<Eigen::Vector3d> fitRotation(const std::vector<Sighting>& sighting
     {
         return std::nullopt;
     }
-    Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+    RowRotation rotation;
     for (int k = 0; k < kIterations; ++k)
     {
-        const Residuals residuals = residualsOf(sightings, R);
+        const Residuals residuals = residualsOf(sightings, rotation);
         const double limit = kTukeySigmas * sigmaOf(residuals);
-        Eigen::Matrix3d H = Eigen::Matrix3d::Zero();
-        Eigen::Vector3d g = Eigen::Vector3d::Zero();
+        Matrix6d H = Matrix6d::Zero();
+        Vector6d g = Vector6d::Zero();
         for (std::size_t i = 0; i < residuals.size(); ++i)
         {
-            const Eigen::Matrix<double, 2, 3> J = jacobianOf(R * sightings[i].p_cam);
+            const Eigen::Matrix<double, 2, 3> J = jacobianOf(rotation.moved(sightings[i]));
+            Eigen::Matrix<double, 2, 6> both;
+            both << J, sightings[i].row * J;
             const double weight = tukeyWeight(residuals[i].norm() / limit);
-            H += weight * J.transpose() * J;
-            g += weight * J.transpose() * residuals[i];
+            H += weight * both.transpose() * both;
+            g += weight * both.transpose() * residuals[i];
         }
-        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> es(H);
-        if (!(es.eigenvalues()[0] > 1e-6 * es.eigenvalues()[2]))
+        const Eigen::SelfAdjointEigenSolver<Matrix6d> es(H);
+        if (!(es.eigenvalues()[0] > 1e-6 * es.eigenvalues()[5]))
         {
             return std::nullopt;
         }
-        R = so3Exp(H.ldlt().solve(g)) * R;
+        const Vector6d step = H.ldlt().solve(g);
+        rotation.middle += step.head<3>();  // rotations of a degree simply add up
+        rotation.growth += step.tail<3>();
     }
-    return so3Log(R);
+    return rotation.middle;
 }
 }  // namespace pointplane
