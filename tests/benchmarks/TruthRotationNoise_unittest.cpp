@@ -70,6 +70,8 @@ RotationNoise measure(
 SimulationParams oneSecond(SimulationParams params)
 {
     params.duration = 1;
+    params.width = 320;
+    params.height = 240;
     return params;
 }
 }  // namespace
