@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/points/PointTracker.h>
 
+#include <Eigen/LU>
+
 #include <cmath>
 #include <set>
 #include <stdexcept>
@@ -345,5 +347,57 @@ TEST(PointTracker, pointsThatAreMissingAreLookedForNowAndThen)
     EXPECT_TRUE(reference.isDue(1));
     EXPECT_EQ(reference.misses[1], 0);
     EXPECT_GT(reference.misses[0], 3);
+}
+namespace
+{
+/** A bright wall ends at a slanted line, and nothing else is to be seen. */
+RgbdFrame slantedEdge(double shift_px, unsigned noiseSeed)
+{
+    test::GaussianSampler random(noiseSeed);
+    RgbdFrame out = wall({0, 0}, noiseSeed);
+    out.gray = test::renderImage(
+        640,
+        480,
+        [&](double u, double v)
+        { return 60 + 120 / (1 + std::exp(-(0.8 * (u - shift_px - 320) + 0.6 * (v - 240)))); },
+        1.5,
+        &random);
+    return out;
+}
+}  // namespace
+
+TEST(PointTracker, EdgesTellTheDirectionAcrossThem)
+{
+    const PointTracker tracker = makeTracker();
+    const PointReference reference = tracker.makeReference(slantedEdge(0, 1));
+    ASSERT_GT(reference.points.size(), 5U);
+    EXPECT_LE(reference.points.size(), 50U);
+
+    const RgbdFrame frame = slantedEdge(3, 2);
+    const auto tracks =
+        tracker.track(reference, frame, tracker.pyramid(frame.gray), Eigen::Isometry3d::Identity());
+    ASSERT_GT(tracks.size(), 5U);
+    const Eigen::Vector3d across(0.8, 0.6, 0), along(-0.6, 0.8, 0);
+    for (const PointTrack& t : tracks)
+    {
+        const PointFeature& ref = reference.points[static_cast<size_t>(t.ref)];
+        const Eigen::Vector3d moved = t.cur.p_cam.mean - ref.p_cam.mean;
+        const double metrePerPixel = kDepth / frame.camera.fx;
+        EXPECT_NEAR(across.dot(moved) / metrePerPixel, 0.8 * 3, 0.3);
+        // What each tells of its own, in pixels.
+        const Eigen::Matrix3d information =
+            metrePerPixel * metrePerPixel * t.cur.p_cam.cov.inverse();
+        EXPECT_GT(across.dot(information * across), 1 / (0.4 * 0.4));
+        EXPECT_LT(along.dot(information * along), 1 / (10.0 * 10.0));
+    }
+}
+
+TEST(PointTracker, EdgesAreLeftOutWhereCornersAbound)
+{
+    const PointReference reference = makeTracker().makeReference(wall({0, 0}, 1));
+    for (const Eigen::Matrix2d& cov : reference.cov_px)
+    {
+        EXPECT_LT(cov.trace(), 2 * 0.2 * 0.2);
+    }
 }
 }  // namespace pointplane

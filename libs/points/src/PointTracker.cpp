@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/core/check.h>
+#include <pointplane/core/covariance.h>
 #include <pointplane/points/PointTracker.h>
 
 #include <opencv2/imgproc.hpp>
@@ -8,7 +9,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "corner_sigma.h"
+#include "local_surface.h"
+#include "patch_uncertainty.h"
 
 namespace pointplane
 {
@@ -16,6 +18,9 @@ namespace
 {
 constexpr int kBorderPx = 8;
 constexpr int kZnccPx = 9;  //!< side of the patches that are compared
+
+/** An edge's noise across it, of the noise that a corner may have. */
+constexpr double kEdgeOfCorner = 0.5;
 
 bool isInside(const cv::Point2f& p, const cv::Mat& image)
 {
@@ -93,6 +98,7 @@ void PointTracker::TParams::check() const
     POINTPLANE_CHECK(
         maxPoints >= 1 && maxPoints <= 100000,
         "maxPoints = " << maxPoints << " is not in 1..100000");
+    POINTPLANE_CHECK(minPoints >= 0, "minPoints = " << minPoints << " is negative");
     POINTPLANE_CHECK(
         minSpacingFraction > 0 && minSpacingFraction < 1,
         "minSpacingFraction = " << minSpacingFraction << " is not in (0, 1)");
@@ -136,7 +142,7 @@ std::vector<cv::Mat> PointTracker::pyramid(const cv::Mat& gray) const
 
 /** \param pyramid with derivatives. Corners are looked for in the halved image, four times as fast:
  * a patch that is searched for needs structure in it, its centre may be anywhere. */
-std::vector<cv::Point2f> PointTracker::corners(const std::vector<cv::Mat>& pyramid) const
+std::vector<cv::Point2f> PointTracker::candidates(const std::vector<cv::Mat>& pyramid) const
 {
     constexpr size_t kHalved = 2;  // images and derivatives take turns
     const bool isHalved = pyramid.size() > kHalved;
@@ -164,23 +170,47 @@ PointReference PointTracker::makeReference(const RgbdFrame& frame) const
     }
     cv::buildOpticalFlowPyramid(
         frame.gray, out.pyramid, {params_.windowPx, params_.windowPx}, params_.numLevels - 1, true);
-    const double noise = imageNoise(frame.gray);
-    for (const cv::Point2f& corner : corners(out.pyramid))
+    struct Edge
     {
-        if (!isInside(corner, frame.gray) ||
-            cornerSigma(out.pyramid[1], corner, params_.windowPx, noise) > params_.maxNoisePx)
-        {
-            continue;
-        }
-        if (const auto feature =
-                lifter_.lift(frame, Eigen::Vector2f(corner.x, corner.y).cast<double>()))
-        {
-            out.points.push_back(*feature);
-        }
+        PointFeature point;
+        PatchUncertainty uncertainty;
+    };
+    std::vector<Edge> edges;
+    const auto add = [&](const PointFeature& point, const PatchUncertainty& uncertainty)
+    {
+        out.points.push_back(point);
+        out.cov_px.push_back(uncertainty.covariance(params_.maxNoisePx));
+    };
+    const double noise = imageNoise(frame.gray);
+    for (const cv::Point2f& pixel : candidates(out.pyramid))
+    {
         if (out.points.size() >= static_cast<size_t>(params_.maxPoints))
         {
             break;
         }
+        const PatchUncertainty uncertainty =
+            patchUncertainty(out.pyramid[1], pixel, params_.windowPx, noise);
+        const bool isCorner = uncertainty.worst() <= params_.maxNoisePx;
+        const bool isEdge = !isCorner && uncertainty.best() <= kEdgeOfCorner * params_.maxNoisePx;
+        if (!isInside(pixel, frame.gray) || !(isCorner || isEdge))
+        {
+            continue;
+        }
+        const auto feature = lifter_.lift(frame, Eigen::Vector2f(pixel.x, pixel.y).cast<double>());
+        if (feature && isCorner)
+        {
+            add(*feature, uncertainty);
+        }
+        else if (feature && !isNearDepthJump(frame, *feature))
+        {
+            edges.push_back({*feature, uncertainty});
+        }
+    }
+    for (size_t i = 0;
+         i < edges.size() && out.points.size() < static_cast<size_t>(params_.minPoints);
+         ++i)
+    {
+        add(edges[i].point, edges[i].uncertainty);
     }
     return out;
 }
@@ -262,9 +292,11 @@ std::vector<PointTrack> PointTracker::track(
         {
             continue;
         }
-        if (const auto feature =
-                lifter_.lift(frame, Eigen::Vector2f(to[k].x, to[k].y).cast<double>()))
+        if (auto feature = lifter_.lift(frame, Eigen::Vector2f(to[k].x, to[k].y).cast<double>()))
         {
+            // Along an edge, a track slides on the surface.
+            const auto& cov_px = reference.cov_px[static_cast<size_t>(indices[k])];
+            feature->p_cam.cov += propagate(surfaceJacobian(frame, *feature), cov_px);
             tracks.push_back({indices[k], *feature});
         }
     }

@@ -24,9 +24,10 @@ struct PointTrack
 struct PointReference
 {
     std::vector<PointFeature> points;
-    std::vector<cv::Mat> pyramid;  //!< tracking: of the grey image, with derivatives
-    cv::Mat descriptors;           //!< matching: a row a point
-    std::vector<int> misses;       //!< tracking: frames in a row without each point
+    std::vector<cv::Mat> pyramid;         //!< tracking: of the grey image, with derivatives
+    cv::Mat descriptors;                  //!< matching: a row a point
+    std::vector<Eigen::Matrix2d> cov_px;  //!< tracking: image noise of where each is found [px^2]
+    std::vector<int> misses;              //!< tracking: frames in a row without each point
 
     /** Takes in which points a frame has found again. */
     void note(const std::vector<PointTrack>& tracks);
@@ -46,6 +47,7 @@ class PointTracker
     struct TParams
     {
         int maxPoints{200};
+        int minPoints{50};
         double minSpacingFraction{0.016};
         double cornerQuality{0.001};
         double maxNoisePx{0.2};
@@ -60,12 +62,16 @@ class PointTracker
         void visit(V&& v)
         {
             v("maxPoints", maxPoints, "-", "corners of a reference frame");
+            v("minPoints",
+              minPoints,
+              "-",
+              "where there are fewer corners, points on edges are added, which tell one direction");
             v("minSpacingFraction", minSpacingFraction, "-", "between corners, of the image width");
             v("cornerQuality", cornerQuality, "-", "weakest corner relative to the strongest");
             v("maxNoisePx",
               maxNoisePx,
               "px",
-              "corners that the image's noise moves by more are not used: blank walls have none");
+              "directions in which the image's noise moves a point by more count as not measured");
             v("windowPx", windowPx, "px", "side of the patch that is searched for");
             v("numLevels", numLevels, "-", "pyramid levels");
             v("searchRadiusFraction",
@@ -88,12 +94,13 @@ class PointTracker
     /** The image pyramid that makeReference and track need. */
     [[nodiscard]] std::vector<cv::Mat> pyramid(const cv::Mat& gray) const;
 
-    /** Corners (Shi & Tomasi 1994) of the image at half its size, with depth. */
+    /** Corners (Shi & Tomasi 1994) of the image at half its size, with depth; where there are few,
+     * points on edges, too. */
     [[nodiscard]] PointReference makeReference(const RgbdFrame& frame) const;
 
     /** \param T_cur_ref predicted motion \param radiusFactor above 1 widens the search for a bad
-     * prediction; only some of the points, spread over the list, are then looked for, less exactly; else those that are due
-     * \return in the reference's order */
+     * prediction; only some of the points, spread over the list, are then looked for, less exactly;
+     * else those that are due \return in the reference's order */
     [[nodiscard]] std::vector<PointTrack> track(
         const PointReference& reference,
         const RgbdFrame& frame,
@@ -111,7 +118,7 @@ class PointTracker
         double epsilon_px{0.01};
     };
     [[nodiscard]] Search searchFor(double radius_px, bool isWide, size_t numPoints) const;
-    [[nodiscard]] std::vector<cv::Point2f> corners(const std::vector<cv::Mat>& pyramid) const;
+    [[nodiscard]] std::vector<cv::Point2f> candidates(const std::vector<cv::Mat>& pyramid) const;
 
     TParams params_;
     PointLifter lifter_;

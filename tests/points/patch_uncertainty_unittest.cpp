@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "corner_sigma.h"
+#include "patch_uncertainty.h"
 
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
@@ -51,7 +51,7 @@ TEST(ImageNoise, IsAtLeastThatOfRounding)
     EXPECT_DOUBLE_EQ(imageNoise(cv::Mat(2, 2, CV_8UC1, cv::Scalar(7))), 0.3);
 }
 
-TEST(CornerSigma, OfAStepCornerIsByHand)
+TEST(PatchUncertainty, OfAStepCornerIsByHand)
 {
     // A dark quarter in the middle of the patch: along each of its two sides, 8 px inside the patch
     // have a step of 100, which Scharr sees as a gradient of 50 in two pixels beside each other.
@@ -59,19 +59,27 @@ TEST(CornerSigma, OfAStepCornerIsByHand)
     gray(cv::Rect(50, 50, 50, 50)).setTo(50);
     const double lambda = 7.5 * 2 * 50 * 50;
     EXPECT_NEAR(
-        cornerSigma(derivativesOf(gray), {50, 50}, kWindowPx, 1.5),
+        patchUncertainty(derivativesOf(gray), {50, 50}, kWindowPx, 1.5).worst(),
         1.5 * std::sqrt(2 / lambda),
         1e-3);
 }
 
-TEST(CornerSigma, OfAnEdgeIsInfinite)
+TEST(PatchUncertainty, OfAnEdgeIsInfiniteAlongIt)
 {
     cv::Mat gray(100, 100, CV_8UC1, cv::Scalar(150));
-    gray(cv::Rect(50, 0, 50, 100)).setTo(50);
-    EXPECT_TRUE(std::isinf(cornerSigma(derivativesOf(gray), {50, 50}, kWindowPx, 1.0)));
+    gray(cv::Rect(50, 0, 50, 100)).setTo(50);  // upright
+    const PatchUncertainty u = patchUncertainty(derivativesOf(gray), {50, 50}, kWindowPx, 1.0);
+    EXPECT_TRUE(std::isinf(u.worst()));
+    EXPECT_NEAR(u.best(), std::sqrt(2 / (15 * 2 * 50.0 * 50.0)), 1e-3);
+    EXPECT_NEAR(std::abs(u.axes(1, 0)), 1, 1e-6);
+
+    const Eigen::Matrix2d cov = u.covariance(0.2);
+    EXPECT_GT(cov(1, 1), 1e5);
+    EXPECT_NEAR(cov(0, 0), u.best() * u.best(), 1e-9);
+    EXPECT_NEAR(cov(0, 1), 0, 1e-6);
 }
 
-TEST(CornerSigma, OfNoiseIsLarge)
+TEST(PatchUncertainty, OfNoiseIsLarge)
 {
     const cv::Mat gray = blankWall(1.5), derivatives = derivativesOf(gray);
     const double noise = imageNoise(gray);
@@ -80,7 +88,7 @@ TEST(CornerSigma, OfNoiseIsLarge)
         for (int u = 20; u < 620; u += 40)
         {
             const cv::Point2f centre(static_cast<float>(u), static_cast<float>(v));
-            EXPECT_GT(cornerSigma(derivatives, centre, kWindowPx, noise), 0.1);
+            EXPECT_GT(patchUncertainty(derivatives, centre, kWindowPx, noise).worst(), 0.1);
         }
     }
 }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "corner_sigma.h"
+#include "patch_uncertainty.h"
+
+#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -38,7 +40,18 @@ double imageNoise(const cv::Mat& gray)
     return std::max(kLeast, *middle / kMedianSigma / kGain);
 }
 
-double cornerSigma(
+Eigen::Matrix2d PatchUncertainty::covariance(double limit_px) const
+{
+    constexpr double kUnmeasured = 1000;  // [px]
+    Eigen::Vector2d sigma = sigma_px;
+    for (double& s : sigma)
+    {
+        s = s <= limit_px ? s : kUnmeasured;
+    }
+    return axes * sigma.cwiseAbs2().asDiagonal() * axes.transpose();
+}
+
+PatchUncertainty patchUncertainty(
     const cv::Mat& derivatives, const cv::Point2f& centre, int windowPx, double noise)
 {
     constexpr double kGain = 32;
@@ -59,9 +72,17 @@ double cornerSigma(
             yy += gy * gy;
         }
     }
-    const double least = 0.5 * (xx + yy - std::hypot(xx - yy, 2 * xy));
-    const double structure = least - kNoiseGain * noise * noise * patch.area();
-    return structure > 0 ? noise * std::sqrt(2 / structure)
-                         : std::numeric_limits<double>::infinity();
+    Eigen::Matrix2d gradients;
+    gradients << xx, xy, xy, yy;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> es(gradients);
+    PatchUncertainty out;
+    out.axes = es.eigenvectors();
+    for (int k = 0; k < 2; ++k)
+    {
+        const double structure = es.eigenvalues()[k] - kNoiseGain * noise * noise * patch.area();
+        out.sigma_px[k] = structure > 0 ? noise * std::sqrt(2 / structure)
+                                        : std::numeric_limits<double>::infinity();
+    }
+    return out;
 }
 }  // namespace pointplane

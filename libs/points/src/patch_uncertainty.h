@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <opencv2/core/mat.hpp>
+
+namespace pointplane
+{
+/** Standard deviation of an image's white noise [grey], at least that of rounding: median response
+ * of the difference of two Laplacians, blind to slopes and edges [Immerkaer 1996; the median
+ * instead of the mean leaves texture out]. \param gray CV_8UC1 */
+[[nodiscard]] double imageNoise(const cv::Mat& gray);
+
+/** How far image noise moves a patch that is searched for. */
+struct PatchUncertainty
+{
+    Eigen::Vector2d sigma_px;  //!< along the columns of axes, the larger first; may be infinite
+    Eigen::Matrix2d axes;
+
+    [[nodiscard]] double worst() const { return sigma_px[0]; }
+    [[nodiscard]] double best() const { return sigma_px[1]; }
+
+    /** Directions with a larger sigma than the limit count as not measured at all: there a search
+     * stays where it began, which is no noise that would average out. \return [px^2] */
+    [[nodiscard]] Eigen::Matrix2d covariance(double limit_px) const;
+};
+
+/** The Cramer-Rao bound sigma sqrt(2 / lambda) in each of the principal directions, with the
+ * eigenvalues lambda of the patch's gradient matrix, less what noise itself contributes to it.
+ * Infinite for a patch of noise.
+ * \param derivatives CV_16SC2, Scharr's (OpenCV's pyramids), gain 32
+ * \param windowPx side of the patch \param noise [grey] */
+[[nodiscard]] PatchUncertainty patchUncertainty(
+    const cv::Mat& derivatives, const cv::Point2f& centre, int windowPx, double noise);
+}  // namespace pointplane

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "local_surface.h"
+
+#include <gtest/gtest.h>
+
+namespace pointplane
+{
+namespace
+{
+/** A plane n . P = d in view of a camera. */
+RgbdFrame slantedWall(const Eigen::Vector3d& n, double d)
+{
+    RgbdFrame out;
+    out.depth.create(480, 640, CV_32FC1);
+    for (int v = 0; v < 480; ++v)
+    {
+        for (int u = 0; u < 640; ++u)
+        {
+            const Eigen::Vector3d ray = out.camera.normalised(Eigen::Vector2d(u, v)).homogeneous();
+            out.depth.at<float>(v, u) = static_cast<float>(d / n.dot(ray));
+        }
+    }
+    return out;
+}
+
+PointFeature pointAt(const RgbdFrame& frame, int u, int v)
+{
+    PointFeature out;
+    out.uv_px << u, v;
+    out.p_cam.mean = static_cast<double>(frame.depth.at<float>(v, u)) *
+                     frame.camera.normalised(out.uv_px).homogeneous();
+    return out;
+}
+}  // namespace
+
+TEST(LocalSurface, JacobianIsThatOfTheWall)
+{
+    const RgbdFrame frame = slantedWall(Eigen::Vector3d(0.5, -0.3, 1).normalized(), 2);
+    for (const auto& [u, v] : {std::pair{100, 80}, std::pair{320, 240}, std::pair{600, 400}})
+    {
+        const auto J = surfaceJacobian(frame, pointAt(frame, u, v));
+        for (int k = 0; k < 2; ++k)
+        {
+            const int du = k == 0 ? 1 : 0, dv = 1 - du;
+            const Eigen::Vector3d numeric = (pointAt(frame, u + du, v + dv).p_cam.mean -
+                                             pointAt(frame, u - du, v - dv).p_cam.mean) /
+                                            2;
+            EXPECT_NEAR((J.col(k) - numeric).norm(), 0, 0.02 * numeric.norm()) << u << ' ' << k;
+        }
+    }
+}
+
+TEST(LocalSurface, WithoutReadingsItIsTakenForLevel)
+{
+    RgbdFrame frame = slantedWall({0, 0, 1}, 2);
+    const PointFeature point = pointAt(frame, 300, 200);
+    frame.depth.setTo(0);
+    const auto J = surfaceJacobian(frame, point);
+    EXPECT_NEAR(J(0, 0), 2 / frame.camera.fx, 1e-6);
+    EXPECT_EQ(J(2, 0), 0);
+}
+
+TEST(LocalSurface, DepthJumpsAreSeenFromNinePixels)
+{
+    RgbdFrame frame = slantedWall({0, 0, 1}, 2);
+    frame.depth(cv::Rect(310, 0, 330, 480)).setTo(3);
+    EXPECT_TRUE(isNearDepthJump(frame, pointAt(frame, 303, 240)));
+    EXPECT_FALSE(isNearDepthJump(frame, pointAt(frame, 300, 240)));
+    frame.depth(cv::Rect(310, 0, 330, 480)).setTo(0);  // no reading is no jump
+    EXPECT_FALSE(isNearDepthJump(frame, pointAt(frame, 303, 240)));
+    EXPECT_FALSE(isNearDepthJump(frame, pointAt(frame, 0, 0)));
+}
+}  // namespace pointplane
