@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pointplane/points/PatchAligner.h>
 #include <pointplane/points/PointDetector.h>
 #include <pointplane/points/PointLifter.h>
 #include <pointplane/points/PointMatcher.h>
+#include <pointplane/points/PointTracker.h>
 
 #include <opencv2/core.hpp>
 
@@ -78,11 +78,18 @@ void match(benchmark::State& state, const std::string& name)
 BENCHMARK_CAPTURE(match, surf, "surf")->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(match, fast, "fast")->Unit(benchmark::kMicrosecond);
 
+RgbdFrame frameOf(const cv::Mat& gray)
+{
+    RgbdFrame out;
+    out.gray = gray;
+    out.camera.distortion = {{0.262383, -0.953104, -0.005358, 0.002628, 1.163314}};
+    out.depth = cv::Mat(480, 640, CV_32FC1, cv::Scalar(2));
+    return out;
+}
+
 void lift(benchmark::State& state)
 {
-    RgbdFrame frame;
-    frame.camera.distortion = {{0.262383, -0.953104, -0.005358, 0.002628, 1.163314}};
-    frame.depth = cv::Mat(480, 640, CV_32FC1, cv::Scalar(2));
+    const RgbdFrame frame = frameOf(first());
     const std::vector<Vector2d> points = detectorOf("fast").detect(first()).uv_px;
     const PointLifter lifter{DepthNoise{}};
     for (auto _ : state)
@@ -93,36 +100,33 @@ void lift(benchmark::State& state)
 }
 BENCHMARK(lift)->Unit(benchmark::kMicrosecond);
 
-void pyramid(benchmark::State& state)
+void makeReference(benchmark::State& state)
 {
-    const cv::Mat& gray = first();
-    ImagePyramid out;
+    const RgbdFrame frame = frameOf(first());
+    const PointTracker tracker({}, PointLifter::TParams{}, DepthNoise{});
     for (auto _ : state)
     {
-        out.build(gray, 4);
+        benchmark::DoNotOptimize(tracker.makeReference(frame));
     }
 }
-BENCHMARK(pyramid)->Unit(benchmark::kMicrosecond);
+BENCHMARK(makeReference)->Unit(benchmark::kMillisecond);
 
-/** One patch: template, then search. */
-void patch(benchmark::State& state)
+/** Pyramid of the current image, and all points of one reference. */
+void track(benchmark::State& state)
 {
-    PatchAligner::TParams params;
-    params.patchSizePx = static_cast<int>(state.range(0));
-    const PatchAligner aligner(params);
-    const ImagePyramid a(first(), params.numLevels), b(second(), params.numLevels);
-    const std::vector<Vector2d> points = detectorOf("fast").detect(first()).uv_px;
-    const Eigen::Matrix2d slant = (Eigen::Matrix2d() << 1.02, 0.01, -0.02, 0.99).finished();
-    PatchReference reference;
-    size_t i = 0, converged = 0;
+    const RgbdFrame frame = frameOf(second());
+    const PointTracker tracker({}, PointLifter::TParams{}, DepthNoise{});
+    const PointReference reference = tracker.makeReference(frameOf(first()));
+    size_t found = 0;
     for (auto _ : state)
     {
-        const Vector2d& uv = points[i++ % points.size()];
-        aligner.makeReference(a, uv, slant, reference);
-        converged += aligner.align(reference, b, uv).isConverged() ? 1 : 0;
+        found =
+            tracker
+                .track(reference, frame, tracker.pyramid(frame.gray), Eigen::Isometry3d::Identity())
+                .size();
     }
-    state.counters["converged"] =
-        static_cast<double>(converged) / static_cast<double>(state.iterations());
+    state.counters["points"] = static_cast<double>(reference.points.size());
+    state.counters["found"] = static_cast<double>(found);
 }
-BENCHMARK(patch)->Arg(8)->Arg(12)->Arg(16)->Unit(benchmark::kMicrosecond);
+BENCHMARK(track)->Unit(benchmark::kMillisecond);
 }  // namespace
