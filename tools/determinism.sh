@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Same rawlog, same bytes: pointplane-odometry of build/release against itself, with other numbers of
-# threads, and against a debug build (or the builds that are named: tools/determinism.sh BUILD_DIR...).
+# threads, without OpenCV's faster instruction sets, and against a debug build (or the builds that are
+# named: tools/determinism.sh BUILD_DIR...).
 source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 source tools/instrumented.sh
 
@@ -32,7 +33,8 @@ for scene in desk corner; do
     run_odometry again "$build_dir" --jobs 1
     run_odometry two_jobs "$build_dir" --jobs 2
     run_odometry two_threads "$build_dir" --jobs 3 --set Pipeline.numThreads=2
-    names=(again two_jobs two_threads)
+    OPENCV_CPU_DISABLE=AVX2,AVX,FMA3,FP16,SSE4_1 run_odometry plain_cpu "$build_dir"
+    names=(again two_jobs two_threads plain_cpu)
     for other in "${builds[@]}"; do
         run_odometry "${other//\//_}" "$other"
         names+=("${other//\//_}")

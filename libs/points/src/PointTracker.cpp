@@ -231,7 +231,6 @@ PointTracker::Search PointTracker::searchFor(double radius_px, bool isWide, size
     if (isWide)
     {
         out.step = std::max<size_t>(1, numPoints / kWidePoints);
-        out.maxIterations = 10;
         out.epsilon_px = 0.1;
     }
     return out;

@@ -114,8 +114,8 @@ class PointTracker
     {
         int numLevels{1};
         size_t step{1};  //!< every step-th point
-        int maxIterations{20};
-        double epsilon_px{0.01};
+        int maxIterations{10};
+        double epsilon_px{0.03};
     };
     [[nodiscard]] Search searchFor(double radius_px, bool isWide, size_t numPoints) const;
     [[nodiscard]] std::vector<cv::Point2f> candidates(const std::vector<cv::Mat>& pyramid) const;
