@@ -52,7 +52,7 @@ simulated_run() {
     local prefix=$work/$1.$2 poses
     local work=$prefix # for the logs of this run
     mkdir "$work"
-    quietly "$bin/pointplane-simulate" "$1" -o "$work/in.rawlog" --seed "$2" --duration 3 --quiet
+    quietly "$bin/pointplane-simulate" "$1" -o "$work/in.rawlog" --seed "$2" --duration 2 --quiet
     estimate "$work/in.rawlog" "$prefix"
     mv "$work/in.groundtruth.txt" "$prefix.txt"
     for poses in "$prefix".{config,plain}.rawlog; do
@@ -123,7 +123,7 @@ done | xargs -P "$(nproc)" -L 1 bash -c '
         real "$folder"
     done
     echo
-    echo "Simulated scenes, 3 s each, $runs seeds pooled:"
+    echo "Simulated scenes, 2 s each, $runs seeds pooled:"
     echo
     echo "| scene | config.ini | plain H⁻¹ |"
     echo "|---|---|---|"
