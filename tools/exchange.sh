@@ -25,8 +25,8 @@ for system in "$a" "$b"; do
         in_system "$system" "$bin/pointplane-simulate" corner -o "/exchange/own/$kind.rawlog" \
             --duration 1.5 --size 320x240 --quiet "${options[@]}" >/dev/null 2>&1
         in_system "$system" "$bin/pointplane-odometry" "/exchange/own/$kind.rawlog" \
-            -o "/exchange/own/$kind.vo.rawlog" --trajectory "/exchange/own/$kind.txt" --quiet \
-            >/dev/null
+            -o "/exchange/own/$kind.vo.rawlog" --since 31 \
+            --trajectory "/exchange/own/$kind.txt" --quiet >/dev/null
     done
 done
 cp -r "$a/exchange/own" "$b/exchange/other"

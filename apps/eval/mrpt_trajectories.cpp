@@ -15,13 +15,36 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
+#include <regex>
 #include <tuple>
 
 namespace pointplane
 {
 namespace
 {
-StampedPose stamped(double stamp, const PoseGaussian& pose) { return {stamp, pose.mean, pose.cov}; }
+StampedPose stamped(double stamp, const PoseGaussian& pose)
+{
+    return {stamp, pose.mean, pose.cov, {}};
+}
+
+/** What the label of a motion since an earlier frame says, LABEL_since_N beside LABEL_pose. */
+struct Since
+{
+    std::string poseLabel;
+    std::size_t framesAgo;
+};
+
+std::optional<Since> sinceOf(const std::string& label)
+{
+    static const std::regex pattern("(.*)_since_([1-9][0-9]{0,3})");
+    std::smatch match;
+    if (!std::regex_match(label, match, pattern))
+    {
+        return std::nullopt;
+    }
+    return Since{match.str(1) + "_pose", std::stoul(match.str(2))};
+}
 
 /** Collects poses from the objects of a rawlog. */
 class PoseCollector
@@ -52,8 +75,27 @@ class PoseCollector
     {
         if (const auto* pose = dynamic_cast<const mrpt::obs::CObservationRobotPose*>(&observation))
         {
-            byLabel_[pose->sensorLabel].push_back(
-                stamped(toSeconds(pose->timestamp), fromMrpt(pose->pose)));
+            const PoseGaussian gaussian = fromMrpt(pose->pose);
+            if (const auto since = sinceOf(pose->sensorLabel))
+            {
+                addSince(*since, toSeconds(pose->timestamp), gaussian.cov);
+            }
+            else
+            {
+                byLabel_[pose->sensorLabel].push_back(
+                    stamped(toSeconds(pose->timestamp), gaussian));
+            }
+        }
+    }
+
+    /** Those of a pose follow it, one frame back first. */
+    void addSince(const Since& since, double stamp, const Matrix6d& cov)
+    {
+        const auto poses = byLabel_.find(since.poseLabel);
+        if (poses != byLabel_.end() && poses->second.back().stamp == stamp &&
+            poses->second.back().sinceCovs.size() + 1 == since.framesAgo)
+        {
+            poses->second.back().sinceCovs.push_back(cov);
         }
     }
 

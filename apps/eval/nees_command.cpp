@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 #include <ostream>
+#include <set>
 
 #include "command.h"
 #include "input_options.h"
@@ -118,6 +119,7 @@ void NeesCommand::run(CommandContext& context) const
     }
     std::vector<std::vector<NeesIncrement>> pooled(lengths.size());
     std::vector<std::size_t> independent(lengths.size(), 0);
+    std::set<std::string> notes;
     for (std::size_t k = 0; k < files.size(); k += 2)
     {
         const Trajectory truth = input.loadTruth(files[k], context);
@@ -126,6 +128,7 @@ void NeesCommand::run(CommandContext& context) const
         {
             const auto increments = neesIncrements(truth, estimate, lengths[m], resolved);
             independent[m] += countIndependent(increments);
+            notes.insert(noteOnUntold(estimate, increments));
             pooled[m].insert(pooled[m].end(), increments.begin(), increments.end());
         }
         if (!html.directory.empty())
@@ -142,6 +145,11 @@ void NeesCommand::run(CommandContext& context) const
         report.results.push_back(consistencyOf(pooled[m], independent[m], lengths[m]));
     }
     writeReport(report, output, context.out);
+    notes.erase("");
+    for (const std::string& note : notes)
+    {
+        context.err << "pointplane-eval: note: " << note << "\n";
+    }
     for (const NeesResult& result : report.results)
     {
         const double nees = result.joint.nees;

@@ -65,17 +65,20 @@ std::vector<std::string> consistencyCells(const std::string& name, const NeesRes
     return cells;
 }
 
-/** NEES table and charts; the charts of single errors for the first interval only. */
+/** NEES table and charts; the charts of single errors for the first interval only.
+ * \throws std::runtime_error where there is no NEES */
 void addConsistency(HtmlReport& report, const ReportedRun& run)
 {
     std::vector<std::vector<std::string>> rows;
     std::vector<Chart> charts;
     std::vector<Chart> errors;
+    std::string note;
     for (const NeesInterval& interval : run.intervals)
     {
         const auto increments = neesIncrements(run.groundTruth, run.estimate, interval, run.nees);
         const auto result = consistencyOf(increments, countIndependent(increments), interval);
         rows.push_back(consistencyCells(nameOf(interval), result));
+        note = note.empty() ? noteOnUntold(run.estimate, increments) : note;
         charts.push_back(neesChart(run.estimate, increments, result));
         if (errors.empty())
         {
@@ -100,6 +103,10 @@ void addConsistency(HtmlReport& report, const ReportedRun& run)
          "rz",
          "95 % bounds"},
         rows);
+    if (!note.empty())
+    {
+        report.addParagraph(note);
+    }
     std::for_each(charts.begin(), charts.end(), [&](const Chart& c) { report.addChart(c); });
 }
 
@@ -212,7 +219,14 @@ std::string writeTrajectoryReport(const ReportedRun& run, const ReportOptions& o
     report.addChart(positionErrorChart(run.estimate, ate));
     if (!run.estimate.covs.empty())
     {
-        addConsistency(report, run);
+        try
+        {
+            addConsistency(report, run);
+        }
+        catch (const std::runtime_error& error)
+        {
+            report.addParagraph("No NEES: " + std::string(error.what()));
+        }
     }
     FrameTable table;
     if (!options.diagnostics.empty())

@@ -4,6 +4,7 @@
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/params_ini.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <ostream>
 
@@ -33,6 +34,9 @@ void addOptions(CLI::App& app, OdometryOptions& o, bool& dumpConfig, bool& dumpK
     app.add_flag("--only-poses", o.onlyPoses, "Leave the observations out of it")->group("Output");
     app.add_flag(
            "--format1", o.format1, "Actions (CActionRobotMovement3D) and sensory frames in it")
+        ->group("Output");
+    app.add_option("--since", o.since, "Motion since 1 ... N frames before, with PDFs (for nees)")
+        ->check(CLI::Range(1, 300))
         ->group("Output");
     app.add_flag("--with-points", o.withPoints, "Point clouds in its scans (rbpf-slam, maps)")
         ->group("Output");
@@ -86,7 +90,8 @@ void checkPaths(const OdometryOptions& o)
 
 int run(const OdometryOptions& options, std::ostream& out, std::ostream& err)
 {
-    const OdometryParams params = loadOdometryParams(options.config, options.settings);
+    OdometryParams params = loadOdometryParams(options.config, options.settings);
+    params.covariance.history = std::max(params.covariance.history, options.since);
     checkPaths(options);
     const RunSummary summary = runOdometry(options, params, err);
     summary.print(out, options.profile);

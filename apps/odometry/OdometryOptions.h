@@ -23,6 +23,7 @@ struct OdometryOptions
     std::string overlay;  //!< folder
     bool onlyPoses{false};
     bool format1{false};
+    int since{0};            //!< motions since so many frames before, in the rawlog
     bool withPoints{false};  //!< point clouds in the rawlog's scans
     std::string simplemap;
     double keyframeDistance{0.2};   //!< between key frames of the simplemap [m]

@@ -9,16 +9,34 @@
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <mrpt/obs/CSensoryFrame.h>
 
+#include <vector>
+
 namespace pointplane
 {
 namespace
 {
-[[nodiscard]] mrpt::obs::CObservationRobotPose::Ptr poseObservation(const OutputItem& item)
+[[nodiscard]] mrpt::obs::CObservationRobotPose::Ptr poseObservation(
+    const OutputItem& item,
+    const mrpt::poses::CPose3DPDFGaussian& pose,
+    const std::string& labelSuffix)
 {
     auto out = mrpt::obs::CObservationRobotPose::Create();
-    out->sensorLabel = item.source.observation->sensorLabel + "_pose";
+    out->sensorLabel = item.source.observation->sensorLabel + labelSuffix;
     out->timestamp = item.source.observation->timestamp;
-    out->pose = item.frame->motion.pose;
+    out->pose = pose;
+    return out;
+}
+
+/** The pose and, for up to `since` frames back, the motions since then. */
+[[nodiscard]] std::vector<mrpt::obs::CObservation::Ptr> poseObservations(
+    const OutputItem& item, int since)
+{
+    const RobotMotion& motion = item.frame->motion;
+    std::vector<mrpt::obs::CObservation::Ptr> out{poseObservation(item, motion.pose, "_pose")};
+    for (std::size_t k = 0; k < motion.since.size() && k < static_cast<std::size_t>(since); ++k)
+    {
+        out.push_back(poseObservation(item, motion.since[k], "_since_" + std::to_string(k + 1)));
+    }
     return out;
 }
 
@@ -44,6 +62,7 @@ RawlogSink::RawlogSink(const OdometryOptions& options)
     : writer_(options.output),
       format1_(options.format1),
       onlyPoses_(options.onlyPoses),
+      since_(options.since),
       withPoints_(options.withPoints)
 {
 }
@@ -78,7 +97,10 @@ void RawlogSink::addFormat2(const OutputItem& item)
     }
     if (item.frame)
     {
-        writer_.write(*poseObservation(item));
+        for (const auto& observation : poseObservations(item, since_))
+        {
+            writer_.write(*observation);
+        }
         if (!isTracked(item.frame->motion))
         {
             writer_.write(*statusComment(item));
@@ -105,7 +127,10 @@ void RawlogSink::addFormat1(const OutputItem& item)
     {
         frame.insert(observationOf(item));
     }
-    frame.insert(poseObservation(item));
+    for (const auto& observation : poseObservations(item, since_))
+    {
+        frame.insert(observation);
+    }
     if (!isTracked(item.frame->motion))
     {
         frame.insert(statusComment(item));

@@ -12,7 +12,8 @@ namespace pointplane
 /** The output rawlog.
  *
  * Format 2: every input observation, followed for each frame of the camera by a
- * CObservationRobotPose with its stamp, and by a CObservationComment if it was not tracked. Format
+ * CObservationRobotPose with its stamp (and by those of the motions since earlier frames, labelled
+ * LABEL_since_N, if asked for), and by a CObservationComment if it was not tracked. Format
  * 1: a CActionCollection with the increment as CActionRobotMovement3D, and a CSensoryFrame, per
  * frame. */
 class RawlogSink : public Sink
@@ -32,6 +33,7 @@ class RawlogSink : public Sink
     RawlogWriter writer_;
     bool format1_;
     bool onlyPoses_;
+    int since_;
     bool withPoints_;
 };
 }  // namespace pointplane

@@ -69,6 +69,11 @@ void MethodRun::process(const RgbdFrame& frame)
         if (step.pose)
         {
             estimate_.covs.push_back(step.pose->cov);
+            std::vector<Matrix6d>& since = estimate_.sinceCovs.emplace_back();
+            for (const PoseGaussian& motion : step.since)
+            {
+                since.push_back(motion.cov);
+            }
         }
     }
     catch (const std::exception& error)

@@ -2,6 +2,8 @@
 #include <pointplane/mrpt_io/params_ini.h>
 #include <pointplane/odometry/Odometry.h>
 
+#include <tuple>
+
 #include "methods.h"
 
 namespace pointplane
@@ -36,7 +38,7 @@ class OurMethod : public Method
             seen.shutter = {};
         }
         const OdometryResult result = odometry_.process(seen);
-        return {outcomeOf(result.status), result.increment.mean, result.pose};
+        return {outcomeOf(result.status), result.increment.mean, result.pose, result.since};
     }
 
  private:
@@ -62,16 +64,23 @@ std::vector<NamedMethod> ourMethods(const std::string& configDirectory)
     const std::string standard = configDirectory + "/config.ini";
     const std::string fast = configDirectory + "/config-fast.ini";
     const std::string paper = configDirectory + "/config-paper.ini";
-    return {
-        ourMethod("config.ini", standard, {}),
-        ourMethod("shutter not told", standard, {}, true),
-        ourMethod("points alone", standard, {"Pipeline.usePlanes=false"}),
-        ourMethod("planes alone", standard, {"Pipeline.usePoints=false"}),
-        ourMethod("frame to frame", standard, {"Reference.reference=previous"}),
-        ourMethod("unweighted", standard, {"PoseSolver.weighting=none"}),
-        ourMethod("config-fast.ini", fast, {}),
-        ourMethod("config-paper.ini", paper, {}),
-        ourMethod("paper, points alone", paper, {"Pipeline.usePlanes=false"}),
-        ourMethod("paper, unweighted", paper, {"PoseSolver.weighting=none"})};
+    const std::vector<std::tuple<std::string, std::string, std::vector<std::string>>> variants{
+        {"config.ini", standard, {}},
+        {"shutter not told", standard, {}},
+        {"points alone", standard, {"Pipeline.usePlanes=false"}},
+        {"planes alone", standard, {"Pipeline.usePoints=false"}},
+        {"frame to frame", standard, {"Reference.reference=previous"}},
+        {"unweighted", standard, {"PoseSolver.weighting=none"}},
+        {"config-fast.ini", fast, {}},
+        {"config-paper.ini", paper, {}},
+        {"paper, points alone", paper, {"Pipeline.usePlanes=false"}},
+        {"paper, unweighted", paper, {"PoseSolver.weighting=none"}}};
+    std::vector<NamedMethod> out;
+    for (auto [name, file, settings] : variants)
+    {
+        settings.emplace_back("Covariance.history=31");  // a second and a dropped frame, for NEES
+        out.push_back(ourMethod(name, file, settings, name == "shutter not told"));
+    }
+    return out;
 }
 }  // namespace pointplane

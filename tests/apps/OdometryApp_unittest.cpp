@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <random>
 #include <sstream>
 #include <string>
@@ -107,6 +108,26 @@ TEST_F(OdometryApp, everyFrameGetsAPoseWithItsStamp)
         }
     }
     EXPECT_EQ(numFrames, 5);
+}
+
+TEST_F(OdometryApp, motionsSinceEarlierFramesAreWrittenWhenAskedFor)
+{
+    (void)runOn(5, [](int, CObservation3DRangeScan&) {});
+    EXPECT_EQ(numPoses(out_), 5U);
+    ASSERT_EQ(run({in_, "-o", out_, "--since", "3"}).code, kExitOk);
+    std::map<std::string, int> labels;
+    for (const auto& object : test::readAll(out_).objects)
+    {
+        if (const auto pose = std::dynamic_pointer_cast<CObservationRobotPose>(object))
+        {
+            ++labels[pose->sensorLabel];
+            EXPECT_TRUE(pose->pose.cov.asEigen().llt().info() == Eigen::Success);
+        }
+    }
+    const std::map<std::string, int> expected{
+        {"RGBD_pose", 5}, {"RGBD_since_1", 4}, {"RGBD_since_2", 3}, {"RGBD_since_3", 2}};
+    EXPECT_EQ(labels, expected);
+    EXPECT_EQ(run({in_, "-o", out_, "--since", "0"}).code, kExitBadInput);
 }
 
 TEST_F(OdometryApp, sameInputSameBytesForAnyNumberOfThreads)

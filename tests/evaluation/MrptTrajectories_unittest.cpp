@@ -11,6 +11,7 @@
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/poses/CPose3DInterpolator.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <sstream>
 
@@ -121,6 +122,37 @@ TEST(MrptTrajectories, rawlogOfRobotPosesWithTheirCovariances)
     writeFormat2(dir / "a.rawlog", {"VO"});
     expectEstimate(readRawlogTrajectory(dir / "a.rawlog", ""));
     expectEstimate(readRawlogTrajectory(dir / "a.rawlog", "VO"));
+}
+
+TEST(MrptTrajectories, motionsSinceEarlierFramesBelongToTheirPoses)
+{
+    test::TempDir dir;
+    {
+        RawlogWriter writer(dir / "a.rawlog");
+        for (std::size_t k = 0; k < estimate().size(); ++k)
+        {
+            writer.write(observationOf(k, "RGBD_pose"));
+            for (std::size_t n = 1; n <= std::min<std::size_t>(k, 3); ++n)
+            {
+                auto since = observationOf(k, "RGBD_since_" + std::to_string(n));
+                since.pose = toMrpt(gaussianAt(n));
+                writer.write(since);
+            }
+        }
+        writer.close();
+    }
+    const Trajectory read = readRawlogTrajectory(dir / "a.rawlog", "");
+    expectEstimate(read);
+    ASSERT_EQ(read.sinceCovs.size(), read.size());
+    EXPECT_TRUE(read.sinceCovs[0].empty());
+    ASSERT_EQ(read.sinceCovs[2].size(), 2U);
+    ASSERT_EQ(read.sinceCovs[20].size(), 3U);
+    for (std::size_t n = 1; n <= 3; ++n)
+    {
+        const Matrix6d& expected = estimate().covs[n];
+        EXPECT_THAT(
+            read.sinceCovs[20][n - 1], test::IsMatrixNear(expected, 1e-9 + 1e-6 * expected.norm()));
+    }
 }
 
 TEST(MrptTrajectories, rawlogOfActionsAndFramesIsComposed)

@@ -63,6 +63,27 @@ TEST(Nees, incrementCovarianceComesBackOutOfTheAccumulatedOnes)
         test::IsMatrixNear(two.cov, 1e-6 * two.cov.norm()));
 }
 
+/** Poses whose errors have something in common tell how uncertain increments are themselves. */
+TEST(Nees, incrementCovariancesThatWereToldCountAsTheyAre)
+{
+    const Trajectory truth = randomTrajectory(300, 1);
+    Trajectory estimate = odometry(truth, 2);
+    estimate.sinceCovs.resize(300);
+    estimate.sinceCovs[250] = {2 * incrementCov(), 3 * incrementCov()};
+    EXPECT_EQ(incrementCovariance(estimate, 249, 250), Matrix6d(2 * incrementCov()));
+    EXPECT_EQ(incrementCovariance(estimate, 248, 250), Matrix6d(3 * incrementCov()));
+    EXPECT_THAT(
+        incrementCovariance(estimate, 250, 251),
+        test::IsMatrixNear(incrementCov(), 1e-6 * incrementCov().norm()));
+
+    // Another body, turned by T: the same error seen from there.
+    const Eigen::Isometry3d T = se3Exp(Vector6d::LinSpaced(-0.5, 1));
+    const Matrix6d Ad = adjoint(T.inverse());
+    EXPECT_THAT(
+        incrementCovariance(withBody(estimate, T), 249, 250),
+        test::IsMatrixNear(Matrix6d(Ad * 2 * incrementCov() * Ad.transpose()), 1e-12));
+}
+
 TEST(Nees, honestCovariancesAreConsistentAtEveryInterval)
 {
     const Trajectory truth = randomTrajectory(3000, 1);

@@ -5,6 +5,8 @@
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/mrpt_poses.h>
 
+#include <algorithm>
+
 #include "matchers.h"
 #include "monte_carlo.h"
 #include <gmock/gmock.h>
@@ -212,6 +214,33 @@ TEST(RobotTrajectory, followsAPanningCamera)
             fromMrpt(motion.increment.mean), IsNearPose(Eigen::Isometry3d::Identity(), 1e-9, 1e-9));
         EXPECT_THAT(
             fromMrpt(motion.pose.mean), IsNearPose(Eigen::Isometry3d::Identity(), 1e-9, 1e-9));
+    }
+}
+
+TEST(RobotTrajectory, motionsSinceEarlierFrames)
+{
+    // The head pans: each motion begins with the camera where it was on the robot then.
+    RobotTrajectory trajectory;
+    const auto head = [](int k) { return poseAt(0.2, 0, 1, 0.1 * k, 0, 0) * opticalInBody(); };
+    const auto robot = [](int k) { return poseAt(0.3 * k, 0, 0, 0, 0, 0); };
+    for (int k = 0; k < 4; ++k)
+    {
+        OdometryResult result;
+        result.increment.cov = result.pose.cov = 1e-6 * Matrix6d::Identity();
+        for (int n = 1; n <= std::min(k, 2); ++n)
+        {
+            result.since.push_back(
+                {(robot(k - n) * head(k - n)).inverse() * robot(k) * head(k),
+                 1e-6 * n * Matrix6d::Identity()});
+        }
+        const RobotMotion motion = trajectory.add(result, head(k));
+        ASSERT_EQ(motion.since.size(), result.since.size());
+        for (int n = 1; n <= std::min(k, 2); ++n)
+        {
+            const PoseGaussian since = fromMrpt(motion.since[static_cast<std::size_t>(n - 1)]);
+            EXPECT_THAT(since.mean, IsNearPose(robot(n), 1e-9, 1e-9)) << k << " " << n;
+            EXPECT_NEAR(since.cov(3, 3), 1e-6 * n, 1e-12);
+        }
     }
 }
 }  // namespace

@@ -55,6 +55,22 @@ TEST(MotionModel, knowsNothingAtTheStart)
     EXPECT_NEAR(std::sqrt(p.cov(3, 3)), 1.0 * kFrame, 0.3 * kFrame);
 }
 
+/** The rest comes from that of the velocity as it was measured. */
+TEST(MotionModel, processNoiseIsWhatTimeAdds)
+{
+    MotionModel model = moving();
+    const Matrix6d P = measuredMotion().cov.bottomRightCorner<6, 6>();
+    Matrix126d F;
+    F << kFrame * Matrix6d::Identity(), Matrix6d::Identity();
+    const auto expected = [&]() -> Matrix12d
+    { return model.predict(kFrame).cov - F * P * F.transpose(); };
+    EXPECT_THAT(model.processNoise(kFrame), test::IsMatrixNear(expected(), 1e-12));
+    model.coast(kFrame);
+    EXPECT_THAT(model.processNoise(kFrame), test::IsMatrixNear(expected(), 1e-12));
+    model.reset();  // nothing is left of what was measured
+    EXPECT_EQ(model.processNoise(kFrame), model.predict(kFrame).cov);
+}
+
 TEST(MotionModel, keepsTheVelocity)
 {
     const MotionModel model = moving();

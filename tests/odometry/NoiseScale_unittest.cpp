@@ -44,6 +44,19 @@ TEST(NoiseScale, takesItsTime)
     EXPECT_NEAR(noise.factors().points, before + 10 * (1 - std::exp(-1)), 1e-12);
 }
 
+/** What the residuals say is told at once; the solver's factors keep to what they began with. */
+TEST(NoiseScale, residualsAreAveragedFromTheStart)
+{
+    NoiseScale noise(bare());
+    for (int i = 0; i < 15; ++i)
+    {
+        noise.update(with(0.5, 0.5), 1.0 / 30);
+    }
+    EXPECT_NEAR(noise.residuals().points, (5 * 4 + 15 * 0.5) / 20, 0.3);
+    EXPECT_GT(noise.factors().points, 2);
+    EXPECT_EQ(noise.disagreement().points, 1);
+}
+
 TEST(NoiseScale, aFrameWithoutFeaturesTellsNothing)
 {
     NoiseScale noise(bare());

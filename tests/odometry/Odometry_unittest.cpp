@@ -158,6 +158,51 @@ TEST(Odometry, incrementsComposeToPosesAcrossGaps)
     }
 }
 
+TEST(Odometry, tellsMotionsSinceEarlierFrames)
+{
+    OdometryParams params;
+    params.covariance.history = 6;
+    CheckedOdometry odometry(params);
+    std::vector<Eigen::Isometry3d> poses;
+    for (int i = 0; i < 14; ++i)
+    {
+        const bool bad = i == 5 || i == 8 || i == 9;
+        const OdometryResult r = odometry.process(bad ? withoutAnything(good(i)) : good(i));
+        poses.push_back(r.pose.mean);
+        ASSERT_EQ(r.since.size(), static_cast<size_t>(std::min(i, 6)));
+        for (size_t n = 1; n <= r.since.size(); ++n)
+        {
+            const PoseGaussian& motion = r.since[n - 1];
+            const Eigen::Isometry3d composed = poses[poses.size() - 1 - n].inverse() * poses.back();
+            EXPECT_THAT(motion.mean, test::IsNearPose(composed, 1e-9, 1e-9)) << i << " " << n;
+            EXPECT_TRUE(isPositiveDefinite(motion.cov)) << i << " " << n;
+        }
+        if (i > 0)
+        {
+            EXPECT_TRUE(r.since[0].cov.isApprox(r.increment.cov, 1e-6)) << i;
+        }
+    }
+}
+
+/** Compared with the same key frames, frames have errors of their own, which do not add up; the
+ * drift of the key frames does, and grows with the motion. */
+TEST(Odometry, errorsAgainstKeyFramesDoNotAddUp)
+{
+    const auto overTenFrames = [](const std::string& model, double drift)
+    {
+        OdometryParams params;
+        params.covariance.history = 10;
+        params.covariance.model = model;
+        params.covariance.drift = drift;
+        const OdometryResult r = CheckedOdometry(params).run(0, 20);
+        return r.since[9].cov.trace() / r.since[0].cov.trace();
+    };
+    const double ofKeyFrames = overTenFrames("joint", 0);
+    EXPECT_LT(ofKeyFrames, 3);
+    EXPECT_GT(overTenFrames("joint", 20), 2 * ofKeyFrames);
+    EXPECT_GT(overTenFrames("independent", 0), 10);
+}
+
 /** After a gap the increment leads on from a predicted pose, whose error it has to undo. */
 TEST(Odometry, incrementsAcrossGapsAreHonest)
 {

@@ -12,15 +12,6 @@ namespace
 {
 constexpr int kRuns = 300;
 
-PoseSolver::TParams gaussian()
-{
-    PoseSolver::TParams params;
-    params.tukeySigmas = 0;
-    params.planeStudentDof = 0;
-    params.priorStudentDof = 0;
-    return params;
-}
-
 test::PairWorld world(unsigned seed)
 {
     test::PairWorld out(seed);
@@ -51,7 +42,7 @@ struct Ratios
 Ratios disagreement(unsigned seed, double noise, double sigmaCommon)
 {
     test::PairWorld w = world(seed);
-    const PoseSolver solver(gaussian());
+    const PoseSolver solver(test::gaussianSolver());
     Disagreement points, planes;
     for (int run = 0; run < kRuns; ++run)
     {
@@ -101,8 +92,8 @@ TEST(Disagreement, showsErrorsThatPointsHaveInCommon)
 TEST(Disagreement, oneReferenceOfOneKindHasNothingToCompareWith)
 {
     test::PairWorld w = world(74);
-    const PoseEstimate e =
-        PoseSolver(gaussian()).solve(w.drawPoints(), {}, Eigen::Isometry3d::Identity(), {});
+    const PoseEstimate e = PoseSolver(test::gaussianSolver())
+                               .solve(w.drawPoints(), {}, Eigen::Isometry3d::Identity(), {});
     EXPECT_EQ(e.pointDisagreement.expected, 0);
     EXPECT_EQ(e.planeDisagreement.expected, 0);
 }
@@ -111,7 +102,7 @@ TEST(Disagreement, pointsAndPlanesOfOneReferenceAreCompared)
 {
     test::PairWorld w = world(75);
     const PoseEstimate e =
-        PoseSolver(gaussian())
+        PoseSolver(test::gaussianSolver())
             .solve(w.drawPoints(), w.drawPlanes(), Eigen::Isometry3d::Identity(), {});
     EXPECT_GT(e.pointDisagreement.expected, 0);
     EXPECT_GT(e.planeDisagreement.expected, 0);

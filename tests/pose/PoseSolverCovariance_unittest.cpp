@@ -55,15 +55,6 @@ Consistency consistency(
     return out;
 }
 
-PoseSolver::TParams gaussian()
-{
-    PoseSolver::TParams params;
-    params.tukeySigmas = 0;
-    params.planeStudentDof = 0;
-    params.priorStudentDof = 0;
-    return params;
-}
-
 /** Within the two-sided 99.9 % interval of chi^2(6 n) / n, on either side. */
 void expectConsistent(const Consistency& c)
 {
@@ -86,14 +77,14 @@ test::PairWorld makeWorld(unsigned seed, int points, int planes)
 TEST(PoseSolverCovariance, ofPoints)
 {
     auto world = makeWorld(31, 40, 0);
-    expectConsistent(consistency(world, gaussian()));
+    expectConsistent(consistency(world, test::gaussianSolver()));
 }
 
 TEST(PoseSolverCovariance, ofPlanes)
 {
     auto world = makeWorld(32, 0, 5);
-    expectConsistent(consistency(world, gaussian()));
-    PoseSolver::TParams params = gaussian();
+    expectConsistent(consistency(world, test::gaussianSolver()));
+    PoseSolver::TParams params = test::gaussianSolver();
     params.planeResidual = "closestPoint";
     expectConsistent(consistency(world, params));
 }
@@ -101,14 +92,14 @@ TEST(PoseSolverCovariance, ofPlanes)
 TEST(PoseSolverCovariance, ofPointsAndPlanes)
 {
     auto world = makeWorld(33, 25, 4);
-    expectConsistent(consistency(world, gaussian()));
+    expectConsistent(consistency(world, test::gaussianSolver()));
 }
 
 TEST(PoseSolverCovariance, withPrior)
 {
     auto world = makeWorld(34, 10, 2);
     const Matrix6d cov = world.sampler().covariance<6>(1e-6, 2e-5);
-    expectConsistent(consistency(world, gaussian(), cov));
+    expectConsistent(consistency(world, test::gaussianSolver(), cov));
 }
 
 /** One wall and the prior: half of the directions come from either. */
@@ -116,7 +107,7 @@ TEST(PoseSolverCovariance, degenerateWithPrior)
 {
     auto world = makeWorld(35, 0, 1);
     const Matrix6d cov = 1e-4 * Matrix6d::Identity();
-    expectConsistent(consistency(world, gaussian(), cov));
+    expectConsistent(consistency(world, test::gaussianSolver(), cov));
 }
 
 /** Weights that are not the inverse covariance: the sandwich H^-1 M H^-1 accounts for them. */
@@ -126,7 +117,7 @@ TEST(PoseSolverCovariance, ofSuboptimalWeights)
     {
         SCOPED_TRACE(weighting);
         auto world = makeWorld(36, 25, 4);
-        PoseSolver::TParams params = gaussian();
+        PoseSolver::TParams params = test::gaussianSolver();
         params.weighting = weighting;
         params.planeResidual = "closestPoint";
         params.alpha = 10;
@@ -138,14 +129,14 @@ TEST(PoseSolverCovariance, ofCorrelatedNoiseByItsFactor)
 {
     auto world = makeWorld(37, 25, 4);
     const Matrix6d cov = world.sampler().covariance<6>(1e-6, 2e-5);
-    expectConsistent(consistency(world, gaussian(), cov, 3, {9, 9}));
+    expectConsistent(consistency(world, test::gaussianSolver(), cov, 3, {9, 9}));
 }
 
 /** Down-weighting what is far out by chance costs efficiency, which the covariance must admit. */
 TEST(PoseSolverCovariance, ofTukeysWeights)
 {
     auto world = makeWorld(38, 60, 0);
-    PoseSolver::TParams params = gaussian();
+    PoseSolver::TParams params = test::gaussianSolver();
     params.tukeySigmas = PoseSolver::TParams{}.tukeySigmas;
     expectConsistent(consistency(world, params));
 }
@@ -153,7 +144,7 @@ TEST(PoseSolverCovariance, ofTukeysWeights)
 TEST(PoseSolverCovariance, ofStudentsWeights)
 {
     auto world = makeWorld(39, 0, 12);
-    PoseSolver::TParams params = gaussian();
+    PoseSolver::TParams params = test::gaussianSolver();
     params.planeStudentDof = PoseSolver::TParams{}.planeStudentDof;
     expectConsistent(consistency(world, params));
 }
@@ -166,7 +157,7 @@ TEST(PoseSolverCovariance, ofPoseAndVelocityTogether)
     predicted.cov.diagonal() << Vector6d::Constant(1e-4), Vector6d::Constant(0.01);
     predicted.cov.topRightCorner<6, 6>() = predicted.cov.bottomLeftCorner<6, 6>() =
         5e-4 * Matrix6d::Identity();
-    const PoseSolver solver(gaussian());
+    const PoseSolver solver(test::gaussianSolver());
     Consistency c;
     double velocityNees = 0, velocityGain = 0;
     for (int i = 0; i < kRuns; ++i)
@@ -178,7 +169,8 @@ TEST(PoseSolverCovariance, ofPoseAndVelocityTogether)
         for (size_t k = 0; k < points.size(); ++k)
         {
             // Rows from top to bottom are exposed within 30 ms.
-            const double s = 0.03 * (static_cast<double>(k) / static_cast<double>(points.size()) - 0.5);
+            const double s =
+                0.03 * (static_cast<double>(k) / static_cast<double>(points.size()) - 0.5);
             Matrix36d D;
             D << s * Eigen::Matrix3d::Identity(), -s * hat(points[k].cur.mean);
             points[k].dCur_dV = D;

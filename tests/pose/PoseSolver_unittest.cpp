@@ -23,15 +23,6 @@ using test::PairWorld;
 const Eigen::Isometry3d kStart = Eigen::Isometry3d::Identity();
 constexpr double kFiveDeg = 5 * M_PI / 180;
 
-PoseSolver::TParams gaussian()
-{
-    PoseSolver::TParams params;
-    params.tukeySigmas = 0;
-    params.planeStudentDof = 0;
-    params.priorStudentDof = 0;
-    return params;
-}
-
 PoseEstimate solve(
     const PoseSolver::TParams& params,
     const std::vector<PointPair>& points,
@@ -128,7 +119,7 @@ TEST(PoseSolver, gradientOfThePapersCostVanishes)
         world.addPoints(20);
         world.addPlanes(5);
         world.T_base_cur = world.randomMotion(0.03, 0.03);
-        PoseSolver::TParams params = gaussian();
+        PoseSolver::TParams params = test::gaussianSolver();
         params.weighting = weighting;
         params.planeResidual = "closestPoint";
         params.alpha = 10;
@@ -169,7 +160,8 @@ TEST(PoseSolver, inliersArePairsOfMoreThanHalfTheirWeight)
     for (const auto& [share, expected] : {std::pair(0.45, 60), std::pair(0.65, 59)})
     {
         std::vector<PointPair> pairs = world.drawPoints(0);
-        const Eigen::Matrix3d cov = pointResidual(pairs[0], Motion{world.T_base_cur, Vector6d::Zero()}).cov;
+        const Eigen::Matrix3d cov =
+            pointResidual(pairs[0], Motion{world.T_base_cur, Vector6d::Zero()}).cov;
         const Eigen::Vector3d sigmas = Eigen::Matrix3d(cov.llt().matrixL()).col(0);
         pairs[0].base.mean += share * params.tukeySigmas * sigmas;
         EXPECT_EQ(solve(params, pairs, {}).numPointInliers, expected) << share;
@@ -186,7 +178,7 @@ TEST(PoseSolver, fullAndDiagonalWeightsAgreeOnDiagonalCovariances)
         pair.base.cov = 1e-4 * Eigen::Matrix3d::Identity();
         pair.cur.cov = 2e-4 * Eigen::Matrix3d::Identity();
     }
-    PoseSolver::TParams full = gaussian(), diagonal = gaussian();
+    PoseSolver::TParams full = test::gaussianSolver(), diagonal = test::gaussianSolver();
     diagonal.weighting = "diagonal";
     const PoseEstimate a = solve(full, points, {}), b = solve(diagonal, points, {});
     EXPECT_THAT(a.pose().mean, test::IsNearPose(b.pose().mean, 1e-9, 1e-9));
@@ -198,7 +190,7 @@ TEST(PoseSolver, unweightedMotionDoesNotDependOnCovariances)
     PairWorld world(11);
     world.addPoints(30);
     auto points = world.drawPoints();
-    PoseSolver::TParams params = gaussian();
+    PoseSolver::TParams params = test::gaussianSolver();
     params.weighting = "none";
     const PoseEstimate a = solve(params, points, {});
     for (size_t i = 0; i < points.size(); ++i)
@@ -215,7 +207,7 @@ TEST(PoseSolver, moreOfTheCovarianceGivesMoreAccuracy)
     PairWorld world(12);
     world.addPoints(40);
     world.T_base_cur = world.randomMotion(0.02, 0.02);
-    PoseSolver::TParams params = gaussian();
+    PoseSolver::TParams params = test::gaussianSolver();
     const double full = rms(world, params, 200);
     params.weighting = "diagonal";
     const double diagonal = rms(world, params, 200);
@@ -232,7 +224,7 @@ TEST(PoseSolver, alphaWeighsPlanes)
     world.addPlanes(4);
     const auto points = world.drawPoints();
     auto planes = world.drawPlanes();
-    PoseSolver::TParams params = gaussian();
+    PoseSolver::TParams params = test::gaussianSolver();
     params.alpha = 0;
     const PoseEstimate without = solve(params, points, planes), none = solve(params, points, {});
     EXPECT_THAT(without.pose().mean, test::IsNearPose(none.pose().mean, 1e-9, 1e-9));
@@ -251,7 +243,7 @@ TEST(PoseSolver, informationOfPlanesIsFreeOfAlpha)
     PairWorld world(14);
     world.addPlanes(5);
     const auto planes = world.drawPlanes(0);
-    PoseSolver::TParams params = gaussian();
+    PoseSolver::TParams params = test::gaussianSolver();
     const Matrix6d one = solve(params, {}, planes).infoPlanes;
     params.alpha = 10;
     EXPECT_TRUE(solve(params, {}, planes).infoPlanes.isApprox(one, 1e-5));
@@ -264,7 +256,7 @@ TEST(PoseSolver, noiseFactorsScaleTheCovariance)
     world.addPlanes(5);
     const auto points = world.drawPoints();
     const auto planes = world.drawPlanes();
-    PoseSolver::TParams params = gaussian();
+    PoseSolver::TParams params = test::gaussianSolver();
     const PoseEstimate one = solve(params, points, planes);
     const Motion start;
     const PoseEstimate scaled = PoseSolver(params).solve(
@@ -278,7 +270,7 @@ TEST(PoseSolver, tukeyIgnoresThirtyPercentOfOutliers)
     PairWorld world(16);
     world.addPoints(100);
     world.T_base_cur = world.randomMotion(0.03, 0.02);
-    PoseSolver::TParams plain = gaussian();
+    PoseSolver::TParams plain = test::gaussianSolver();
     double clean = 0, robust = 0, harmed = 0;
     for (int run = 0; run < 50; ++run)
     {
@@ -312,7 +304,7 @@ TEST(PoseSolver, studentTBearsAWrongPlane)
             return leftError(world.T_base_cur, solve(params, {}, planes).pose().mean).squaredNorm();
         };
         robust += error({});
-        harmed += error(gaussian());
+        harmed += error(test::gaussianSolver());
     }
     EXPECT_LT(robust, 0.1 * harmed);
 }
@@ -430,13 +422,14 @@ TEST(PoseSolver, chiSquarePerDegreeOfFreedomIsOneForRightCovariances)
     double points = 0, planes = 0;
     for (int i = 0; i < 20; ++i)
     {
-        const PoseEstimate e = solve(gaussian(), world.drawPoints(), world.drawPlanes());
+        const PoseEstimate e =
+            solve(test::gaussianSolver(), world.drawPoints(), world.drawPlanes());
         points += e.pointChi2PerDof / 20;
         planes += e.planeChi2PerDof / 20;
     }
     EXPECT_NEAR(points, 1, 0.05);
     EXPECT_NEAR(planes, 1, 0.1);
-    const PoseEstimate e = solve(gaussian(), world.drawPoints(3), world.drawPlanes(2));
+    const PoseEstimate e = solve(test::gaussianSolver(), world.drawPoints(3), world.drawPlanes(2));
     EXPECT_NEAR(e.pointChi2PerDof, 9, 1.5);
     EXPECT_NEAR(e.planeChi2PerDof, 4, 1.5);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <pointplane/core/se3.h>
+#include <pointplane/pose/PoseSolver.h>
 #include <pointplane/pose/pairs.h>
 #include <pointplane/pose/residuals.h>
 
@@ -11,6 +12,16 @@
 
 namespace pointplane::test
 {
+/** A solver for pairs without outliers, whose errors are those of the pairs alone. */
+inline PoseSolver::TParams gaussianSolver()
+{
+    PoseSolver::TParams params;
+    params.tukeySigmas = 0;
+    params.planeStudentDof = 0;
+    params.priorStudentDof = 0;
+    return params;
+}
+
 /** True points and planes in the base frame, each with the covariances that a Kinect's features
  * have; pairs are drawn from them. */
 class PairWorld

@@ -69,10 +69,12 @@ Trajectory makeTrajectory(std::string name, std::vector<StampedPose> poses)
         if (withCov)
         {
             out.covs.push_back(*poses[i].cov);
+            out.sinceCovs.push_back(std::move(poses[i].sinceCovs));
         }
     }
     if (repeated > 0)
     {
+        out.sinceCovs.clear();  // which count all poses
         out.warnings.push_back(
             out.name + ": " + std::to_string(repeated) +
             " pose(s) with a repeated stamp; the last one of each was used");

@@ -49,6 +49,11 @@ Vector6d whitened(const NeesIncrement& increment)
     return es.operatorInverseSqrt() * increment.error;
 }
 
+bool isTold(const Trajectory& estimate, std::size_t i, std::size_t j)
+{
+    return j < estimate.sinceCovs.size() && j - i <= estimate.sinceCovs[j].size();
+}
+
 double blockNees(const NeesIncrement& increment, int start)
 {
     const Eigen::Vector3d e = increment.error.segment<3>(start);
@@ -83,6 +88,10 @@ std::string nameOf(const NeesInterval& interval)
 
 Matrix6d incrementCovariance(const Trajectory& estimate, std::size_t i, std::size_t j)
 {
+    if (isTold(estimate, i, j))
+    {
+        return estimate.sinceCovs[j][j - i - 1];
+    }
     const Matrix6d Ad = adjoint(estimate.poses[i].inverse());
     return propagate(Ad, (estimate.covs[j] - estimate.covs[i]).eval());
 }
@@ -133,12 +142,30 @@ std::vector<NeesIncrement> neesIncrements(
                 stamps, sizeof stamps, "%.6f to %.6f s", estimate.stamps[i], estimate.stamps[*j]);
             throw std::runtime_error(
                 "'" + estimate.name + "': the covariance of the increment from " + stamps +
-                " is not positive definite; do the covariances of the poses accumulate?");
+                " is not positive definite. Poses whose errors have something in common do not "
+                "tell "
+                "it: write the increments, too (pointplane-odometry --since)");
         }
         increment.nees = increment.error.dot(increment.cov.llt().solve(increment.error));
         out.push_back(increment);
     }
     return out;
+}
+
+std::string noteOnUntold(const Trajectory& estimate, const std::vector<NeesIncrement>& increments)
+{
+    const bool all = std::all_of(
+        increments.begin(),
+        increments.end(),
+        [&](const NeesIncrement& increment) { return isTold(estimate, increment.i, increment.j); });
+    if (all)
+    {
+        return "";
+    }
+    return "'" + estimate.name +
+           "' does not tell the covariances of all these increments (pointplane-odometry --since); "
+           "they are taken for the growth of the poses', which is right if increments are "
+           "independent";
 }
 
 std::size_t countIndependent(const std::vector<NeesIncrement>& increments)
@@ -237,6 +264,14 @@ Trajectory withBody(Trajectory trajectory, const Eigen::Isometry3d& T_body_other
     for (Eigen::Isometry3d& pose : trajectory.poses)
     {
         pose = pose * T_body_other;
+    }
+    const Matrix6d Ad = adjoint(T_body_other.inverse());
+    for (std::vector<Matrix6d>& covs : trajectory.sinceCovs)
+    {
+        for (Matrix6d& cov : covs)
+        {
+            cov = propagate(Ad, cov);
+        }
     }
     return trajectory;
 }

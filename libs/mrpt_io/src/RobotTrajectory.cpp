@@ -4,6 +4,8 @@
 #include <pointplane/mrpt_io/RobotTrajectory.h>
 #include <pointplane/mrpt_io/mrpt_poses.h>
 
+#include <algorithm>
+
 namespace pointplane
 {
 namespace
@@ -20,23 +22,28 @@ namespace
 
 RobotMotion RobotTrajectory::add(const OdometryResult& result, const Eigen::Isometry3d& T_robot_cam)
 {
-    if (!started_)
+    if (T_robot_cam_.empty())
     {
-        T_robot_cam_first_ = T_robot_cam_prev_ = T_robot_cam;
-        started_ = true;
+        T_robot_cam_first_ = T_robot_cam;
+        T_robot_cam_.push_front(T_robot_cam);
     }
     RobotMotion out;
     out.status = result.status;
     out.reason = result.reason;
     out.diagnostics = result.diagnostics;
-    out.increment = toMrpt(onRobot(T_robot_cam_prev_, result.increment, T_robot_cam));
+    out.increment = toMrpt(onRobot(T_robot_cam_.front(), result.increment, T_robot_cam));
     out.pose = toMrpt(onRobot(T_robot_cam_first_, result.pose, T_robot_cam));
-    T_robot_cam_prev_ = T_robot_cam;
+    for (std::size_t k = 0; k < std::min(result.since.size(), T_robot_cam_.size()); ++k)
+    {
+        out.since.push_back(toMrpt(onRobot(T_robot_cam_[k], result.since[k], T_robot_cam)));
+    }
+    T_robot_cam_.push_front(T_robot_cam);
+    T_robot_cam_.resize(std::min(T_robot_cam_.size(), result.since.size() + 2));
     return out;
 }
 
 RobotMotion RobotTrajectory::add(const OdometryResult& result)
 {
-    return add(result, started_ ? T_robot_cam_prev_ : opticalInBody());
+    return add(result, T_robot_cam_.empty() ? opticalInBody() : T_robot_cam_.front());
 }
 }  // namespace pointplane

@@ -62,11 +62,21 @@ MotionModel::MotionModel(const TParams& params) : params_(params)
 MotionGaussian MotionModel::predict(double dt) const
 {
     const double t = std::min(dt, kLongestStep);
+    return {{se3Exp(velocity_ * t), velocity_}, covarianceAfter(t, cov_)};
+}
+
+Matrix12d MotionModel::processNoise(double dt) const
+{
+    return covarianceAfter(std::min(dt, kLongestStep), cov_ - measuredCov_);
+}
+
+/** \param cov of the velocity at the start */
+Matrix12d MotionModel::covarianceAfter(double t, const Matrix6d& cov) const
+{
     const Matrix6d Q = density_.asDiagonal();
-    MotionGaussian out;
-    out.mean = {se3Exp(velocity_ * t), velocity_};
-    out.cov << t * t * cov_ + t * t * t / 3 * Q, t * cov_ + t * t / 2 * Q, t * cov_ + t * t / 2 * Q,
-        cov_ + t * Q;
+    Matrix12d out;
+    out << t * t * cov + t * t * t / 3 * Q, t * cov + t * t / 2 * Q, t * cov + t * t / 2 * Q,
+        cov + t * Q;
     return out;
 }
 
@@ -83,6 +93,7 @@ void MotionModel::follow(const Eigen::Isometry3d& T_prev_cur, double dt)
 {
     velocity_ = se3Log(T_prev_cur) / std::min(dt, kLongestStep);
     cov_ = (dt * density_).cwiseMin(1.0).asDiagonal();
+    measuredCov_.setZero();
     coasting_ = 0;
 }
 
@@ -110,7 +121,7 @@ Vector6d MotionModel::update(const MotionGaussian& measured, double dt)
     adapt((change.cwiseAbs2() + cov.diagonal().cwiseMax(0)) / t, t);
 
     velocity_ = measured.mean.velocity;
-    cov_ = measured.cov.bottomRightCorner<6, 6>();
+    cov_ = measuredCov_ = measured.cov.bottomRightCorner<6, 6>();
     coasting_ = 0;
     return smoothed;
 }
@@ -144,5 +155,6 @@ void MotionModel::reset()
     coasting_ = 0;
     density_ = kInitialWalk * kInitialWalk * smallestDensity();
     cov_ = perAxis(kUnknownVelocity, kUnknownAngularVelocity).cwiseAbs2().asDiagonal();
+    measuredCov_.setZero();
 }
 }  // namespace pointplane

@@ -12,8 +12,9 @@ namespace
 /** A few odd frames must neither make features certain nor worthless. */
 constexpr double kMinVariance = 0.1, kMaxVariance = 100;
 
-/** Before anything is known. */
+/** Before anything is known, as if so many frames had said it. */
 constexpr double kInitialVariance = 4;
+constexpr int kInitialFrames = 5;
 }  // namespace
 
 void NoiseScale::TParams::check() const
@@ -31,7 +32,7 @@ NoiseScale::NoiseScale(const TParams& params) : params_(params)
     params_.check();
     if (params_.adaptive)
     {
-        residuals_ = {kInitialVariance, kInitialVariance};
+        pointResiduals_ = planeResiduals_ = {kInitialVariance, kInitialVariance};
     }
 }
 
@@ -41,34 +42,38 @@ void NoiseScale::update(const PoseEstimate& estimate, double dt)
     {
         return;
     }
-    const auto follow = [dt](double& average, double variance, double timeConstant)
-    {
-        if (variance > 0)
-        {
-            const double rate = 1 - std::exp(-dt / timeConstant);
-            average += rate * (std::clamp(variance, kMinVariance, kMaxVariance) - average);
-        }
-    };
-    follow(residuals_.points, estimate.pointVariance, params_.timeConstant);
-    follow(residuals_.planes, estimate.planeVariance, params_.timeConstant);
+    pointResiduals_.follow(estimate.pointVariance, dt, params_.timeConstant);
+    planeResiduals_.follow(estimate.planeVariance, dt, params_.timeConstant);
 
     // The solver was told common_ times the constant factor, which is not for this.
     const auto needed = [](const Disagreement& d, double told)
     { return d.expected > 0 ? told * d.observed / d.expected : 0; };
-    follow(
-        common_.points,
-        needed(estimate.pointDisagreement, common_.points * params_.pointFactor),
+    pointCommon_.follow(
+        needed(estimate.pointDisagreement, pointCommon_.cautious * params_.pointFactor),
+        dt,
         params_.agreementTimeConstant);
-    follow(
-        common_.planes,
-        needed(estimate.planeDisagreement, common_.planes * params_.planeFactor),
+    planeCommon_.follow(
+        needed(estimate.planeDisagreement, planeCommon_.cautious * params_.planeFactor),
+        dt,
         params_.agreementTimeConstant);
+}
+
+void NoiseScale::Average::follow(double variance, double dt, double timeConstant)
+{
+    if (variance > 0)
+    {
+        ++numFrames;
+        const double target = std::clamp(variance, kMinVariance, kMaxVariance);
+        const double rate = 1 - std::exp(-dt / timeConstant);
+        cautious += rate * (target - cautious);
+        quick += std::max(rate, 1.0 / (numFrames + kInitialFrames)) * (target - quick);
+    }
 }
 
 NoiseFactors NoiseScale::factors() const
 {
     return {
-        residuals_.points * common_.points * params_.pointFactor,
-        residuals_.planes * common_.planes * params_.planeFactor};
+        pointResiduals_.cautious * pointCommon_.cautious * params_.pointFactor,
+        planeResiduals_.cautious * planeCommon_.cautious * params_.planeFactor};
 }
 }  // namespace pointplane

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <future>
 #include <optional>
 #include <string>
@@ -24,24 +25,12 @@ constexpr double kFirstSigma = 1e-6;
 /** Elapsed between two frames whose stamps do not tell. */
 constexpr double kUnknownStep = 1.0 / 30;  // [s]
 
+/** Least eigenvalue of a covariance that is told [m^2, rad^2]. */
+constexpr double kLeastVariance = 1e-14;
+
 /** Search radius when too little is found again around the prediction, over the usual one. */
 constexpr double kWideSearch = 5;
 
-/** Where a reference frame is, and what has been predicted since. */
-struct Anchor
-{
-    PoseGaussian pose;     //!< T_first_ref
-    PoseGaussian coasted;  //!< T_ref_latest by the motion model alone; zero covariance when none
-
-    void coast(const PoseGaussian& increment) { coasted = compose(coasted, increment); }
-};
-
-/** A frame that has features, but none that the window knows. */
-struct Unmatched
-{
-    Reference frame;
-    Anchor anchor;
-};
 }  // namespace
 
 struct Odometry::Impl
@@ -49,6 +38,7 @@ struct Odometry::Impl
     explicit Impl(const OdometryParams& p);
 
     OdometryResult process(const RgbdFrame& frame);
+    [[nodiscard]] OdometryResult estimate(const RgbdFrame& frame);
 
     void extract(const RgbdFrame& frame, FrameDiagnostics& diagnostics);
     [[nodiscard]] OdometryResult start(
@@ -63,7 +53,11 @@ struct Odometry::Impl
         const RgbdFrame& frame, const Eigen::Isometry3d& T_prev_cur, double radiusFactor) const;
     [[nodiscard]] double overlapWithNewest(const std::vector<Association>& associations) const;
     void advance(const RgbdFrame& frame, const std::vector<Association>& associations);
-    void finish(const PoseGaussian& T_prev_cur, OdometryResult& result);
+    void moveOn(OdometryResult& result);
+    void finish(OdometryResult& result);
+    [[nodiscard]] PoseGaussian latestPose() const;
+    [[nodiscard]] PoseGaussian motionSince(int framesAgo) const;
+    void forgetOthers();
 
     OdometryParams params;
     PlaneExtractor planeExtractor;
@@ -75,9 +69,10 @@ struct Odometry::Impl
     FrameFeatures features;
     Reference current;
     PinholeCamera camera;
-    Anchor anchor;      //!< of the window's previous frame
-    PoseGaussian pose;  //!< of the latest frame, measured or predicted
-    std::optional<Unmatched> unmatched;
+    JointCovariance joint;
+    std::deque<Eigen::Isometry3d>
+        poses;                           //!< T_first_cur, measured or predicted; latest frame first
+    std::optional<Reference> unmatched;  //!< has features, but none that the window knows
     double latestStamp{0};
     std::optional<double> lateStamp;  //!< of the latest frame, when it was not after latestStamp
     bool started{false};
@@ -91,19 +86,33 @@ Odometry::Impl::Impl(const OdometryParams& p)
       pointStage(
           p.points, p.pointTracker, p.pointDetector, p.pointMatcher, p.pointLifter, p.depthNoise),
       poseStage(p),
-      window(p.reference)
+      window(p.reference),
+      joint(p.covariance),
+      poses{Eigen::Isometry3d::Identity()}
 {
-    pose.cov = Matrix6d::Identity() * (kFirstSigma * kFirstSigma);
+    joint.start(0, Matrix6d::Zero());
 }
 
-/** The paper's Fig. 1: extraction, matching, pose estimation, validation. */
 OdometryResult Odometry::Impl::process(const RgbdFrame& frame)
 {
     const Stopwatch total;
-    OdometryResult result;
-    result.stamp = frame.stamp;
     ++numFrames;
     features = {};
+    OdometryResult result = estimate(frame);
+    forgetOthers();
+    for (int n = 1; n <= params.covariance.history && n < numFrames; ++n)
+    {
+        result.since.push_back(motionSince(n));
+    }
+    result.diagnostics.msTotal = total.ms();
+    return result;
+}
+
+/** The paper's Fig. 1: extraction, matching, pose estimation, validation. */
+OdometryResult Odometry::Impl::estimate(const RgbdFrame& frame)
+{
+    OdometryResult result;
+    result.stamp = frame.stamp;
 
     // A frame without images or without a time can only be predicted.
     if (const std::string problem = problemOf(frame); !problem.empty())
@@ -120,13 +129,11 @@ OdometryResult Odometry::Impl::process(const RgbdFrame& frame)
     if (!started || !sameCamera(camera, frame.camera) || frame.stamp <= latestStamp)
     {
         // A different camera or clock: nothing of the past can be compared with this frame.
-        result = start(
+        return start(
             frame,
             frame.stamp <= latestStamp ? "the clock has been set back"
                                        : "the camera's size or calibration has changed",
             result);
-        result.diagnostics.msTotal = total.ms();
-        return result;
     }
 
     // 2. and 3. against the references; when none of them is in view any more, against the latest
@@ -144,7 +151,6 @@ OdometryResult Odometry::Impl::process(const RgbdFrame& frame)
         keepUnmatched(frame);
     }
     result.diagnostics.numPoints = static_cast<int>(features.points.size());
-    result.diagnostics.msTotal = total.ms();
     return result;
 }
 
@@ -184,7 +190,12 @@ bool Odometry::Impl::track(const RgbdFrame& frame, OdometryResult& result)
         window.notePoints(association.reference->id, association.points);
     }
     current.velocity = measured.velocity;
-    finish(measured.T_prev_cur, result);
+    const Eigen::Isometry3d T_world_prev = window.previous().T_world_cam;
+    joint.measure(current.id, T_world_prev, dt, measured.errors);
+    poses.push_front(T_world_prev * measured.T_prev_cur);
+    finish(result);
+    unmatched.reset();
+    latestStamp = result.stamp;
     advance(frame, associations);
     return true;
 }
@@ -213,15 +224,15 @@ void Odometry::Impl::keepUnmatched(const RgbdFrame& frame)
     {
         return;
     }
-    current.T_world_cam = pose.mean;
-    unmatched = Unmatched{std::move(current), {pose, {}}};
+    current.T_world_cam = poses.front();
+    unmatched = std::move(current);
 }
 
 void Odometry::Impl::restartAtUnmatched()
 {
     window.clear();
-    window.add(std::move(unmatched->frame), true);
-    anchor = unmatched->anchor;
+    joint.restart(unmatched->id);
+    window.add(std::move(*unmatched), true);
     unmatched.reset();
 }
 
@@ -265,12 +276,12 @@ OdometryResult Odometry::Impl::start(
     {
         result.status = TrackingStatus::First;
         result.increment.cov = Matrix6d::Identity() * (kFirstSigma * kFirstSigma);
-        result.pose = pose;
+        moveOn(result);
     }
+    joint.restart(numFrames);
     started = true;
     camera = frame.camera;
     window.clear();
-    anchor = {pose, {}};
     unmatched.reset();
     latestStamp = frame.stamp;
     lateStamp.reset();
@@ -288,18 +299,20 @@ OdometryResult Odometry::Impl::coast(double stamp, const std::string& reason, Od
     const bool known = started && step >= 0 && std::isfinite(step);
     const double dt = known ? std::max(step, 1e-3) : kUnknownStep;
     result.increment = poseStage.coast(dt);
-    pose = compose(pose, result.increment);
-    result.pose = pose;
-    anchor.coast(result.increment);
-    if (unmatched)
-    {
-        unmatched->anchor.coast(result.increment);
-    }
+    moveOn(result);
     if (std::isfinite(stamp))
     {
         latestStamp = started ? std::max(latestStamp, stamp) : latestStamp;
     }
     return result;
+}
+
+/** The pose of a frame that was not measured, by the result's increment. */
+void Odometry::Impl::moveOn(OdometryResult& result)
+{
+    joint.predict(numFrames, poses.front(), result.increment.cov);
+    poses.push_front(poses.front() * result.increment.mean);
+    result.pose = latestPose();
 }
 
 std::vector<Association> Odometry::Impl::associate(
@@ -328,20 +341,38 @@ std::vector<Association> Odometry::Impl::associate(
     return out;
 }
 
-/** Increment and pose of a measured frame. The pose continues from the latest measured frame; after
- * a gap the increment leads on from the predicted one, and is as uncertain as that. */
-void Odometry::Impl::finish(const PoseGaussian& T_prev_cur, OdometryResult& result)
+/** Increment and pose of a measured frame. */
+void Odometry::Impl::finish(OdometryResult& result)
 {
-    pose = compose(anchor.pose, T_prev_cur);
-    result.pose = pose;
-    result.increment = compose(inverse(anchor.coasted), T_prev_cur);
-    result.increment.cov = withEigenvalueFloor(result.increment.cov, 1e-14);
+    result.pose = latestPose();
+    result.increment = motionSince(1);
     const Vector6d sigma = result.increment.cov.diagonal().cwiseSqrt();
     result.diagnostics.maxSigmaTranslation = sigma.head<3>().maxCoeff();
     result.diagnostics.maxSigmaRotation = sigma.tail<3>().maxCoeff();
-    anchor = {pose, {}};
-    unmatched.reset();
-    latestStamp = result.stamp;
+}
+
+PoseGaussian Odometry::Impl::latestPose() const
+{
+    return {poses.front(), withEigenvalueFloor(joint.latest(), kLeastVariance)};
+}
+
+PoseGaussian Odometry::Impl::motionSince(int framesAgo) const
+{
+    const Eigen::Isometry3d& T_world_past = poses[static_cast<size_t>(framesAgo)];
+    const Matrix6d cov = joint.relative(numFrames - framesAgo, T_world_past);
+    return {T_world_past.inverse() * poses.front(), withEigenvalueFloor(cov, kLeastVariance)};
+}
+
+/** Keeps what the next frame will be compared with, and the history. */
+void Odometry::Impl::forgetOthers()
+{
+    std::vector<int> references;
+    for (const Reference* reference : window.active())
+    {
+        references.push_back(reference->id);
+    }
+    joint.keep(references, unmatched ? std::optional(unmatched->id) : std::nullopt);
+    poses.resize(std::min(poses.size(), static_cast<size_t>(params.covariance.history) + 1));
 }
 
 /** The fraction of the newest key frame's points or planes that was found again, the smaller. */
@@ -372,9 +403,9 @@ void Odometry::Impl::advance(const RgbdFrame& frame, const std::vector<Associati
             features.points.push_back(track.cur);
         }
     }
-    current.T_world_cam = pose.mean;
+    current.T_world_cam = poses.front();
     const bool isKeyframe =
-        window.empty() || window.needsKeyframe(pose.mean, overlapWithNewest(associations));
+        window.empty() || window.needsKeyframe(poses.front(), overlapWithNewest(associations));
     if (isKeyframe && params.pipeline.usePoints)
     {
         current.points = pointStage.makeReference(frame);

@@ -4,8 +4,24 @@
 #include <pointplane/odometry/ShutterCalibrator.h>
 #include <pointplane/pose/residuals.h>
 
+#include <cmath>
+
 namespace pointplane
 {
+namespace
+{
+/** Corners of several references that are found so close to each other are the same one. */
+constexpr double kSameCorner = 6;  // [px]
+
+/** Number of the cell of the image that the pixel is in. */
+int cellOf(const Eigen::Vector2d& uv_px)
+{
+    constexpr int kCellsPerRow = 10000;
+    return static_cast<int>(std::floor(uv_px.y() / kSameCorner)) * kCellsPerRow +
+           static_cast<int>(std::floor(uv_px.x() / kSameCorner));
+}
+}  // namespace
+
 void PairBuilder::build(
     const std::vector<Association>& associations,
     const ShutterCalibrator& shutter,
@@ -31,7 +47,8 @@ void PairBuilder::build(
                 {transformed(T_base_ref, past_ref),
                  cur.plane_cam,
                  current.planeJacobian(cur),
-                 reference.id});
+                 reference.id,
+                 match.cur});
         }
         for (const PointTrack& track : association.points)
         {
@@ -46,6 +63,7 @@ void PairBuilder::build(
             pair.cur = cur.p_cam;
             pair.dCur_dV = current.pointJacobian(cur.p_cam.mean, cur.uv_px.y());
             pair.reference = reference.id;
+            pair.feature = cellOf(cur.uv_px);
             points.push_back(pair);
         }
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pointplane/odometry/JointCovariance.h>
 #include <pointplane/odometry/NoiseScale.h>
 #include <pointplane/odometry/OdometryParams.h>
 #include <pointplane/odometry/OdometryResult.h>
@@ -42,8 +43,9 @@ class PoseStage
     /** What a believed estimate says. */
     struct Measured
     {
-        PoseGaussian T_prev_cur;              //!< with what the shutter leaves uncertain
+        Eigen::Isometry3d T_prev_cur;
         Vector6d velocity, previousVelocity;  //!< of this and of the previous measured frame
+        JointCovariance::Measurement errors;
     };
 
     /** Learns from a believed estimate, `dt` [s] after the previous measured frame. */
@@ -58,12 +60,15 @@ class PoseStage
     PoseGaussian coast(double dt);
 
  private:
+    [[nodiscard]] JointCovariance::Measurement errorsOf(
+        const PoseEstimate& estimate, const Matrix6d& ofShutter, double dt) const;
     [[nodiscard]] bool fuses() const { return pipeline_.degeneracy == "fuse"; }
     [[nodiscard]] int minMatches() const;
     [[nodiscard]] MotionPrior priorFrom(
         const MotionGaussian& motion, const PoseGaussian& pose) const;
 
     PipelineParams pipeline_;
+    JointCovariance::TParams covariance_;
     PoseSolver solver_;
     MotionModel motion_;
     NoiseScale noise_;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "NormalEquations.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace pointplane
 {
@@ -71,29 +71,65 @@ double NormalEquations::costAt(const Motion& motion) const
 
 /** \param offset of the pairs' first residual */
 template <class Pairs>
-std::vector<FeatureSum> NormalEquations::byReference(const Pairs& pairs, size_t offset) const
+std::map<int, FeatureSum> NormalEquations::byReference(const Pairs& pairs, size_t offset) const
 {
-    std::map<int, FeatureSum> sums;
+    std::map<int, FeatureSum> out;
     for (size_t i = 0; i < pairs.size(); ++i)
     {
-        add(sums[pairs[i].reference], offset + i);
-    }
-    std::vector<FeatureSum> out;
-    for (const auto& [reference, sum] : sums)
-    {
-        out.push_back(sum);
+        add(out[pairs[i].reference], offset + i);
     }
     return out;
 }
 
-std::vector<FeatureSum> NormalEquations::pointsByReference() const
+std::map<int, FeatureSum> NormalEquations::pointsByReference() const
 {
     return byReference(points_, 0);
 }
 
-std::vector<FeatureSum> NormalEquations::planesByReference() const
+std::map<int, FeatureSum> NormalEquations::planesByReference() const
 {
     return byReference(planes_, points_.size());
+}
+
+/** \param offset of the pairs' first residual */
+template <class Pairs>
+Matrix12d NormalEquations::currentNoise(const Pairs& pairs, size_t offset) const
+{
+    using Influence = Eigen::Matrix<double, 12, 3>;  // of a feature's unit noise on g
+    std::map<int, Influence> influences;
+    for (size_t i = 0; i < pairs.size(); ++i)
+    {
+        const auto& [residual, W, squaredNorm] = residuals_[offset + i];
+        const double w = robust(squaredNorm, isPoint(offset + i)).first;
+        const Eigen::LLT<Eigen::Matrix3d> root(residual.curCov);
+        if (w > 0 && root.info() == Eigen::Success)
+        {
+            Eigen::Matrix<double, 3, 12> J;
+            J << residual.J, residual.J_V;
+            const Influence influence =
+                gain(offset + i) * w * J.transpose() * (W * Eigen::Matrix3d(root.matrixL()));
+            const int own = -1 - static_cast<int>(i);
+            const int feature = pairs[i].feature < 0 ? own : pairs[i].feature;
+            const auto [it, isNew] = influences.emplace(feature, influence);
+            if (!isNew)
+            {
+                it->second += influence;
+            }
+        }
+    }
+    Matrix12d out = Matrix12d::Zero();
+    for (const auto& [feature, influence] : influences)
+    {
+        out += influence * influence.transpose();
+    }
+    return out;
+}
+
+Matrix12d NormalEquations::currentPointNoise() const { return currentNoise(points_, 0); }
+
+Matrix12d NormalEquations::currentPlaneNoise() const
+{
+    return currentNoise(planes_, points_.size());
 }
 
 NormalEquations::Weighted NormalEquations::weighted(size_t i, const Motion& motion) const

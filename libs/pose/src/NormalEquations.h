@@ -4,6 +4,7 @@
 #include <pointplane/pose/PoseSolver.h>
 #include <pointplane/pose/residuals.h>
 
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -48,8 +49,13 @@ class NormalEquations
     [[nodiscard]] double planeVariance() const;
 
     /** The share of each reference frame in points() and planes(). */
-    [[nodiscard]] std::vector<FeatureSum> pointsByReference() const;
-    [[nodiscard]] std::vector<FeatureSum> planesByReference() const;
+    [[nodiscard]] std::map<int, FeatureSum> pointsByReference() const;
+    [[nodiscard]] std::map<int, FeatureSum> planesByReference() const;
+
+    /** Covariance of the sums' gradient g by the current frame's features, as propagated. A feature
+     * that is compared with several references errs in all these pairs alike. */
+    [[nodiscard]] Matrix12d currentPointNoise() const;
+    [[nodiscard]] Matrix12d currentPlaneNoise() const;
 
  private:
     /** A residual, the weight matrix that it is given, and its squared norm by that. */
@@ -65,7 +71,9 @@ class NormalEquations
     void add(FeatureSum& sum, size_t i) const;
     [[nodiscard]] bool isPoint(size_t i) const { return i < points_.size(); }
     template <class Pairs>
-    [[nodiscard]] std::vector<FeatureSum> byReference(const Pairs& pairs, size_t offset) const;
+    [[nodiscard]] std::map<int, FeatureSum> byReference(const Pairs& pairs, size_t offset) const;
+    template <class Pairs>
+    [[nodiscard]] Matrix12d currentNoise(const Pairs& pairs, size_t offset) const;
     [[nodiscard]] std::pair<double, double> robust(double squaredNorm, bool isPoint) const;
     [[nodiscard]] double relativeMedian(size_t begin, size_t end) const;
 

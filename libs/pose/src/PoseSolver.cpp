@@ -154,13 +154,24 @@ PoseEstimate PoseSolver::solve(
     out.planeChi2PerDof = m.weightSum > 0 ? m.weightedChi2 / (3 * m.weightSum) : 0;
     out.pointVariance = equations.pointVariance();
     out.planeVariance = equations.planeVariance();
-    const std::vector<FeatureSum> pointGroups = equations.pointsByReference();
-    const std::vector<FeatureSum> planeGroups = equations.planesByReference();
+    const std::map<int, FeatureSum> pointGroups = equations.pointsByReference();
+    const std::map<int, FeatureSum> planeGroups = equations.planesByReference();
     if (pointGroups.size() + planeGroups.size() > 1)
     {
         out.pointDisagreement = disagreementOf(pointGroups, H, out.motion.cov);
         out.planeDisagreement = disagreementOf(planeGroups, H, out.motion.cov);
     }
+    out.sensitivity.prior = H_inverse * known;
+    for (const auto* groups : {&pointGroups, &planeGroups})
+    {
+        for (const auto& [reference, group] : *groups)
+        {
+            const auto it = out.sensitivity.references.emplace(reference, Matrix126d::Zero()).first;
+            it->second += (H_inverse * group.H).leftCols<6>();
+        }
+    }
+    out.sensitivity.points = propagate(H_inverse, equations.currentPointNoise());
+    out.sensitivity.planes = propagate(H_inverse, equations.currentPlaneNoise());
     out.numPointInliers = p.numInliers;
     return out;
 }

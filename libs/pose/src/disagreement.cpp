@@ -13,11 +13,11 @@ constexpr double kLeastShare = 0.03;
 }  // namespace
 
 Disagreement disagreementOf(
-    const std::vector<FeatureSum>& groups, const Matrix12d& H, const Matrix12d& cov)
+    const std::map<int, FeatureSum>& groups, const Matrix12d& H, const Matrix12d& cov)
 {
     Disagreement out;
     const auto solver = H.ldlt();
-    for (const FeatureSum& group : groups)
+    for (const auto& [reference, group] : groups)
     {
         const Matrix12d shared = group.H * solver.solve(group.M);
         const Matrix12d covOfGradient =

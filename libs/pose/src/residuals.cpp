@@ -51,7 +51,8 @@ Residual pointResidual(const PointPair& pair, const Motion& motion)
     const Eigen::Vector3d p_base =
         motion.T_base_cur * (pair.cur.mean + pair.dCur_dV * motion.velocity);
     out.r = pair.base.mean - p_base;  // [P17 Eq. 8]
-    out.cov = pair.base.cov + propagate(R, pair.cur.cov);
+    out.curCov = propagate(R, pair.cur.cov);
+    out.cov = pair.base.cov + out.curCov;
     out.J << -Eigen::Matrix3d::Identity(), hat(p_base);
     out.J_V = -R * pair.dCur_dV;
     return out;
@@ -68,7 +69,8 @@ Residual planeResidualMinimal(const PlanePair& pair, const Motion& motion)
     const PlaneTransform cur(motion.T_base_cur, pair.cur.theta_m + pair.dCur_dV * motion.velocity);
     Residual out;
     out.r = pair.base.theta_m - cur.theta;
-    out.cov = pair.base.cov_m + propagate(cur.J, pair.cur.cov_m);
+    out.curCov = propagate(cur.J, pair.cur.cov_m);
+    out.cov = pair.base.cov_m + out.curCov;
     out.J = -jacobianOfTransform(cur.theta);
     out.J_V = -cur.J * pair.dCur_dV;
     return out;
@@ -81,8 +83,8 @@ Residual planeResidualClosestPoint(const PlanePair& pair, const Motion& motion)
     const ClosestPoint measured(theta_cur), reference(pair.base.theta_m);
     Residual out;
     out.r = reference.C - measured.C;  // [P17 Eq. 9], up to the sign of both
-    out.cov = propagate(reference.J, pair.base.cov_m) +
-              propagate(measured.J, minimal.cov - pair.base.cov_m);
+    out.curCov = propagate(measured.J, minimal.curCov);
+    out.cov = propagate(reference.J, pair.base.cov_m) + out.curCov;
     out.J = measured.J * minimal.J;
     out.J_V = measured.J * minimal.J_V;
     return out;

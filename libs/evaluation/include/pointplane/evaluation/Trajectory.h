@@ -15,6 +15,7 @@ struct StampedPose
     double stamp{0};                                        //!< [s] since the Unix epoch
     Eigen::Isometry3d pose{Eigen::Isometry3d::Identity()};  //!< T_world_body
     std::optional<Matrix6d> cov{};                          //!< see Trajectory::covs
+    std::vector<Matrix6d> sinceCovs{};                      //!< see Trajectory::sinceCovs
 };
 
 /** Poses of a moving body, ordered by strictly increasing stamps. */
@@ -26,6 +27,9 @@ struct Trajectory
     /** Empty, or one 6x6 covariance per pose: left perturbation (expressed in the world frame),
      * tangent order [translation; rotation], units m and rad, as in PoseGaussian. */
     std::vector<Matrix6d> covs;
+    /** Empty, or for each pose i those of the motions from poses i-1, i-2, ... to it (left
+     * perturbation, in the body frame of i-1, i-2, ...), as far back as they were told. */
+    std::vector<std::vector<Matrix6d>> sinceCovs;
     std::vector<std::string> warnings;  //!< what the reader left out, for the user
     bool incomplete{false};             //!< the file is damaged; these are the poses before
 

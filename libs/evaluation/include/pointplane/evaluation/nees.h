@@ -42,9 +42,10 @@ struct NeesIncrement
     double nees{0};  //!< error^T cov^-1 error; its expectation is 6
 };
 
-/** Covariance of the increment i -> j (left perturbation, in body frame i) out of the accumulated
- * poses' covariances. These grow by Sigma_{k+1} = Sigma_k + Ad(T_k) Q_k Ad(T_k)^T (compose()), so
- * that Ad(T_i)^-1 (Sigma_j - Sigma_i) Ad(T_i)^-T holds exactly the increments from i to j. */
+/** Covariance of the increment i -> j (left perturbation, in body frame i): the one that was told
+ * (Trajectory::sinceCovs) or, for increments that are independent, out of the accumulated poses'
+ * covariances. These grow by Sigma_{k+1} = Sigma_k + Ad(T_k) Q_k Ad(T_k)^T (compose()), so that
+ * Ad(T_i)^-1 (Sigma_j - Sigma_i) Ad(T_i)^-T holds exactly the increments from i to j. */
 [[nodiscard]] Matrix6d incrementCovariance(
     const Trajectory& estimate, std::size_t i, std::size_t j);
 
@@ -57,6 +58,11 @@ struct NeesIncrement
     const Trajectory& estimate,
     const NeesInterval& interval,
     const NeesOptions& options);
+
+/** Empty when the covariances of all these increments were told; else that they are right only if
+ * increments are independent. */
+[[nodiscard]] std::string noteOnUntold(
+    const Trajectory& estimate, const std::vector<NeesIncrement>& increments);
 
 /** Mean NEES per degree of freedom against its two-sided 95 % chi-square bounds. */
 struct ConsistencyTest
@@ -106,6 +112,6 @@ struct NeesResult
 [[nodiscard]] std::string verdict(const ConsistencyTest& test);
 
 /** The trajectory of another frame rigidly attached to the moving body: poses * T_body_other. The
- * covariances, being left perturbations, stay. */
+ * poses' covariances, being left perturbations, stay. */
 [[nodiscard]] Trajectory withBody(Trajectory trajectory, const Eigen::Isometry3d& T_body_other);
 }  // namespace pointplane

@@ -5,7 +5,9 @@
 
 #include <mrpt/poses/CPose3DPDFGaussian.h>
 
+#include <deque>
 #include <string>
+#include <vector>
 
 namespace pointplane
 {
@@ -13,9 +15,10 @@ namespace pointplane
 struct RobotMotion
 {
     TrackingStatus status{TrackingStatus::Lost};
-    std::string reason;                         //!< why not tracked, or empty
-    mrpt::poses::CPose3DPDFGaussian increment;  //!< since the previous frame
-    mrpt::poses::CPose3DPDFGaussian pose;       //!< since the first frame
+    std::string reason;                                  //!< why not tracked, or empty
+    mrpt::poses::CPose3DPDFGaussian increment;           //!< since the previous frame
+    mrpt::poses::CPose3DPDFGaussian pose;                //!< since the first frame
+    std::vector<mrpt::poses::CPose3DPDFGaussian> since;  //!< since 1, 2, ... frames ago
     FrameDiagnostics diagnostics;
 };
 
@@ -35,8 +38,7 @@ class RobotTrajectory
     void reset() { *this = RobotTrajectory(); }
 
  private:
-    bool started_{false};
     Eigen::Isometry3d T_robot_cam_first_{Eigen::Isometry3d::Identity()};
-    Eigen::Isometry3d T_robot_cam_prev_{Eigen::Isometry3d::Identity()};
+    std::deque<Eigen::Isometry3d> T_robot_cam_;  //!< of the frames so far, latest first
 };
 }  // namespace pointplane

@@ -47,6 +47,9 @@ class MotionModel
      * \pre dt > 0 */
     [[nodiscard]] MotionGaussian predict(double dt) const;
 
+    /** Covariance of predict() that does not come from that of the velocity as it was measured. */
+    [[nodiscard]] Matrix12d processNoise(double dt) const;
+
     /** Covariance of the pose by a jerk that the velocities so far do not show. */
     [[nodiscard]] Matrix6d jerk(double dt) const;
 
@@ -70,12 +73,14 @@ class MotionModel
     void reset();
 
  private:
+    [[nodiscard]] Matrix12d covarianceAfter(double t, const Matrix6d& cov) const;
     void adapt(const Vector6d& meanSquare, double dt);
     [[nodiscard]] Vector6d smallestDensity() const;
 
     TParams params_;
     Vector6d velocity_;
-    Matrix6d cov_;  //!< of velocity_
+    Matrix6d cov_;          //!< of velocity_
+    Matrix6d measuredCov_;  //!< of the velocity at the latest measured frame
     Vector6d density_;
     double coasting_;  //!< time since the latest measurement, counted up to a limit [s]
 };

@@ -10,8 +10,7 @@ namespace pointplane
  *
  * Residuals of the frames so far tell how large errors are that differ between features; sensors
  * differ by more than a factor of ten here. Errors that the features of a frame have in common show
- * where reference frames contradict each other about the pose. What all references share shows
- * nowhere: a constant factor stands for it (docs/theory.md). */
+ * where reference frames contradict each other about the pose (docs/theory.md). */
 class NoiseScale
 {
  public:
@@ -38,8 +37,9 @@ class NoiseScale
             v("pointFactor",
               pointFactor,
               "-",
-              "true variance of points over that, for errors that all references share");
-            v("planeFactor", planeFactor, "-", "true variance of planes over that");
+              "variance of points over that which the solver weighs against the predicted motion "
+              "with");
+            v("planeFactor", planeFactor, "-", "of planes, likewise");
         }
         /** \throws std::invalid_argument naming the key */
         void check() const;
@@ -50,11 +50,33 @@ class NoiseScale
     /** Takes in a measured frame, `dt` [s] after the one before. */
     void update(const PoseEstimate& estimate, double dt);
 
+    /** For the solver, whose features have to stand beside a predicted motion. */
     [[nodiscard]] NoiseFactors factors() const;
 
+    /** By the residuals alone. */
+    [[nodiscard]] NoiseFactors residuals() const
+    {
+        return {pointResiduals_.quick, planeResiduals_.quick};
+    }
+
+    /** What the disagreement of the references adds, over that. */
+    [[nodiscard]] NoiseFactors disagreement() const
+    {
+        return {pointCommon_.quick, planeCommon_.quick};
+    }
+
  private:
+    /** What single frames say, averaged. */
+    struct Average
+    {
+        double cautious{1};  //!< from the initial value on with the time constant
+        double quick{1};     //!< at first the mean of all frames
+        int numFrames{0};
+        void follow(double variance, double dt, double timeConstant);
+    };
+
     TParams params_;
-    NoiseFactors residuals_;  //!< by the residuals alone
-    NoiseFactors common_;     //!< over that, by the disagreement of the references
+    Average pointResiduals_, planeResiduals_;  //!< by the residuals alone
+    Average pointCommon_, planeCommon_;        //!< over that, by the references' disagreement
 };
 }  // namespace pointplane

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <pointplane/core/Parameters.h>
+#include <pointplane/odometry/JointCovariance.h>
 #include <pointplane/odometry/MotionModel.h>
 #include <pointplane/odometry/NoiseScale.h>
 #include <pointplane/odometry/PointStage.h>
@@ -73,6 +74,7 @@ struct OdometryParams
     NoiseScale::TParams noiseScale;
     MotionModel::TParams motionModel;
     ReferenceWindow::TParams reference;
+    JointCovariance::TParams covariance;
 
     /** Calls f(sectionName, group) for each group. */
     template <class F>
@@ -92,6 +94,7 @@ struct OdometryParams
         f("NoiseScale", noiseScale);
         f("MotionModel", motionModel);
         f("Reference", reference);
+        f("Covariance", covariance);
     }
 
     /** \throws std::invalid_argument naming section and key */

@@ -47,6 +47,11 @@ struct OdometryResult
     double stamp{0};         //!< of the frame [s]
     PoseGaussian increment;  //!< T_prev_cur, camera optical frames; strictly positive definite
     PoseGaussian pose;       //!< T_first_cur, accumulated
+    /** T_past_cur since 1, 2, ... frames ago, whatever became of these, back to
+     * OdometryParams::covariance.history or the first frame. Composed increments have the same mean
+     * but not this covariance: errors of frames that were compared with the same references do not
+     * add up. */
+    std::vector<PoseGaussian> since;
     FrameDiagnostics diagnostics;
 };
 

@@ -5,6 +5,7 @@
 #include <pointplane/pose/MotionGaussian.h>
 #include <pointplane/pose/pairs.h>
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,7 +24,21 @@ struct NoiseFactors
 struct Disagreement
 {
     double observed{0};  //!< squared, in units of the covariances
-    double expected{0};  //!< were errors as large as claimed and independent; 0 = nothing to compare
+    double expected{
+        0};  //!< were errors as large as claimed and independent; 0 = nothing to compare
+};
+
+/** On what an estimate of pose (left perturbation) and velocity depends, to first order. */
+struct Sensitivity
+{
+    /** By reference frame: change of the estimate with a change of that frame's pose (left
+     * perturbation in the base frame). */
+    std::map<int, Matrix126d> references;
+    /** Change with that of the prior's mean, in the order of MotionPrior::residual(). */
+    Matrix12d prior{Matrix12d::Zero()};
+    /** Covariance that comes from the current frame's points and planes, as propagated: without
+     * the noise factors, and without the references' own errors. */
+    Matrix12d points{Matrix12d::Zero()}, planes{Matrix12d::Zero()};
 };
 
 /** What the solver found. */
@@ -40,7 +55,8 @@ struct PoseEstimate
     double planeVariance{0};    //!< of planes, likewise
     Disagreement pointDisagreement;  //!< of the references' points, with all other features
     Disagreement planeDisagreement;  //!< of their planes, likewise
-    int numPointInliers{0};     //!< points with a Tukey weight above 1/2
+    Sensitivity sensitivity;
+    int numPointInliers{0};  //!< points with a Tukey weight above 1/2
     int iterations{0};
     bool converged{false};
 };

@@ -16,6 +16,7 @@ struct PointPair
     PointGaussian cur;                     //!< in the current camera, were it at rest [m]
     Matrix36d dCur_dV{Matrix36d::Zero()};  //!< rolling shutter: cur is at cur.mean + dCur_dV V
     int reference{0};                      //!< which of the frames that cur is compared with
+    int feature{-1};                       //!< pairs of equal ones err together; -1: of its own
 };
 
 /** The same plane seen twice. */
@@ -25,5 +26,6 @@ struct PlanePair
     PlaneGaussian cur;                     //!< in the current camera, were it at rest
     Matrix36d dCur_dV{Matrix36d::Zero()};  //!< rolling shutter: cur is at theta_m + dCur_dV V
     int reference{0};                      //!< which of the frames that cur is compared with
+    int feature{-1};                       //!< pairs of equal ones err together; -1: of its own
 };
 }  // namespace pointplane

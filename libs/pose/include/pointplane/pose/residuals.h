@@ -12,9 +12,10 @@ namespace pointplane
 struct Residual
 {
     Eigen::Vector3d r;
-    Eigen::Matrix3d cov;  //!< first-order propagation of both features' covariances
-    Matrix36d J;          //!< dr / dxi
-    Matrix36d J_V;        //!< dr / dV
+    Eigen::Matrix3d cov;     //!< first-order propagation of both features' covariances
+    Eigen::Matrix3d curCov;  //!< the current feature's share of it
+    Matrix36d J;             //!< dr / dxi
+    Matrix36d J_V;           //!< dr / dV
 };
 
 /** r = P' - (R P + t) [P17 Eq. 8]: P' in base, P in the current camera [m]. */

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/covariance.h>
+#include <pointplane/core/se3.h>
+#include <pointplane/odometry/JointCovariance.h>
+
+#include <map>
+#include <stdexcept>
+#include <vector>
+
+#include "matchers.h"
+#include "monte_carlo.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace pointplane
+{
+namespace
+{
+constexpr double kFrame = 1.0 / 30;
+
+const Eigen::Isometry3d kAtRest = Eigen::Isometry3d::Identity();
+
+/** Of the pose alone. */
+Matrix12d ofPose(const Matrix6d& cov)
+{
+    Matrix12d out = Matrix12d::Zero();
+    out.topLeftCorner<6, 6>() = cov;
+    return out;
+}
+
+/** A frame that is measured against one reference only, by features of unit variance. */
+JointCovariance::Measurement against(int reference)
+{
+    JointCovariance::Measurement out;
+    out.references[reference] << Matrix6d::Identity(), Matrix6d::Zero();
+    out.noise = ofPose(Matrix6d::Identity());
+    return out;
+}
+
+JointCovariance started(int history = 30)
+{
+    JointCovariance::TParams params;
+    params.history = history;
+    JointCovariance out(params);
+    out.start(1, Matrix6d::Zero());
+    return out;
+}
+
+auto isTimesIdentity(double factor)
+{
+    return test::IsMatrixNear(Matrix6d(factor * Matrix6d::Identity()), 1e-9);
+}
+}  // namespace
+
+/** Each frame has its own error: two frames, however far apart, differ by that of both. */
+TEST(JointCovariance, errorsAgainstOneReferenceDoNotAddUp)
+{
+    JointCovariance joint = started();
+    for (int frame = 2; frame <= 20; ++frame)
+    {
+        joint.measure(frame, kAtRest, kFrame, against(1));
+        joint.keep({1});
+        EXPECT_THAT(joint.latest(), isTimesIdentity(1));
+        EXPECT_THAT(joint.relative(1, kAtRest), isTimesIdentity(1));
+        if (frame > 2)
+        {
+            EXPECT_THAT(joint.relative(frame - 1, kAtRest), isTimesIdentity(2));
+            EXPECT_THAT(joint.relative(2, kAtRest), isTimesIdentity(2));
+        }
+    }
+}
+
+/** What a frame says as a reference has half of its own error in common with its pose: of n
+ * increments, each adds one, and the first and last keep half of theirs. */
+TEST(JointCovariance, errorsFromFrameToFrameAddUp)
+{
+    JointCovariance joint = started();
+    for (int frame = 2; frame <= 12; ++frame)
+    {
+        joint.measure(frame, kAtRest, kFrame, against(frame - 1));
+        joint.keep({frame});
+    }
+    for (int n = 1; n <= 10; ++n)
+    {
+        EXPECT_THAT(joint.relative(12 - n, kAtRest), isTimesIdentity(n + 1)) << n;
+    }
+}
+
+TEST(JointCovariance, referencesDrift)
+{
+    JointCovariance joint = started();
+    JointCovariance::Measurement measurement = against(1);
+    measurement.drift = 0.5 * Matrix6d::Identity();
+    for (int frame = 2; frame <= 11; ++frame)
+    {
+        joint.measure(frame, kAtRest, kFrame, measurement);
+        joint.keep({1});
+    }
+    EXPECT_THAT(joint.latest(), isTimesIdentity(1 + 10 * 0.5));
+    EXPECT_THAT(joint.relative(9, kAtRest), isTimesIdentity(2 + 2 * 0.5));
+}
+
+/** Where nothing but the motion model tells the pose, an error of the velocity goes on. */
+TEST(JointCovariance, anUnobservedVelocityKeepsItsError)
+{
+    JointCovariance joint = started(100);
+    JointCovariance::Measurement measurement;
+    measurement.noise.bottomRightCorner<6, 6>() = 4 * Matrix6d::Identity();
+    joint.measure(2, kAtRest, kFrame, measurement);
+    joint.keep({});
+    measurement.noise.setZero();
+    measurement.prior.setIdentity();
+    for (int frame = 3; frame <= 32; ++frame)
+    {
+        joint.measure(frame, kAtRest, kFrame, measurement);
+        joint.keep({});
+    }
+    EXPECT_THAT(joint.relative(2, kAtRest), isTimesIdentity(4));  // (30 frames)^2 of 4 (m/s)^2
+    EXPECT_THAT(joint.relative(17, kAtRest), isTimesIdentity(1));
+}
+
+TEST(JointCovariance, predictedFramesAndANewWindow)
+{
+    JointCovariance joint = started();
+    joint.measure(2, kAtRest, kFrame, against(1));
+    joint.predict(3, kAtRest, 5 * Matrix6d::Identity());
+    EXPECT_THAT(joint.latest(), isTimesIdentity(6));
+    EXPECT_THAT(joint.relative(2, kAtRest), isTimesIdentity(5));
+
+    // The next one is measured against the first again, whatever was predicted in between.
+    JointCovariance measured = joint;
+    measured.keep({1, 2});
+    measured.measure(4, kAtRest, 2 * kFrame, against(1));
+    EXPECT_THAT(measured.latest(), isTimesIdentity(1));
+    EXPECT_THAT(measured.relative(3, kAtRest), isTimesIdentity(1 + 6));
+
+    // Or the window begins anew at the predicted frame.
+    joint.restart(3);
+    joint.keep({3});
+    joint.measure(4, kAtRest, kFrame, against(3));
+    EXPECT_THAT(joint.latest(), isTimesIdentity(7));
+    EXPECT_THAT(joint.relative(3, kAtRest), isTimesIdentity(1));
+    EXPECT_THROW(joint.measure(5, kAtRest, kFrame, against(1)), std::exception);
+}
+
+TEST(JointCovariance, keepsWhatIsStillNeeded)
+{
+    JointCovariance joint = started(2);
+    for (int frame = 2; frame <= 6; ++frame)
+    {
+        joint.measure(frame, kAtRest, kFrame, against(1));
+        joint.keep({1}, 3);
+    }
+    EXPECT_TRUE(joint.knows(6) && joint.knows(5) && joint.knows(4));
+    EXPECT_TRUE(joint.knows(3));
+    EXPECT_FALSE(joint.knows(2));
+    joint.predict(7, kAtRest, Matrix6d::Identity());
+    joint.predict(8, kAtRest, Matrix6d::Identity());
+    joint.predict(9, kAtRest, Matrix6d::Identity());
+    joint.keep({1});
+    EXPECT_TRUE(joint.knows(6)) << "the base, though beyond the history";
+    EXPECT_FALSE(joint.knows(5));
+}
+
+/** Errors drawn as the model says, in a moving frame, with all kinds of dependence at once. */
+TEST(JointCovariance, monteCarlo)
+{
+    constexpr int kRuns = 4000;
+    constexpr int kFrames = 6;
+    test::GaussianSampler setup(91);
+    std::vector<Eigen::Isometry3d> poses{se3Exp(setup.vector<6>())};
+    std::vector<JointCovariance::Measurement> measurements;
+    JointCovariance joint({});
+    JointCovariance::TParams params;
+    params.history = kFrames;
+    joint = JointCovariance(params);
+    const Matrix6d startCov = setup.covariance<6>(0.1, 1);
+    joint.start(0, startCov);
+    for (int k = 1; k < kFrames; ++k)
+    {
+        JointCovariance::Measurement m;
+        for (const int reference : {0, k - 1})
+        {
+            Matrix126d& change = m.references.emplace(reference, Matrix126d::Zero()).first->second;
+            change += 0.3 * Matrix126d::Identity() +
+                      0.1 * setup.vector<12>() * setup.vector<6>().transpose();
+        }
+        m.prior = 0.4 * Matrix12d::Identity();
+        m.noise = setup.covariance<12>(0.1, 1);
+        m.priorNoise = setup.covariance<12>(0.1, 1);
+        m.drift = setup.covariance<6>(0.1, 0.5);
+        joint.measure(k, poses.back(), 0.5, m);
+        joint.keep({0, k - 1, k});
+        measurements.push_back(m);
+        poses.push_back(se3Exp(0.5 * setup.vector<6>()) * poses.back());
+    }
+
+    test::GaussianSampler sampler(92);
+    std::vector<Vector6d> latest, since;
+    for (int run = 0; run < kRuns; ++run)
+    {
+        std::vector<Vector6d> pose{sampler.sample(startCov)};
+        std::map<int, Vector6d> reference{{0, pose[0]}};
+        Vector6d velocity = Vector6d::Zero();
+        for (int k = 1; k < kFrames; ++k)
+        {
+            const JointCovariance::Measurement& m = measurements[static_cast<size_t>(k - 1)];
+            const Matrix6d Ad = adjoint(poses[static_cast<size_t>(k - 1)]);
+            const Matrix6d toBase = Ad.inverse();
+            for (auto& [frame, error] : reference)
+            {
+                error += Ad * sampler.sample(m.drift);
+            }
+            const Vector6d before = toBase * pose.back();
+            Vector12d predicted;
+            predicted << before + 0.5 * velocity, velocity;
+            Vector12d shared = m.prior * predicted + sampler.sample(m.priorNoise);
+            for (const auto& [frame, change] : m.references)
+            {
+                shared += change * (toBase * reference.at(frame));
+            }
+            // Half of the own error's variance is also that of the frame as a reference.
+            const double root = std::sqrt(0.5);
+            const Vector12d both = root * sampler.sample(m.noise);
+            const Vector12d own = both + root * sampler.sample(m.noise);
+            const Vector12d other = both + root * sampler.sample(m.noise);
+            pose.push_back(Ad * (shared + own).head<6>());
+            velocity = (shared + own).tail<6>();
+            reference[k] = Ad * (shared + other).head<6>();
+        }
+        latest.push_back(pose.back());
+        since.push_back(adjoint(poses[2].inverse()) * (pose.back() - pose[2]));
+    }
+    EXPECT_LT(test::whitenedDifference(test::sampleCovariance(latest), joint.latest()), 0.2);
+    EXPECT_LT(
+        test::whitenedDifference(test::sampleCovariance(since), joint.relative(2, poses[2])), 0.2);
+}
+
+TEST(JointCovariance, refusesParametersNamingTheKey)
+{
+    const auto refused = [](auto change)
+    {
+        JointCovariance::TParams params;
+        change(params);
+        EXPECT_THROW(JointCovariance{params}, std::invalid_argument);
+    };
+    refused([](auto& p) { p.model = "none"; });
+    refused([](auto& p) { p.noise = 0; });
+    refused([](auto& p) { p.drift = -1; });
+    refused([](auto& p) { p.history = 0; });
+}
+}  // namespace pointplane

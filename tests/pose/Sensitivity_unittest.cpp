@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/covariance.h>
+#include <pointplane/pose/PoseSolver.h>
+
+#include <vector>
+
+#include "matchers.h"
+#include "synthetic_pairs.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace pointplane
+{
+namespace
+{
+/** Of two references, with a prior and a rolling shutter. */
+struct Problem
+{
+    std::vector<PointPair> points;
+    std::vector<PlanePair> planes;
+    MotionPrior prior;
+
+    [[nodiscard]] PoseEstimate solve() const
+    {
+        PoseSolver solver(test::gaussianSolver());
+        return solver.solve(points, planes, prior.mean, prior, {2, 3});
+    }
+};
+
+Problem makeProblem(unsigned seed)
+{
+    test::PairWorld world(seed);
+    world.addPoints(30);
+    world.addPlanes(4);
+    world.T_base_cur = world.randomMotion(0.03, 0.035);
+    Problem out{world.drawPoints(0), world.drawPlanes(0), {}};
+    for (size_t i = 0; i < out.points.size(); ++i)
+    {
+        out.points[i].reference = i % 2 == 0 ? 1 : 2;
+        out.points[i].dCur_dV = 0.01 * world.sampler().uniform(-1, 1) * Matrix36d::Ones();
+    }
+    for (size_t i = 0; i < out.planes.size(); ++i)
+    {
+        out.planes[i].reference = i % 2 == 0 ? 1 : 2;
+    }
+    MotionGaussian predicted;
+    predicted.mean.T_base_cur = world.T_base_cur;
+    predicted.cov = world.sampler().covariance<12>(1e-5, 1e-4);
+    out.prior = MotionPrior::from(predicted);
+    return out;
+}
+
+/** Where the estimate goes when the problem changes. */
+Vector12d change(const PoseEstimate& before, const PoseEstimate& after)
+{
+    Vector12d out;
+    out << leftError(after.motion.mean.T_base_cur, before.motion.mean.T_base_cur),
+        after.motion.mean.velocity - before.motion.mean.velocity;
+    return out;
+}
+}  // namespace
+
+TEST(Sensitivity, toTheReferences)
+{
+    const Problem problem = makeProblem(81);
+    const PoseEstimate estimate = problem.solve();
+    ASSERT_EQ(estimate.sensitivity.references.size(), 2U);
+    for (int axis = 0; axis < 6; ++axis)
+    {
+        Problem moved = problem;
+        const Vector6d xi = 1e-3 * Vector6d::Unit(axis);
+        for (PointPair& pair : moved.points)
+        {
+            pair.base.mean = pair.reference == 2 ? se3Exp(xi) * pair.base.mean : pair.base.mean;
+        }
+        for (PlanePair& pair : moved.planes)
+        {
+            pair.base.theta_m = pair.reference == 2 ? transformed(se3Exp(xi), pair.base).theta_m
+                                                    : pair.base.theta_m;
+        }
+        const Vector12d expected = estimate.sensitivity.references.at(2) * xi;
+        EXPECT_THAT(change(estimate, moved.solve()), test::IsMatrixNear(expected, 4e-5)) << axis;
+        EXPECT_GT(expected.norm(), 2e-4);
+    }
+}
+
+TEST(Sensitivity, toThePrior)
+{
+    const Problem problem = makeProblem(82);
+    const PoseEstimate estimate = problem.solve();
+    for (int axis = 0; axis < 12; ++axis)
+    {
+        Problem moved = problem;
+        const Vector12d x = 1e-3 * Vector12d::Unit(axis);
+        Motion& mean = moved.prior.mean;
+        mean.T_base_cur = se3Exp(x.head<6>()) * mean.T_base_cur;
+        mean.velocity += x.tail<6>();
+        const Vector12d expected = estimate.sensitivity.prior * x;
+        EXPECT_THAT(change(estimate, moved.solve()), test::IsMatrixNear(expected, 4e-5)) << axis;
+    }
+}
+
+/** All that the estimate depends on moves: so does the estimate. */
+TEST(Sensitivity, toAllTogetherIsOne)
+{
+    const PoseEstimate estimate = makeProblem(83).solve();
+    Matrix6d sum = estimate.sensitivity.prior.topLeftCorner<6, 6>();
+    for (const auto& [reference, gain] : estimate.sensitivity.references)
+    {
+        sum += gain.topRows<6>();
+    }
+    EXPECT_THAT(sum, test::IsMatrixNear(Matrix6d(Matrix6d::Identity()), 1e-6));
+}
+
+/** Noise of the current frame alone, of which each feature is in one pair or in two. */
+TEST(Sensitivity, noiseOfTheCurrentFrame)
+{
+    constexpr int kRuns = 2000;
+    Problem problem = makeProblem(84);
+    const size_t numPoints = problem.points.size(), numPlanes = problem.planes.size();
+    for (size_t i = 0; i < numPoints; ++i)
+    {
+        problem.points[i].feature = static_cast<int>(i);
+    }
+    for (size_t i = 0; i < numPlanes; ++i)
+    {
+        problem.planes[i].feature = static_cast<int>(i);
+    }
+    // The first half is seen from both references.
+    problem.points.insert(
+        problem.points.end(),
+        problem.points.begin(),
+        problem.points.begin() + static_cast<std::ptrdiff_t>(numPoints / 2));
+    problem.planes.push_back(problem.planes.front());
+    const PoseEstimate estimate = problem.solve();
+
+    test::GaussianSampler sampler(85);
+    std::vector<Vector6d> errors;
+    for (int run = 0; run < kRuns; ++run)
+    {
+        Problem noisy = problem;
+        std::vector<Eigen::Vector3d> noise;
+        for (size_t i = 0; i < numPoints; ++i)
+        {
+            noise.push_back(sampler.sample(problem.points[i].cur.cov));
+        }
+        for (PointPair& pair : noisy.points)
+        {
+            pair.cur.mean += noise[static_cast<size_t>(pair.feature)];
+        }
+        noise.clear();
+        for (size_t i = 0; i < numPlanes; ++i)
+        {
+            noise.push_back(sampler.sample(problem.planes[i].cur.cov_m));
+        }
+        for (PlanePair& pair : noisy.planes)
+        {
+            pair.cur.theta_m += noise[static_cast<size_t>(pair.feature)];
+        }
+        errors.push_back(change(estimate, noisy.solve()).head<6>());
+    }
+    const Matrix12d expected = estimate.sensitivity.points + estimate.sensitivity.planes;
+    // sqrt(42 / 2000) = 0.14 for a right covariance.
+    EXPECT_LT(
+        test::whitenedDifference(
+            test::sampleCovariance(errors), Matrix6d(expected.topLeftCorner<6, 6>())),
+        0.25);
+}
+}  // namespace pointplane
