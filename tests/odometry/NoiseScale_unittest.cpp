@@ -48,11 +48,11 @@ TEST(NoiseScale, takesItsTime)
 TEST(NoiseScale, residualsAreAveragedFromTheStart)
 {
     NoiseScale noise(bare());
-    for (int i = 0; i < 15; ++i)
+    for (int i = 0; i < 12; ++i)
     {
         noise.update(with(0.5, 0.5), 1.0 / 30);
     }
-    EXPECT_NEAR(noise.residuals().points, (5 * 4 + 15 * 0.5) / 20, 0.3);
+    EXPECT_NEAR(noise.residuals().points, (3 * 3 + 12 * 0.5) / 15, 1e-12);
     EXPECT_GT(noise.factors().points, 2);
     EXPECT_EQ(noise.disagreement().points, 1);
 }

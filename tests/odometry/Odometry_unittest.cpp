@@ -198,9 +198,8 @@ TEST(Odometry, errorsAgainstKeyFramesDoNotAddUp)
         return r.since[9].cov.trace() / r.since[0].cov.trace();
     };
     const double ofKeyFrames = overTenFrames("joint", 0);
-    EXPECT_LT(ofKeyFrames, 3);
     EXPECT_GT(overTenFrames("joint", 20), 2 * ofKeyFrames);
-    EXPECT_GT(overTenFrames("independent", 0), 10);
+    EXPECT_GT(overTenFrames("independent", 0), 3 * ofKeyFrames);
 }
 
 /** After a gap the increment leads on from a predicted pose, whose error it has to undo. */

@@ -12,9 +12,11 @@ namespace
 /** A few odd frames must neither make features certain nor worthless. */
 constexpr double kMinVariance = 0.1, kMaxVariance = 100;
 
-/** Before anything is known, as if so many frames had said it. */
-constexpr double kInitialVariance = 4;
-constexpr int kInitialFrames = 5;
+/** Before anything is known, for the solver, and for what is told as if so many frames had said it.
+ */
+constexpr double kCautiousVariance = 4;
+constexpr double kQuickVariance = 3;
+constexpr int kInitialFrames = 3;
 }  // namespace
 
 void NoiseScale::TParams::check() const
@@ -32,7 +34,8 @@ NoiseScale::NoiseScale(const TParams& params) : params_(params)
     params_.check();
     if (params_.adaptive)
     {
-        pointResiduals_ = planeResiduals_ = {kInitialVariance, kInitialVariance};
+        pointResiduals_.cautious = planeResiduals_.cautious = kCautiousVariance;
+        pointResiduals_.quick = planeResiduals_.quick = kQuickVariance;
     }
 }
 

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pointplane/core/covariance.h>
 #include <pointplane/odometry/Odometry.h>
 #include <pointplane/odometry/PairBuilder.h>
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <future>
 #include <optional>
 #include <string>
 #include <utility>
 
+#include "PoseHistory.h"
 #include "PoseStage.h"
 #include "Stopwatch.h"
 #include "frame_checks.h"
@@ -25,12 +24,8 @@ constexpr double kFirstSigma = 1e-6;
 /** Elapsed between two frames whose stamps do not tell. */
 constexpr double kUnknownStep = 1.0 / 30;  // [s]
 
-/** Least eigenvalue of a covariance that is told [m^2, rad^2]. */
-constexpr double kLeastVariance = 1e-14;
-
 /** Search radius when too little is found again around the prediction, over the usual one. */
 constexpr double kWideSearch = 5;
-
 }  // namespace
 
 struct Odometry::Impl
@@ -53,10 +48,7 @@ struct Odometry::Impl
         const RgbdFrame& frame, const Eigen::Isometry3d& T_prev_cur, double radiusFactor) const;
     [[nodiscard]] double overlapWithNewest(const std::vector<Association>& associations) const;
     void advance(const RgbdFrame& frame, const std::vector<Association>& associations);
-    void moveOn(OdometryResult& result);
     void finish(OdometryResult& result);
-    [[nodiscard]] PoseGaussian latestPose() const;
-    [[nodiscard]] PoseGaussian motionSince(int framesAgo) const;
     void forgetOthers();
 
     OdometryParams params;
@@ -69,14 +61,11 @@ struct Odometry::Impl
     FrameFeatures features;
     Reference current;
     PinholeCamera camera;
-    JointCovariance joint;
-    std::deque<Eigen::Isometry3d>
-        poses;                           //!< T_first_cur, measured or predicted; latest frame first
+    PoseHistory history;
     std::optional<Reference> unmatched;  //!< has features, but none that the window knows
     double latestStamp{0};
     std::optional<double> lateStamp;  //!< of the latest frame, when it was not after latestStamp
     bool started{false};
-    int numFrames{0};
 };
 
 Odometry::Impl::Impl(const OdometryParams& p)
@@ -87,23 +76,18 @@ Odometry::Impl::Impl(const OdometryParams& p)
           p.points, p.pointTracker, p.pointDetector, p.pointMatcher, p.pointLifter, p.depthNoise),
       poseStage(p),
       window(p.reference),
-      joint(p.covariance),
-      poses{Eigen::Isometry3d::Identity()}
+      history(p.covariance)
 {
-    joint.start(0, Matrix6d::Zero());
 }
 
 OdometryResult Odometry::Impl::process(const RgbdFrame& frame)
 {
     const Stopwatch total;
-    ++numFrames;
     features = {};
     OdometryResult result = estimate(frame);
+    result.pose = history.pose();
+    result.since = history.sinceAll();
     forgetOthers();
-    for (int n = 1; n <= params.covariance.history && n < numFrames; ++n)
-    {
-        result.since.push_back(motionSince(n));
-    }
     result.diagnostics.msTotal = total.ms();
     return result;
 }
@@ -190,9 +174,7 @@ bool Odometry::Impl::track(const RgbdFrame& frame, OdometryResult& result)
         window.notePoints(association.reference->id, association.points);
     }
     current.velocity = measured.velocity;
-    const Eigen::Isometry3d T_world_prev = window.previous().T_world_cam;
-    joint.measure(current.id, T_world_prev, dt, measured.errors);
-    poses.push_front(T_world_prev * measured.T_prev_cur);
+    history.measure(window.previous().T_world_cam, measured.T_prev_cur, dt, measured.errors);
     finish(result);
     unmatched.reset();
     latestStamp = result.stamp;
@@ -224,14 +206,14 @@ void Odometry::Impl::keepUnmatched(const RgbdFrame& frame)
     {
         return;
     }
-    current.T_world_cam = poses.front();
+    current.T_world_cam = history.latest();
     unmatched = std::move(current);
 }
 
 void Odometry::Impl::restartAtUnmatched()
 {
     window.clear();
-    joint.restart(unmatched->id);
+    history.restart(unmatched->id);
     window.add(std::move(*unmatched), true);
     unmatched.reset();
 }
@@ -251,7 +233,7 @@ void Odometry::Impl::extract(const RgbdFrame& frame, FrameDiagnostics& diagnosti
         params.pipeline.numThreads > 1 ? std::launch::async : std::launch::deferred, points);
     const Stopwatch watch;
     current = {};
-    current.id = numFrames;
+    current.id = history.latestFrame() + 1;
     current.stamp = frame.stamp;
     current.shutter = frame.shutter;
     if (params.pipeline.usePlanes)
@@ -276,9 +258,9 @@ OdometryResult Odometry::Impl::start(
     {
         result.status = TrackingStatus::First;
         result.increment.cov = Matrix6d::Identity() * (kFirstSigma * kFirstSigma);
-        moveOn(result);
+        history.predict(result.increment);
     }
-    joint.restart(numFrames);
+    history.restart(history.latestFrame());
     started = true;
     camera = frame.camera;
     window.clear();
@@ -299,20 +281,12 @@ OdometryResult Odometry::Impl::coast(double stamp, const std::string& reason, Od
     const bool known = started && step >= 0 && std::isfinite(step);
     const double dt = known ? std::max(step, 1e-3) : kUnknownStep;
     result.increment = poseStage.coast(dt);
-    moveOn(result);
+    history.predict(result.increment);
     if (std::isfinite(stamp))
     {
         latestStamp = started ? std::max(latestStamp, stamp) : latestStamp;
     }
     return result;
-}
-
-/** The pose of a frame that was not measured, by the result's increment. */
-void Odometry::Impl::moveOn(OdometryResult& result)
-{
-    joint.predict(numFrames, poses.front(), result.increment.cov);
-    poses.push_front(poses.front() * result.increment.mean);
-    result.pose = latestPose();
 }
 
 std::vector<Association> Odometry::Impl::associate(
@@ -341,26 +315,13 @@ std::vector<Association> Odometry::Impl::associate(
     return out;
 }
 
-/** Increment and pose of a measured frame. */
+/** The increment of a measured frame. */
 void Odometry::Impl::finish(OdometryResult& result)
 {
-    result.pose = latestPose();
-    result.increment = motionSince(1);
+    result.increment = history.since(1);
     const Vector6d sigma = result.increment.cov.diagonal().cwiseSqrt();
     result.diagnostics.maxSigmaTranslation = sigma.head<3>().maxCoeff();
     result.diagnostics.maxSigmaRotation = sigma.tail<3>().maxCoeff();
-}
-
-PoseGaussian Odometry::Impl::latestPose() const
-{
-    return {poses.front(), withEigenvalueFloor(joint.latest(), kLeastVariance)};
-}
-
-PoseGaussian Odometry::Impl::motionSince(int framesAgo) const
-{
-    const Eigen::Isometry3d& T_world_past = poses[static_cast<size_t>(framesAgo)];
-    const Matrix6d cov = joint.relative(numFrames - framesAgo, T_world_past);
-    return {T_world_past.inverse() * poses.front(), withEigenvalueFloor(cov, kLeastVariance)};
 }
 
 /** Keeps what the next frame will be compared with, and the history. */
@@ -371,8 +332,7 @@ void Odometry::Impl::forgetOthers()
     {
         references.push_back(reference->id);
     }
-    joint.keep(references, unmatched ? std::optional(unmatched->id) : std::nullopt);
-    poses.resize(std::min(poses.size(), static_cast<size_t>(params.covariance.history) + 1));
+    history.keep(references, unmatched ? std::optional(unmatched->id) : std::nullopt);
 }
 
 /** The fraction of the newest key frame's points or planes that was found again, the smaller. */
@@ -403,9 +363,9 @@ void Odometry::Impl::advance(const RgbdFrame& frame, const std::vector<Associati
             features.points.push_back(track.cur);
         }
     }
-    current.T_world_cam = poses.front();
+    current.T_world_cam = history.latest();
     const bool isKeyframe =
-        window.empty() || window.needsKeyframe(poses.front(), overlapWithNewest(associations));
+        window.empty() || window.needsKeyframe(history.latest(), overlapWithNewest(associations));
     if (isKeyframe && params.pipeline.usePoints)
     {
         current.points = pointStage.makeReference(frame);

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "PoseHistory.h"
+
+#include <pointplane/core/covariance.h>
+
+#include <algorithm>
+
+namespace pointplane
+{
+namespace
+{
+/** Least eigenvalue of a covariance that is told [m^2, rad^2]. */
+constexpr double kLeastVariance = 1e-14;
+}  // namespace
+
+PoseHistory::PoseHistory(const JointCovariance::TParams& params)
+    : params_(params), joint_(params), poses_{Eigen::Isometry3d::Identity()}
+{
+    joint_.start(latestFrame_, Matrix6d::Zero());
+}
+
+void PoseHistory::predict(const PoseGaussian& increment)
+{
+    joint_.predict(++latestFrame_, poses_.front(), increment.cov);
+    poses_.push_front(poses_.front() * increment.mean);
+}
+
+void PoseHistory::measure(
+    const Eigen::Isometry3d& T_first_base,
+    const Eigen::Isometry3d& T_base_cur,
+    double dt,
+    const JointCovariance::Measurement& errors)
+{
+    joint_.measure(++latestFrame_, T_first_base, dt, errors);
+    poses_.push_front(T_first_base * T_base_cur);
+}
+
+void PoseHistory::keep(const std::vector<int>& references, std::optional<int> frame)
+{
+    joint_.keep(references, frame);
+    poses_.resize(std::min(poses_.size(), static_cast<size_t>(params_.history) + 1));
+}
+
+PoseGaussian PoseHistory::pose() const
+{
+    return {poses_.front(), withEigenvalueFloor(joint_.latest(), kLeastVariance)};
+}
+
+PoseGaussian PoseHistory::since(int framesAgo) const
+{
+    const Eigen::Isometry3d& T_first_past = poses_[static_cast<size_t>(framesAgo)];
+    const Matrix6d cov = joint_.relative(latestFrame_ - framesAgo, T_first_past);
+    return {T_first_past.inverse() * poses_.front(), withEigenvalueFloor(cov, kLeastVariance)};
+}
+
+std::vector<PoseGaussian> PoseHistory::sinceAll() const
+{
+    std::vector<PoseGaussian> out;
+    for (int n = 1; n <= params_.history && n < latestFrame_; ++n)
+    {
+        out.push_back(since(n));
+    }
+    return out;
+}
+}  // namespace pointplane

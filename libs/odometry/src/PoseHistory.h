@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pointplane/core/PoseGaussian.h>
+#include <pointplane/odometry/JointCovariance.h>
+
+#include <deque>
+#include <optional>
+#include <vector>
+
+namespace pointplane
+{
+/** Poses T_first_k of the latest frames, measured or predicted, and their joint covariance. Every
+ * frame is told once, by its number: 1, 2, 3, ... */
+class PoseHistory
+{
+ public:
+    explicit PoseHistory(const JointCovariance::TParams& params);
+
+    /** The next frame was not measured: it is where the increment leads to. */
+    void predict(const PoseGaussian& increment);
+
+    /** The next frame was measured.
+     * \param T_first_base pose of the latest measured frame \param dt [s] since that */
+    void measure(
+        const Eigen::Isometry3d& T_first_base,
+        const Eigen::Isometry3d& T_base_cur,
+        double dt,
+        const JointCovariance::Measurement& errors);
+
+    /** The next frames are compared with this one, and with later ones. */
+    void restart(int frame) { joint_.restart(frame); }
+
+    /** Forgets what neither the history nor comparison with these references needs.
+     * \param frame whose pose is needed, too */
+    void keep(const std::vector<int>& references, std::optional<int> frame);
+
+    [[nodiscard]] const Eigen::Isometry3d& latest() const { return poses_.front(); }
+    [[nodiscard]] int latestFrame() const { return latestFrame_; }
+
+    /** T_first_latest. */
+    [[nodiscard]] PoseGaussian pose() const;
+
+    /** T_past_latest. \pre that frame is in the history */
+    [[nodiscard]] PoseGaussian since(int framesAgo) const;
+
+    /** The same for all frames in the history, the latest first. */
+    [[nodiscard]] std::vector<PoseGaussian> sinceAll() const;
+
+ private:
+    JointCovariance::TParams params_;
+    JointCovariance joint_;
+    std::deque<Eigen::Isometry3d> poses_;  //!< latest first; before the first frame, the identity
+    int latestFrame_{0};
+};
+}  // namespace pointplane
