@@ -25,7 +25,7 @@ class JointCovariance
     {
         std::string model{"joint"};
         double noise{0.6};
-        double drift{10};
+        double drift{12};
         int history{1};
 
         template <class V>
