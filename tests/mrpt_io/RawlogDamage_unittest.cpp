@@ -189,7 +189,7 @@ void writeExternalObservations(const std::string& path, int n)
         const auto scan = test::sampleScan(i);
         const std::string name = std::filesystem::path(path).stem().string() + std::to_string(i);
         const std::string folder = std::filesystem::path(path).parent_path().string();
-        scan->intensityImage.saveToFile(folder + "/" + name + ".png");
+        ASSERT_TRUE(scan->intensityImage.saveToFile(folder + "/" + name + ".png"));
         scan->intensityImage.setExternalStorage(name + ".png");
         moveRangeToFile(*scan, folder, name + ".bin");
         writer.write(*scan);
