@@ -18,6 +18,9 @@ mutants=(
     'libs/sensor/src/DepthNoise.cpp|topLeftCorner<2, 2>() +=|bottomRightCorner<2, 2>() +=|sensor_DepthNoise'
     'libs/sensor/src/PinholeCamera.cpp|6 * k[3] * x|2 * k[3] * x|sensor_PinholeCamera'
     'libs/planes/src/PlaneFitter.cpp|b -= w * P|b += w * P|planes_PlaneFitter'
+    'libs/odometry/src/JointCovariance.cpp|at(0, 0) - at(0, k) - at(k, 0)|at(0, 0) + at(0, k) - at(k, 0)|odometry_JointCovariance'
+    'libs/odometry/src/JointCovariance.cpp|dt * prior + measurement|prior + measurement|odometry_JointCovariance'
+    'libs/pose/src/NormalEquations.cpp|it->second += influence|it->second = influence|pose_Sensitivity'
     'libs/planes/src/PlaneMatcher.cpp|dot(plane.n) >= minCosine|dot(plane.n) <= minCosine|planes_PlaneMatcher'
 )
 readonly tree=build/mutation/tree log=build/mutation/log
