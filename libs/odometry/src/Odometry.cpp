@@ -46,8 +46,7 @@ struct Odometry::Impl
         double stamp, const std::string& reason, OdometryResult result);
     [[nodiscard]] std::vector<Association> associate(
         const RgbdFrame& frame, const Eigen::Isometry3d& T_prev_cur, double radiusFactor) const;
-    [[nodiscard]] double overlapWithNewest(
-        const std::vector<Association>& associations, bool ofPointsSearched) const;
+    [[nodiscard]] double overlapWithNewest(const std::vector<Association>& associations) const;
     void advance(const RgbdFrame& frame, const std::vector<Association>& associations);
     void finish(OdometryResult& result);
     void forgetOthers();
@@ -147,7 +146,7 @@ bool Odometry::Impl::track(const RgbdFrame& frame, OdometryResult& result)
     const PairBuilder pairs(window.previous(), current, frame.camera.height);
     const Stopwatch matching;
     std::vector<Association> associations = associate(frame, predicted.pose.mean, 1);
-    if (overlapWithNewest(associations, true) < params.reference.keyframeMinOverlap)
+    if (overlapWithNewest(associations) < params.reference.keyframeMinOverlap)
     {
         // A jerk that the motion model did not foresee: look farther, then closely again.
         associations = associate(frame, predicted.pose.mean, kWideSearch);
@@ -336,10 +335,8 @@ void Odometry::Impl::forgetOthers()
     history.keep(references, unmatched ? std::optional(unmatched->id) : std::nullopt);
 }
 
-/** The fraction of the newest key frame's points or planes that was found again, the smaller.
- * \param ofPointsSearched leave out points that nobody expected to find */
-double Odometry::Impl::overlapWithNewest(
-    const std::vector<Association>& associations, bool ofPointsSearched) const
+/** The fraction of the newest key frame's points or planes that was found again, the smaller. */
+double Odometry::Impl::overlapWithNewest(const std::vector<Association>& associations) const
 {
     const auto fraction = [](size_t found, size_t all)
     { return all > 0 ? static_cast<double>(found) / static_cast<double>(all) : 1.0; };
@@ -349,10 +346,7 @@ double Odometry::Impl::overlapWithNewest(
         if (window.isNewest(*a.reference))
         {
             overlap = std::min(
-                fraction(
-                    a.points.size(),
-                    ofPointsSearched ? a.reference->points.numDue()
-                                     : a.reference->points.points.size()),
+                fraction(a.points.size(), a.reference->points.points.size()),
                 fraction(a.planes.size(), a.reference->planes.planes.size()));
         }
     }
@@ -371,8 +365,7 @@ void Odometry::Impl::advance(const RgbdFrame& frame, const std::vector<Associati
     }
     current.T_world_cam = history.latest();
     const bool isKeyframe =
-        window.empty() ||
-        window.needsKeyframe(history.latest(), overlapWithNewest(associations, false));
+        window.empty() || window.needsKeyframe(history.latest(), overlapWithNewest(associations));
     if (isKeyframe && params.pipeline.usePoints)
     {
         current.points = pointStage.makeReference(frame);

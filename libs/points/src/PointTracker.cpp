@@ -93,16 +93,6 @@ bool PointReference::isDue(size_t point) const
            (misses[point] + static_cast<int>(point)) % kTurns == 0;
 }
 
-size_t PointReference::numDue() const
-{
-    size_t out = 0;
-    for (size_t point = 0; point < points.size(); ++point)
-    {
-        out += isDue(point) ? 1 : 0;
-    }
-    return out;
-}
-
 void PointTracker::TParams::check() const
 {
     POINTPLANE_CHECK(

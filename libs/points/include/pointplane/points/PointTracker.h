@@ -35,7 +35,6 @@ struct PointReference
     /** Points that have been missing for some frames are searched only now and then, in turns: a
      * search in vain takes longest. */
     [[nodiscard]] bool isDue(size_t point) const;
-    [[nodiscard]] size_t numDue() const;
 };
 
 /** Corners of a reference image and their sub-pixel positions in later images: pyramidal
