@@ -9,8 +9,15 @@ namespace pointplane
 {
 namespace
 {
-/** Least eigenvalue of a covariance that is told [m^2, rad^2]. */
+/** Least eigenvalue of a covariance that is told [m^2, rad^2], and as a part of all of them: what
+ * is smaller drowns in rounding when nothing is known of other directions. */
 constexpr double kLeastVariance = 1e-14;
+constexpr double kLeastShare = 1e-12;
+
+Matrix6d strictlyPositive(const Matrix6d& cov)
+{
+    return withEigenvalueFloor(cov, std::max(kLeastVariance, kLeastShare * cov.trace()));
+}
 }  // namespace
 
 PoseHistory::PoseHistory(const JointCovariance::TParams& params)
@@ -43,14 +50,14 @@ void PoseHistory::keep(const std::vector<int>& references, std::optional<int> fr
 
 PoseGaussian PoseHistory::pose() const
 {
-    return {poses_.front(), withEigenvalueFloor(joint_.latest(), kLeastVariance)};
+    return {poses_.front(), strictlyPositive(joint_.latest())};
 }
 
 PoseGaussian PoseHistory::since(int framesAgo) const
 {
     const Eigen::Isometry3d& T_first_past = poses_[static_cast<size_t>(framesAgo)];
     const Matrix6d cov = joint_.relative(latestFrame_ - framesAgo, T_first_past);
-    return {T_first_past.inverse() * poses_.front(), withEigenvalueFloor(cov, kLeastVariance)};
+    return {T_first_past.inverse() * poses_.front(), strictlyPositive(cov)};
 }
 
 std::vector<PoseGaussian> PoseHistory::sinceAll() const
