@@ -48,7 +48,6 @@ struct Odometry::Impl
         const RgbdFrame& frame, const Eigen::Isometry3d& T_prev_cur, double radiusFactor) const;
     [[nodiscard]] double overlapWithNewest(const std::vector<Association>& associations) const;
     void advance(const RgbdFrame& frame, const std::vector<Association>& associations);
-    void finish(OdometryResult& result);
     void forgetOthers();
 
     OdometryParams params;
@@ -87,6 +86,13 @@ OdometryResult Odometry::Impl::process(const RgbdFrame& frame)
     OdometryResult result = estimate(frame);
     result.pose = history.pose();
     result.since = history.sinceAll();
+    if (result.status == TrackingStatus::Tracked)
+    {
+        result.increment = result.since.front();
+        const Vector6d sigma = result.increment.cov.diagonal().cwiseSqrt();
+        result.diagnostics.maxSigmaTranslation = sigma.head<3>().maxCoeff();
+        result.diagnostics.maxSigmaRotation = sigma.tail<3>().maxCoeff();
+    }
     forgetOthers();
     result.diagnostics.msTotal = total.ms();
     return result;
@@ -175,7 +181,6 @@ bool Odometry::Impl::track(const RgbdFrame& frame, OdometryResult& result)
     }
     current.velocity = measured.velocity;
     history.measure(window.previous().T_world_cam, measured.T_prev_cur, dt, measured.errors);
-    finish(result);
     unmatched.reset();
     latestStamp = result.stamp;
     advance(frame, associations);
@@ -313,15 +318,6 @@ std::vector<Association> Odometry::Impl::associate(
         out.push_back(std::move(association));
     }
     return out;
-}
-
-/** The increment of a measured frame. */
-void Odometry::Impl::finish(OdometryResult& result)
-{
-    result.increment = history.since(1);
-    const Vector6d sigma = result.increment.cov.diagonal().cwiseSqrt();
-    result.diagnostics.maxSigmaTranslation = sigma.head<3>().maxCoeff();
-    result.diagnostics.maxSigmaRotation = sigma.tail<3>().maxCoeff();
 }
 
 /** Keeps what the next frame will be compared with, and the history. */

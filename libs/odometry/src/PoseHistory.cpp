@@ -21,7 +21,7 @@ Matrix6d strictlyPositive(const Matrix6d& cov)
 }  // namespace
 
 PoseHistory::PoseHistory(const JointCovariance::TParams& params)
-    : params_(params), joint_(params), poses_{Eigen::Isometry3d::Identity()}
+    : history_(params.history), joint_(params), poses_{Eigen::Isometry3d::Identity()}
 {
     joint_.start(latestFrame_, Matrix6d::Zero());
 }
@@ -45,7 +45,7 @@ void PoseHistory::measure(
 void PoseHistory::keep(const std::vector<int>& references, std::optional<int> frame)
 {
     joint_.keep(references, frame);
-    poses_.resize(std::min(poses_.size(), static_cast<size_t>(params_.history) + 1));
+    poses_.resize(std::min(poses_.size(), static_cast<size_t>(history_) + 1));
 }
 
 PoseGaussian PoseHistory::pose() const
@@ -63,7 +63,7 @@ PoseGaussian PoseHistory::since(int framesAgo) const
 std::vector<PoseGaussian> PoseHistory::sinceAll() const
 {
     std::vector<PoseGaussian> out;
-    for (int n = 1; n <= params_.history && n < latestFrame_; ++n)
+    for (int n = 1; n <= history_ && n < latestFrame_; ++n)
     {
         out.push_back(since(n));
     }

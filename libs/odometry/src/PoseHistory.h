@@ -48,7 +48,7 @@ class PoseHistory
     [[nodiscard]] std::vector<PoseGaussian> sinceAll() const;
 
  private:
-    JointCovariance::TParams params_;
+    int history_;  //!< frames
     JointCovariance joint_;
     std::deque<Eigen::Isometry3d> poses_;  //!< latest first; before the first frame, the identity
     int latestFrame_{0};

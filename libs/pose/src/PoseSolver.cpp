@@ -158,8 +158,8 @@ PoseEstimate PoseSolver::solve(
     const std::map<int, FeatureSum> planeGroups = equations.planesByReference();
     if (pointGroups.size() + planeGroups.size() > 1)
     {
-        out.pointDisagreement = disagreementOf(pointGroups, H, out.motion.cov);
-        out.planeDisagreement = disagreementOf(planeGroups, H, out.motion.cov);
+        out.pointDisagreement = disagreementOf(pointGroups, H, H_inverse, out.motion.cov);
+        out.planeDisagreement = disagreementOf(planeGroups, H, H_inverse, out.motion.cov);
     }
     out.sensitivity.prior = H_inverse * known;
     for (const auto* groups : {&pointGroups, &planeGroups})

@@ -13,13 +13,15 @@ constexpr double kLeastShare = 0.03;
 }  // namespace
 
 Disagreement disagreementOf(
-    const std::map<int, FeatureSum>& groups, const Matrix12d& H, const Matrix12d& cov)
+    const std::map<int, FeatureSum>& groups,
+    const Matrix12d& H,
+    const Matrix12d& H_inverse,
+    const Matrix12d& cov)
 {
     Disagreement out;
-    const auto solver = H.ldlt();
     for (const auto& [reference, group] : groups)
     {
-        const Matrix12d shared = group.H * solver.solve(group.M);
+        const Matrix12d shared = group.H * H_inverse * group.M;
         const Matrix12d covOfGradient =
             group.M - shared - shared.transpose() + group.H * cov * group.H;
         const Eigen::LDLT<Matrix6d> known((group.H + kLeastShare * H).topLeftCorner<6, 6>());

@@ -14,5 +14,8 @@ namespace pointplane
  * \param groups some or all groups \param H of all residuals and the prior
  * \param cov of the solution, Sigma */
 [[nodiscard]] Disagreement disagreementOf(
-    const std::map<int, FeatureSum>& groups, const Matrix12d& H, const Matrix12d& cov);
+    const std::map<int, FeatureSum>& groups,
+    const Matrix12d& H,
+    const Matrix12d& H_inverse,
+    const Matrix12d& cov);
 }  // namespace pointplane

@@ -24,8 +24,7 @@ struct NoiseFactors
 struct Disagreement
 {
     double observed{0};  //!< squared, in units of the covariances
-    double expected{
-        0};  //!< were errors as large as claimed and independent; 0 = nothing to compare
+    double expected{0};  //!< were errors as claimed and independent; 0 = nothing to compare
 };
 
 /** On what an estimate of pose (left perturbation) and velocity depends, to first order. */
