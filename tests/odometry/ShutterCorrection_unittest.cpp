@@ -56,9 +56,24 @@ Eigen::Vector3d seenAt(const Eigen::Vector3d& P, double s, const Vector6d& V)
 }
 
 Eigen::Vector3d correctedPoint(
-    const ShutterCorrection& correction, const Eigen::Vector3d& P, double row, const Vector6d& V)
+    const ShutterCorrection& correction, const PointFeature& point, const Vector6d& V)
 {
-    return P + correction.pointJacobian(P, row) * V;
+    return point.p_cam.mean + correction.pointJacobian(point) * V;
+}
+
+PointFeature pointOn(const Eigen::Vector3d& P, const Eigen::Vector3d& theta, double row)
+{
+    PointFeature out;
+    out.uv_px.y() = row;
+    out.p_cam.mean = P;
+    out.theta_m = theta;
+    return out;
+}
+
+/** The plane through P with the normal's direction, theta . P + 1 = 0. */
+Eigen::Vector3d through(const Eigen::Vector3d& P, const Eigen::Vector3d& direction)
+{
+    return -direction / direction.dot(P);
 }
 
 Eigen::Vector3d correctedPlane(
@@ -67,28 +82,25 @@ Eigen::Vector3d correctedPlane(
     return plane.plane_cam.theta_m + correction.planeJacobian(plane) * V;
 }
 
-/** What the camera reports of a static point: its pixel in the colour image, whose row is exposed
- * when the point crosses it, and the depth of that pixel in the depth image of another instant. */
-struct Observation
+/** What the camera reports of a static point on a surface: its pixel in the colour image, whose row
+ * is exposed when the point crosses it, and the depth of that pixel in the depth image of another
+ * instant, when it sees another part of the surface. */
+PointFeature observe(
+    const Eigen::Vector3d& P_stamp,
+    const Eigen::Vector3d& theta_stamp,
+    const ShutterModel& shutter,
+    const Vector6d& V)
 {
-    Eigen::Vector3d P;
-    double row{0};
-};
-
-Observation observe(const Eigen::Vector3d& P_stamp, const ShutterModel& shutter, const Vector6d& V)
-{
-    Observation out;
-    out.row = camera().project(P_stamp).y();
+    double row = camera().project(P_stamp).y();
     Eigen::Vector3d inColour = P_stamp;
     for (int i = 0; i < 50; ++i)  // the row that is exposed when the point is on it
     {
-        inColour = seenAt(P_stamp, colourTime(shutter, out.row), V);
-        out.row = camera().project(inColour).y();
+        inColour = seenAt(P_stamp, colourTime(shutter, row), V);
+        row = camera().project(inColour).y();
     }
-    const Eigen::Vector3d inDepth = seenAt(P_stamp, depthTime(shutter, out.row), V);
-    // The neighbourhood is frontal: its depth does not depend on where exactly it is hit.
-    out.P = inColour * (inDepth.z() / inColour.z());
-    return out;
+    const Eigen::Isometry3d T_depth_stamp = se3Exp(-depthTime(shutter, row) * V);
+    const Eigen::Vector3d theta = minimalForm(transformed(T_depth_stamp, hessianForm(theta_stamp)));
+    return pointOn(-inColour / theta.dot(inColour), theta, row);
 }
 
 /** Depth image of a static plane, row by row, each row at its own time. */
@@ -119,27 +131,45 @@ TEST(ShutterCorrection, pointByHand)
     V[2] = 1;
     const ShutterCorrection correction(shutter, kHeight);
     EXPECT_THAT(
-        correctedPoint(correction, {0.1, 0.4, 1.99}, kHeight, V),
+        correctedPoint(correction, pointOn({0.1, 0.4, 1.99}, {0, 0, -1 / 1.99}, kHeight), V),
         test::IsMatrixNear(Eigen::Vector3d(0.1, 0.4, 2), 1e-12));
     EXPECT_THAT(
-        correctedPoint(correction, {0.1, 0.4, 2}, 0.5 * kHeight, V),
+        correctedPoint(correction, pointOn({0.1, 0.4, 2}, {0, 0, -0.5}, 0.5 * kHeight), V),
         test::IsMatrixNear(Eigen::Vector3d(0.1, 0.4, 2), 1e-12));
+}
+
+TEST(ShutterCorrection, depthOfASlopeByHand)
+{
+    // Depth 10 ms before colour, turning at 10 rad/s: the ray has moved by 0.1 rad since, along a
+    // wall at 45 deg, Z = 2 + X, whose depth grows by 2 m per rad there.
+    const ShutterCorrection correction({0, 0, -0.010}, kHeight);
+    Vector6d V = Vector6d::Zero();
+    V[4] = 10;
+    const Eigen::Vector3d P(0, 0, 2);
+    const PointFeature point = pointOn(P, through(P, {-1, 0, 1}), 0.5 * kHeight);
+    const Eigen::Vector3d corrected = correctedPoint(correction, point, V);
+    EXPECT_THAT(corrected, test::IsMatrixNear(Eigen::Vector3d(0, 0, 2.2), 1e-12));
 }
 
 TEST(ShutterCorrection, pointOfAStaticWorld)
 {
     const ShutterCorrection correction(kinect(), kHeight);
     const Vector6d V = handVelocity();
-    for (const double x : {-0.5, 0.0, 0.4})
+    for (const Eigen::Vector3d& direction :
+         {Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0.6, 0, 1), Eigen::Vector3d(0.1, -0.8, 1)})
     {
-        for (const double y : {-0.4, 0.1, 0.5})
+        for (const double x : {-0.5, 0.0, 0.4})
         {
-            const Eigen::Vector3d P(2 * x, 2 * y, 2);
-            const Observation seen = observe(P, kinect(), V);
-            const Eigen::Vector3d corrected = correctedPoint(correction, seen.P, seen.row, V);
-            // First order in time: what remains is a twentieth.
-            EXPECT_GT((seen.P - P).norm(), 4e-3);
-            EXPECT_LT((corrected - P).norm(), 0.05 * (seen.P - P).norm()) << P.transpose();
+            for (const double y : {-0.4, 0.1, 0.5})
+            {
+                const Eigen::Vector3d P(2 * x, 2 * y, 2);
+                const PointFeature seen = observe(P, through(P, direction), kinect(), V);
+                const double before = (seen.p_cam.mean - P).norm();
+                // First order in time: what remains is a twentieth.
+                EXPECT_GT(before, 4e-3);
+                EXPECT_LT((correctedPoint(correction, seen, V) - P).norm(), 0.05 * before)
+                    << P.transpose() << ", " << direction.transpose();
+            }
         }
     }
 }
@@ -151,8 +181,8 @@ TEST(ShutterCorrection, pointErrorIsOfSecondOrder)
     const auto remaining = [&](double scale)
     {
         const Vector6d V = scale * handVelocity();
-        const Observation seen = observe(P, kinect(), V);
-        return (correctedPoint(correction, seen.P, seen.row, V) - P).norm();
+        const PointFeature seen = observe(P, through(P, {0.5, -0.7, 1}), kinect(), V);
+        return (correctedPoint(correction, seen, V) - P).norm();
     };
     EXPECT_NEAR(remaining(1) / remaining(0.25), 16, 3);
 }
@@ -198,18 +228,19 @@ TEST(ShutterCorrection, planeSeenByAPartOfTheImage)
 TEST(ShutterCorrection, nothingToCorrect)
 {
     const Eigen::Vector3d P(0.3, -0.2, 1.5);
+    const PointFeature point = pointOn(P, through(P, {0.5, 0.2, 1}), 17);
     PlaneFeature plane;
     plane.plane_cam.theta_m << 0.1, 0.2, -0.4;
     plane.rowLever = 0.1 * Eigen::Matrix3d::Ones();
     const Eigen::Vector3d& theta = plane.plane_cam.theta_m;
     // A still camera, a global shutter, an unknown one.
     const ShutterCorrection still(kinect(), kHeight);
-    EXPECT_THAT(correctedPoint(still, P, 17, Vector6d::Zero()), test::IsMatrixNear(P, 1e-15));
+    EXPECT_THAT(correctedPoint(still, point, Vector6d::Zero()), test::IsMatrixNear(P, 1e-15));
     EXPECT_EQ(correctedPlane(still, plane, Vector6d::Zero()), theta);
     for (const ShutterModel& shutter : {ShutterModel{0, 0, 0}, ShutterModel{}})
     {
         const ShutterCorrection none(shutter, kHeight);
-        EXPECT_THAT(correctedPoint(none, P, 17, handVelocity()), test::IsMatrixNear(P, 1e-15));
+        EXPECT_THAT(correctedPoint(none, point, handVelocity()), test::IsMatrixNear(P, 1e-15));
         EXPECT_THAT(correctedPlane(none, plane, handVelocity()), test::IsMatrixNear(theta, 1e-15));
     }
 }

@@ -29,16 +29,29 @@ PointFeature pointAt(const RgbdFrame& frame, int u, int v)
     out.uv_px << u, v;
     out.p_cam.mean = static_cast<double>(frame.depth.at<float>(v, u)) *
                      frame.camera.normalised(out.uv_px).homogeneous();
+    out.theta_m = localSurface(frame, out);
     return out;
 }
 }  // namespace
+
+TEST(LocalSurface, IsTheWall)
+{
+    const Eigen::Vector3d n = Eigen::Vector3d(0.5, -0.3, 1).normalized();
+    RgbdFrame frame = slantedWall(n, 2);
+    const PointFeature point = pointAt(frame, 200, 300);
+    EXPECT_NEAR(point.theta_m.dot(point.p_cam.mean), -1, 1e-12);
+    EXPECT_NEAR((point.theta_m + n / 2).norm(), 0, 0.01 * 0.5);
+    // Another surface beside it does not count.
+    frame.depth(cv::Rect(203, 0, 437, 480)).setTo(3);
+    EXPECT_NEAR((pointAt(frame, 200, 300).theta_m + n / 2).norm(), 0, 0.03 * 0.5);
+}
 
 TEST(LocalSurface, JacobianIsThatOfTheWall)
 {
     const RgbdFrame frame = slantedWall(Eigen::Vector3d(0.5, -0.3, 1).normalized(), 2);
     for (const auto& [u, v] : {std::pair{100, 80}, std::pair{320, 240}, std::pair{600, 400}})
     {
-        const auto J = surfaceJacobian(frame, pointAt(frame, u, v));
+        const auto J = surfaceJacobian(frame.camera, pointAt(frame, u, v));
         for (int k = 0; k < 2; ++k)
         {
             const int du = k == 0 ? 1 : 0, dv = 1 - du;
@@ -53,9 +66,10 @@ TEST(LocalSurface, JacobianIsThatOfTheWall)
 TEST(LocalSurface, WithoutReadingsItIsTakenForLevel)
 {
     RgbdFrame frame = slantedWall({0, 0, 1}, 2);
-    const PointFeature point = pointAt(frame, 300, 200);
+    PointFeature point = pointAt(frame, 300, 200);
     frame.depth.setTo(0);
-    const auto J = surfaceJacobian(frame, point);
+    point.theta_m = localSurface(frame, point);
+    const auto J = surfaceJacobian(frame.camera, point);
     EXPECT_NEAR(J(0, 0), 2 / frame.camera.fx, 1e-6);
     EXPECT_EQ(J(2, 0), 0);
 }

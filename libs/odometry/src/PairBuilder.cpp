@@ -54,14 +54,12 @@ void PairBuilder::build(
         {
             const PointFeature& ref = reference.points.points[static_cast<size_t>(track.ref)];
             const PointFeature& cur = track.cur;
-            const double row = ref.uv_px.y();
             PointPair pair;
             pair.base.mean =
-                T_base_ref *
-                (ref.p_cam.mean + past.pointJacobian(ref.p_cam.mean, row) * reference.velocity);
+                T_base_ref * (ref.p_cam.mean + past.pointJacobian(ref) * reference.velocity);
             pair.base.cov = propagate(T_base_ref.linear(), ref.p_cam.cov);
             pair.cur = cur.p_cam;
-            pair.dCur_dV = current.pointJacobian(cur.p_cam.mean, cur.uv_px.y());
+            pair.dCur_dV = current.pointJacobian(cur);
             pair.reference = reference.id;
             pair.feature = cellOf(cur.uv_px);
             points.push_back(pair);

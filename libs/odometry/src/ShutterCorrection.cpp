@@ -17,14 +17,15 @@ ShutterCorrection::ShutterCorrection(const ShutterModel& shutter, int imageHeigh
 {
 }
 
-Matrix36d ShutterCorrection::pointJacobian(const Eigen::Vector3d& P, double row) const
+Matrix36d ShutterCorrection::pointJacobian(const PointFeature& point) const
 {
-    const double f = row / height_ - 0.5;
+    const double f = point.uv_px.y() / height_ - 0.5;
     const double sColour = f * shutter_.readoutColour;
     const double sDepth = shutter_.depthDelay + f * shutter_.readoutDepth;
+    const Eigen::Vector3d& P = point.p_cam.mean;
     Matrix36d velocity;  // of the point in the camera's frame, from V
     velocity << Eigen::Matrix3d::Identity(), -hat(P);
-    return sColour * velocity - (sColour - sDepth) / P.z() * P * velocity.row(2);
+    return sColour * velocity + (sColour - sDepth) * P * (point.theta_m.transpose() * velocity);
 }
 
 Matrix36d ShutterCorrection::planeJacobian(const PlaneFeature& plane) const

@@ -6,6 +6,8 @@
 
 #include <cmath>
 
+#include "local_surface.h"
+
 namespace pointplane
 {
 namespace
@@ -102,8 +104,11 @@ std::optional<PointFeature> PointLifter::lift(
             return {};
         }
     }
-    return PointFeature{
-        uv_px, backProject(frame.camera, noise_.sigmaPixelPx, reading.sigma, uv_px, reading.z)};
+    PointFeature out;
+    out.uv_px = uv_px;
+    out.p_cam = backProject(frame.camera, noise_.sigmaPixelPx, reading.sigma, uv_px, reading.z);
+    out.theta_m = localSurface(frame, out);
+    return out;
 }
 
 LiftedPoints PointLifter::liftAll(

@@ -295,7 +295,7 @@ std::vector<PointTrack> PointTracker::track(
         {
             // Along an edge, a track slides on the surface.
             const auto& cov_px = reference.cov_px[static_cast<size_t>(indices[k])];
-            feature->p_cam.cov += propagate(surfaceJacobian(frame, *feature), cov_px);
+            feature->p_cam.cov += propagate(surfaceJacobian(frame.camera, *feature), cov_px);
             tracks.push_back({indices[k], *feature});
         }
     }

@@ -33,10 +33,10 @@ void forEachReading(const RgbdFrame& frame, const PointFeature& point, int radiu
 }
 }  // namespace
 
-Eigen::Matrix<double, 3, 2> surfaceJacobian(const RgbdFrame& frame, const PointFeature& point)
+Eigen::Vector3d localSurface(const RgbdFrame& frame, const PointFeature& point)
 {
     constexpr double kSameSurface = 0.05;  // relative difference of depth
-    constexpr int kRadius = 3;
+    constexpr int kRadius = 6, kStep = 2;
     constexpr double kLeastReadings = 8;
     const Eigen::Vector3d& p = point.p_cam.mean;
 
@@ -47,7 +47,7 @@ Eigen::Matrix<double, 3, 2> surfaceJacobian(const RgbdFrame& frame, const PointF
         frame,
         point,
         kRadius,
-        1,
+        kStep,
         [&](int du, int dv, double z)
         {
             if (std::abs(p.z() / z - 1) < kSameSurface)
@@ -57,14 +57,22 @@ Eigen::Matrix<double, 3, 2> surfaceJacobian(const RgbdFrame& frame, const PointF
                 b += x / z;
             }
         });
-    Eigen::Matrix<double, 3, 2> J;
-    J << p.z() / frame.camera.fx, 0, 0, p.z() / frame.camera.fy, 0, 0;
+    Eigen::Vector2d slope(0, 0);  // of 1/Z [1/m per px]
     if (A(0, 0) >= kLeastReadings)
     {
-        const Eigen::Vector2d slope = A.ldlt().solve(b).tail<2>();  // of 1/Z
-        J -= p * p.z() * slope.transpose();
+        slope = A.ldlt().solve(b).tail<2>();
     }
-    return J;
+    Eigen::Vector3d theta(-slope.x() * frame.camera.fx, -slope.y() * frame.camera.fy, 0);
+    theta.z() = (-1 - theta.head<2>().dot(p.head<2>())) / p.z();
+    return theta;
+}
+
+Eigen::Matrix<double, 3, 2> surfaceJacobian(const PinholeCamera& camera, const PointFeature& point)
+{
+    const Eigen::Vector3d& p = point.p_cam.mean;
+    Eigen::Matrix<double, 3, 2> ray;  // p.z() times that of the ray through the pixel
+    ray << p.z() / camera.fx, 0, 0, p.z() / camera.fy, 0, 0;
+    return ray + p * (point.theta_m.transpose() * ray);
 }
 
 bool isNearDepthJump(const RgbdFrame& frame, const PointFeature& point)

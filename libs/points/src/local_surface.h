@@ -6,10 +6,14 @@
 
 namespace pointplane
 {
-/** How a point moves on the surface that the depth image shows around it when its pixel moves:
- * d p_cam / d uv [m/px], from a plane in inverse depth through the 7x7 readings. */
+/** The surface that the depth image shows around a point, as a plane through it: theta_m with
+ * theta_m . P + 1 = 0 [1/m], from the inverse depths within 6 pixels. Level where there are not
+ * enough. */
+[[nodiscard]] Eigen::Vector3d localSurface(const RgbdFrame& frame, const PointFeature& point);
+
+/** How a point moves on its surface when its pixel moves: d p_cam / d uv [m/px]. */
 [[nodiscard]] Eigen::Matrix<double, 3, 2> surfaceJacobian(
-    const RgbdFrame& frame, const PointFeature& point);
+    const PinholeCamera& camera, const PointFeature& point);
 
 /** The depth jumps by more than a tenth somewhere within 9 pixels: a patch there shows two surfaces
  * that move against each other. Pixels without depth are no jump. */

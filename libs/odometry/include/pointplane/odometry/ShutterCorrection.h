@@ -2,8 +2,8 @@
 #pragma once
 
 #include <pointplane/core/Parameters.h>
-#include <pointplane/core/PointGaussian.h>
 #include <pointplane/planes/PlaneFeature.h>
+#include <pointplane/points/PointFeature.h>
 #include <pointplane/sensor/RgbdFrame.h>
 
 namespace pointplane
@@ -20,10 +20,10 @@ class ShutterCorrection
     ShutterCorrection(const ShutterModel& shutter, int imageHeight);
 
     /** dP / dV of a point whose pixel is from the colour image and whose depth is from the depth
-     * image: what was at P when it was seen is at P + (dP / dV) V at the frame's instant, to first
-     * order P - (s_c - s_d) (rho + omega x P)_z (x, y, 1) + s_c (rho + omega x P).
-     * \param row of the pixel */
-    [[nodiscard]] Matrix36d pointJacobian(const Eigen::Vector3d& P, double row) const;
+     * image, which saw another part of its surface there: what was at P when it was seen is at
+     * P + (dP / dV) V at the frame's instant, to first order
+     * P + (s_c - s_d) theta_m^T (rho + omega x P) P + s_c (rho + omega x P). */
+    [[nodiscard]] Matrix36d pointJacobian(const PointFeature& point) const;
 
     /** dtheta_m / dV of a plane: theta_m - (delay I + readout L) g with g = theta x omega - theta
      * theta^T rho and L the plane's rowLever; derivation in docs/theory.md. */

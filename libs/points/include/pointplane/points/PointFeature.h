@@ -10,5 +10,7 @@ struct PointFeature
 {
     Eigen::Vector2d uv_px{0, 0};  //!< raw pixel, sub-pixel accurate
     PointGaussian p_cam;          //!< camera frame, optical axes [m]
+    /** The surface around it as a plane through it: theta_m . P + 1 = 0 [1/m]. */
+    Eigen::Vector3d theta_m{0, 0, 0};
 };
 }  // namespace pointplane
