@@ -258,7 +258,7 @@ cv::Point2f PatchTemplates::correlation(
     const Bilinear bilinear(corner);
     const StripSampler sampler(bilinear);
     const int numWhole = windowPx_ / kStrip, rest = windowPx_ % kStrip;
-    const std::size_t step = image.step1();
+    const std::size_t step = image.step[0];
     const uchar* row = elementAt<uchar>(image, {bilinear.u, bilinear.v});
     GradientSum sum;
     for (int y = 0; y < windowPx_; ++y, row += step)
