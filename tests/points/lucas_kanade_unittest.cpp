@@ -83,7 +83,10 @@ TEST_P(LucasKanade, AgreesWithOpenCvToTheBit)
         numFound += isFound ? 1 : 0;
     }
     EXPECT_GT(numFound, 100);
-    EXPECT_LT(numFound, static_cast<int>(points.size()));
+    if (window < 30)  // fits into the area without structure
+    {
+        EXPECT_LT(numFound, static_cast<int>(points.size()));
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Windows, LucasKanade, testing::Values(5, 8, 11, 15, 16, 21, 63));
