@@ -43,13 +43,26 @@ class StripSampler
     {
     }
 
-    /** Grey values of eight pixels. */
-    [[nodiscard]] cv::v_int16x8 grey(const uchar* pixel, std::size_t step) const
+    /** Eight pixels, each beside its right neighbour. */
+    struct Neighbours
     {
-        cv::v_int16x8 a, b, c, d;
-        neighbours(pixel, a, b);
-        neighbours(pixel + step, c, d);
-        return interpolated<kWeightBits - kGreyBits>(a, b, c, d);
+        cv::v_int16x8 first, second;
+    };
+
+    [[nodiscard]] static Neighbours neighbours(const uchar* pixel)
+    {
+        cv::v_uint8x16 pairs, unused;
+        cv::v_zip(cv::v_load_low(pixel), cv::v_load_low(pixel + 1), pairs, unused);
+        cv::v_uint16x8 a, b;
+        cv::v_expand(pairs, a, b);
+        return {cv::v_reinterpret_as_s16(a), cv::v_reinterpret_as_s16(b)};
+    }
+
+    /** Grey values of eight pixels. */
+    [[nodiscard]] cv::v_int16x8 grey(const Neighbours& upper, const Neighbours& lower) const
+    {
+        return interpolated<kWeightBits - kGreyBits>(
+            upper.first, upper.second, lower.first, lower.second);
     }
 
     /** Gradients of four pixels, x and y in turn. */
@@ -66,17 +79,6 @@ class StripSampler
     {
         const auto bits = static_cast<unsigned>(left & 0xffff) | static_cast<unsigned>(right) << 16;
         return cv::v_reinterpret_as_s16(cv::v_setall_u32(bits));
-    }
-
-    /** Each pixel beside its right neighbour: the first four, the others. */
-    static void neighbours(const uchar* pixel, cv::v_int16x8& first, cv::v_int16x8& second)
-    {
-        cv::v_uint8x16 pairs, unused;
-        cv::v_zip(cv::v_load_low(pixel), cv::v_load_low(pixel + 1), pairs, unused);
-        cv::v_uint16x8 a, b;
-        cv::v_expand(pairs, a, b);
-        first = cv::v_reinterpret_as_s16(a);
-        second = cv::v_reinterpret_as_s16(b);
     }
 
     /** \param a, b of the upper row \param c, d of the lower one */
@@ -147,6 +149,54 @@ class GradientSum
     cv::v_float32x4 first_{cv::v_setzero_f32()}, second_{cv::v_setzero_f32()};
     cv::v_float32x4 part_{cv::v_setzero_f32()};  //!< x, y
 };
+
+/** Sum over all rows of a template. Each row of pixels is the lower one, then the upper one of the
+ * next samples: as many strips as a row has are a constant, to stay in registers. */
+template <int kNumWhole>
+cv::Point2f sumOfRows(
+    const StripSampler& sampler,
+    const std::int16_t* patch,
+    int windowPx,
+    const uchar* pixel,
+    std::size_t step)
+{
+    const int rest = windowPx % kStrip;
+    GradientSum sum;
+    StripSampler::Neighbours upper[kNumWhole + 1];
+    for (int k = 0; k <= kNumWhole; ++k)
+    {
+        upper[k] = StripSampler::neighbours(pixel + k * kStrip);
+    }
+    for (int y = 0; y < windowPx; ++y)
+    {
+        pixel += step;
+        for (int k = 0; k < kNumWhole; ++k, patch += kStripSamples)
+        {
+            const auto lower = StripSampler::neighbours(pixel + k * kStrip);
+            sum.addWhole(sampler.grey(upper[k], lower), patch);
+            upper[k] = lower;
+        }
+        if (rest > 0)
+        {
+            const auto lower = StripSampler::neighbours(pixel + kNumWhole * kStrip);
+            sum.addPart(sampler.grey(upper[kNumWhole], lower), patch, rest > kStrip / 2);
+            upper[kNumWhole] = lower;
+            patch += kStripSamples;
+        }
+    }
+    return sum.total();
+}
+
+/** By the number of whole strips. */
+constexpr decltype(&sumOfRows<0>) kSumOfRows[] = {
+    sumOfRows<0>,
+    sumOfRows<1>,
+    sumOfRows<2>,
+    sumOfRows<3>,
+    sumOfRows<4>,
+    sumOfRows<5>,
+    sumOfRows<6>,
+    sumOfRows<7>};
 
 /** Stores a column's gradient as GradientSum wants it. */
 void storeGradient(std::int16_t* out, int column, bool isWhole, short gx, short gy)
@@ -225,7 +275,12 @@ PatchTemplates::Normal PatchTemplates::append(
         for (int x = 0; x < windowPx_; x += kStrip, strip += kStripSamples)
         {
             const cv::Point pixel(bilinear.u + x, bilinear.v + y);
-            cv::v_store(strip, sampler.grey(elementAt<uchar>(image, pixel), image.step1()));
+            const auto* grey = elementAt<uchar>(image, pixel);
+            cv::v_store(
+                strip,
+                sampler.grey(
+                    StripSampler::neighbours(grey),
+                    StripSampler::neighbours(grey + image.step[0])));
             const auto* gradient = elementAt<short>(derivatives, pixel);
             short gradients[2 * kStrip];
             cv::v_store(gradients, sampler.gradients(gradient, derivatives.step1()));
@@ -257,24 +312,8 @@ cv::Point2f PatchTemplates::correlation(
 {
     const Bilinear bilinear(corner);
     const StripSampler sampler(bilinear);
-    const int numWhole = windowPx_ / kStrip, rest = windowPx_ % kStrip;
-    const std::size_t step = image.step[0];
-    const uchar* row = elementAt<uchar>(image, {bilinear.u, bilinear.v});
-    GradientSum sum;
-    for (int y = 0; y < windowPx_; ++y, row += step)
-    {
-        const uchar* pixel = row;
-        for (int k = 0; k < numWhole; ++k, pixel += kStrip, patch += kStripSamples)
-        {
-            sum.addWhole(sampler.grey(pixel, step), patch);
-        }
-        if (rest > 0)
-        {
-            sum.addPart(sampler.grey(pixel, step), patch, rest > kStrip / 2);
-            patch += kStripSamples;
-        }
-    }
-    return sum.total() * kScale;
+    const auto* pixel = elementAt<uchar>(image, {bilinear.u, bilinear.v});
+    return kSumOfRows[windowPx_ / kStrip](sampler, patch, windowPx_, pixel, image.step[0]) * kScale;
 }
 
 /** One level. \return whether the patch has structure and the search ended inside */

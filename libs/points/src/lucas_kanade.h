@@ -24,7 +24,7 @@ struct PatchSearch
 class PatchTemplates
 {
  public:
-    /** \param windowPx side of the patches */
+    /** \param windowPx side of the patches, below 64 */
     explicit PatchTemplates(int windowPx);
 
     /** \param pyramid by cv::buildOpticalFlowPyramid with this window, with derivatives
