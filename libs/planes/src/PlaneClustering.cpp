@@ -23,8 +23,10 @@ struct Node
     /** Runs of the same one are common: cells along a border. */
     void addNeighbour(int node)
     {
+        constexpr size_t kUsual = 8;
         if (neighbours.empty() || neighbours.back() != node)
         {
+            neighbours.reserve(std::max(kUsual, neighbours.capacity()));
             neighbours.push_back(node);
         }
     }
