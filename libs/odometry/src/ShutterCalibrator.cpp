@@ -42,10 +42,11 @@ struct JointNormal
         const Eigen::Matrix3d W = (kStudentDof + 3) / (kStudentDof + norm2) * cov_inverse;
         Eigen::Matrix<double, 3, 12> Jx;
         Jx << residual.J, residual.J_V;
-        Hxx += Jx.transpose() * W * Jx;
-        Hxs += Jx.transpose() * W * Js;
+        const Matrix123d JxtW = Jx.transpose() * W;
+        Hxx += JxtW.lazyProduct(Jx);  // a general matrix product would pack its operands
+        Hxs += JxtW * Js;
         Hss += Js.transpose() * W * Js;
-        gx += Jx.transpose() * W * residual.r;
+        gx += JxtW * residual.r;
         gs += Js.transpose() * W * residual.r;
     }
 };

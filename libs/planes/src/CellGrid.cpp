@@ -2,60 +2,133 @@
 #include <pointplane/core/check.h>
 #include <pointplane/planes/CellGrid.h>
 
+#include <opencv2/core/hal/intrin.hpp>
+
+#include <algorithm>
+
 namespace pointplane
 {
 namespace
 {
-/** Sums over one row of one cell, in cell coordinates i = 0 .. size-1 and q - qReference: small
+/** Cells that are summed side by side, without reordering a sum. */
+constexpr int kLanes = 4;
+
+/** Sums over one row of cells, in cell coordinates i = 0 .. size-1 and q - qReference: small
  * numbers, so that single precision loses nothing that matters. */
 struct RowSums
 {
-    float n{0}, i{0}, ii{0}, q{0}, iq{0}, qq{0};
+    float n[kLanes], i[kLanes], ii[kLanes], q[kLanes], iq[kLanes], qq[kLanes];
 };
 
-RowSums sumRow(const float* inverseDepth, int size, float qReference)
+/** The same row of several cells. */
+class CellRow
 {
-    RowSums s;
-    for (int i = 0; i < size; ++i)
+ public:
+    /** \param cells first pixel of each */
+    CellRow(const float* const (&cells)[kLanes], int size) : cells_(cells), size_(size) {}
+
+    /** 1/Z of one pixel of each cell, with 0 for no reading (NaN fails the comparison). */
+    [[nodiscard]] cv::v_float32x4 inverseDepth(int i) const
     {
-        const float valid = inverseDepth[i] > 0 ? 1.F : 0.F;
-        const float q = valid * (inverseDepth[i] - qReference);
-        const float column = static_cast<float>(i) * valid;
-        s.n += valid;
-        s.i += column;
-        s.ii += column * column;
-        s.q += q;
-        s.iq += column * q;
-        s.qq += q * q;
+        const cv::v_float32x4 z(cells_[0][i], cells_[1][i], cells_[2][i], cells_[3][i]);
+        const cv::v_float32x4 isReading =
+            (z > cv::v_setall_f32(0.05F)) & (z < cv::v_setall_f32(100.F));
+        return (cv::v_setall_f32(1) / z) & isReading;
     }
-    return s;
+
+    [[nodiscard]] RowSums sum(const float* qReference) const
+    {
+        const cv::v_float32x4 one = cv::v_setall_f32(1), zero = cv::v_setzero_f32();
+        const cv::v_float32x4 reference = cv::v_load(qReference);
+        cv::v_float32x4 sn = zero, si = zero, sii = zero, sq = zero, siq = zero, sqq = zero;
+        for (int i = 0; i < size_; ++i)
+        {
+            const cv::v_float32x4 inverse = inverseDepth(i);
+            const cv::v_float32x4 valid = (inverse > zero) & one;
+            const cv::v_float32x4 q = valid * (inverse - reference);
+            const cv::v_float32x4 column = cv::v_setall_f32(static_cast<float>(i)) * valid;
+            sn += valid;
+            si += column;
+            sii += column * column;
+            sq += q;
+            siq += column * q;
+            sqq += q * q;
+        }
+        RowSums out;
+        cv::v_store(out.n, sn);
+        cv::v_store(out.i, si);
+        cv::v_store(out.ii, sii);
+        cv::v_store(out.q, sq);
+        cv::v_store(out.iq, siq);
+        cv::v_store(out.qq, sqq);
+        return out;
+    }
+
+ private:
+    const float* const (&cells_)[kLanes];
+    int size_;
+};
+
+/** The first reading of a cell's middle column is what others are compared with. */
+void completeReference(const cv::v_float32x4& middle, float* qReference)
+{
+    const cv::v_float32x4 reference = cv::v_load(qReference);
+    cv::v_store(qReference, cv::v_select(reference == cv::v_setzero_f32(), middle, reference));
 }
 
-/** Adds a row's sums at normalised coordinates x = x0 + i * step, y, q = qReference + dq. */
-void addRow(PlaneMoments& m, const RowSums& s, double x0, double step, double y, double q0)
+/** PlaneMoments of cells side by side. */
+class LaneMoments
 {
-    const double sx = s.n * x0 + s.i * step;
-    const double sq = s.n * q0 + s.q;
-    m.n += s.n;
-    m.x += sx;
-    m.y += s.n * y;
-    m.xx += s.n * x0 * x0 + 2 * x0 * step * s.i + step * step * s.ii;
-    m.xy += sx * y;
-    m.yy += s.n * y * y;
-    m.q += sq;
-    m.xq += x0 * sq + step * (s.i * q0 + s.iq);
-    m.yq += y * sq;
-    m.qq += s.n * q0 * q0 + 2 * q0 * s.q + s.qq;
-}
+ public:
+    /** \param x0 normalised coordinate of each cell's first column */
+    explicit LaneMoments(const double (&x0)[kLanes]) { std::copy_n(x0, kLanes, x0_); }
 
-/** 1/Z, with 0 for no reading (NaN fails the comparison). */
-void invertRow(const float* z, float* out, int n)
-{
-    for (int i = 0; i < n; ++i)
+    /** Adds a row's sums at normalised coordinates x = x0 + i * step, y, q = q0 + dq. */
+    void addRow(const RowSums& s, double step, double y, const float* q0)
     {
-        out[i] = z[i] > 0.05F && z[i] < 100.F ? 1.F / z[i] : 0.F;
+        for (int k = 0; k < kLanes; ++k)
+        {
+            const double x0 = x0_[k], q = static_cast<double>(q0[k]);
+            const double sn = static_cast<double>(s.n[k]), si = static_cast<double>(s.i[k]);
+            const double sx = sn * x0 + si * step;
+            const double sq = sn * q + static_cast<double>(s.q[k]);
+            n_[k] += sn;
+            x_[k] += sx;
+            y_[k] += sn * y;
+            xx_[k] +=
+                sn * x0 * x0 + 2 * x0 * step * si + step * step * static_cast<double>(s.ii[k]);
+            xy_[k] += sx * y;
+            yy_[k] += sn * y * y;
+            q_[k] += sq;
+            xq_[k] += x0 * sq + step * (si * q + static_cast<double>(s.iq[k]));
+            yq_[k] += y * sq;
+            qq_[k] +=
+                sn * q * q + 2 * q * static_cast<double>(s.q[k]) + static_cast<double>(s.qq[k]);
+        }
     }
-}
+
+    [[nodiscard]] PlaneMoments at(int k) const
+    {
+        PlaneMoments m;
+        m.n = n_[k];
+        m.x = x_[k];
+        m.y = y_[k];
+        m.xx = xx_[k];
+        m.xy = xy_[k];
+        m.yy = yy_[k];
+        m.q = q_[k];
+        m.xq = xq_[k];
+        m.yq = yq_[k];
+        m.qq = qq_[k];
+        return m;
+    }
+
+ private:
+    double x0_[kLanes];
+    double n_[kLanes] = {}, x_[kLanes] = {}, y_[kLanes] = {};
+    double xx_[kLanes] = {}, xy_[kLanes] = {}, yy_[kLanes] = {};
+    double q_[kLanes] = {}, xq_[kLanes] = {}, yq_[kLanes] = {}, qq_[kLanes] = {};
+};
 }  // namespace
 
 void CellGrid::compute(const cv::Mat& depth, const PinholeCamera& camera, int cellSize)
@@ -65,31 +138,40 @@ void CellGrid::compute(const cv::Mat& depth, const PinholeCamera& camera, int ce
     cellSizePx = cellSize;
     cols = depth.cols / cellSize;
     rows = depth.rows / cellSize;
-    moments.assign(static_cast<size_t>(rows) * static_cast<size_t>(cols), {});
-    std::vector<float> inverseDepth(static_cast<size_t>(depth.cols));
-    std::vector<float> qReference(static_cast<size_t>(cols), 0.F);
+    moments.resize(static_cast<size_t>(rows) * static_cast<size_t>(cols));
     for (int row = 0; row < rows; ++row)
     {
-        qReference.assign(qReference.size(), 0.F);
-        for (int v = row * cellSize; v < (row + 1) * cellSize; ++v)
+        for (int col = 0; col < cols; col += kLanes)
         {
-            invertRow(depth.ptr<float>(v), inverseDepth.data(), depth.cols);
-            const double y = (v - camera.cy) / camera.fy;
-            for (int col = 0; col < cols; ++col)
+            // Beyond the last cell, that one again.
+            int firstColumn[kLanes];
+            double x0[kLanes];
+            for (int k = 0; k < kLanes; ++k)
             {
-                const float* q = inverseDepth.data() + col * cellSize;
-                float& reference = qReference[static_cast<size_t>(col)];
-                if (reference == 0.F)
+                firstColumn[k] = std::min(col + k, cols - 1) * cellSize;
+                x0[k] = (firstColumn[k] - camera.cx) / camera.fx;
+            }
+            LaneMoments sums(x0);
+            float qReference[kLanes] = {};
+            for (int v = row * cellSize; v < (row + 1) * cellSize; ++v)
+            {
+                const auto* z = depth.ptr<float>(v);
+                const float* cells[kLanes];
+                for (int k = 0; k < kLanes; ++k)
                 {
-                    reference = q[cellSize / 2];
+                    cells[k] = z + firstColumn[k];
                 }
-                addRow(
-                    moments[static_cast<size_t>(row * cols + col)],
-                    sumRow(q, cellSize, reference),
-                    (col * cellSize - camera.cx) / camera.fx,
+                const CellRow cellRow(cells, cellSize);
+                completeReference(cellRow.inverseDepth(cellSize / 2), qReference);
+                sums.addRow(
+                    cellRow.sum(qReference),
                     1 / camera.fx,
-                    y,
-                    static_cast<double>(reference));
+                    (v - camera.cy) / camera.fy,
+                    qReference);
+            }
+            for (int k = 0; k < std::min(kLanes, cols - col); ++k)
+            {
+                moments[static_cast<size_t>(row * cols + col + k)] = sums.at(k);
             }
         }
     }

@@ -13,11 +13,23 @@ struct Node
 {
     PlaneMoments moments;
     MomentsFit fit;
-    std::vector<int> cells;
-    std::vector<int> neighbours;  //!< sorted node ids; may name merged nodes until resolved
+    int firstCell{-1}, lastCell{-1};  //!< of a chain, which Graph keeps
+    size_t numCells{0};
+    std::vector<int> neighbours;  //!< node ids; sorted, and not of merged nodes, once resolved
     bool alive{true};
 
     [[nodiscard]] double meanSquaredError() const { return fit.sse / moments.n; }
+
+    /** Runs of the same one are common: cells along a border. */
+    void addNeighbour(int node)
+    {
+        constexpr size_t kUsual = 8;
+        if (neighbours.empty() || neighbours.back() != node)
+        {
+            neighbours.reserve(std::max(kUsual, neighbours.capacity()));
+            neighbours.push_back(node);
+        }
+    }
 };
 
 struct QueueEntry
@@ -47,16 +59,21 @@ class Graph
     void resolveNeighbours(int node);
     void absorb(int into, int from, const MomentsFit& fit);
     [[nodiscard]] std::pair<int, MomentsFit> bestMerge(int node);
+    [[nodiscard]] std::vector<int> cellsOf(const Node& node) const;
 
     const CellGrid& grid_;
     const PlanarityTest& test_;
     std::vector<Node> nodes_;
     std::vector<int> nodeOfCell_;  //!< -1 = not planar
+    std::vector<int> nextCell_;    //!< of the same node; -1 = none
     std::vector<int> parent_;      //!< union-find over nodes
 };
 
 Graph::Graph(const CellGrid& grid, const PlanarityTest& test, double minValidFraction)
-    : grid_(grid), test_(test), nodeOfCell_(grid.moments.size(), -1)
+    : grid_(grid),
+      test_(test),
+      nodeOfCell_(grid.moments.size(), -1),
+      nextCell_(grid.moments.size(), -1)
 {
     makeCellNodes(minValidFraction);
     parent_.resize(nodes_.size());
@@ -77,7 +94,8 @@ void Graph::makeCellNodes(double minValidFraction)
             continue;
         }
         nodeOfCell_[i] = static_cast<int>(nodes_.size());
-        nodes_.push_back({m, *fitPlane(m), {static_cast<int>(i)}, {}, true});
+        const int cell = static_cast<int>(i);
+        nodes_.push_back({m, *fitPlane(m), cell, cell, 1, {}, true});
     }
 }
 
@@ -93,7 +111,7 @@ void Graph::mergeQuads()
                 {
                     const int node = nodeOfCell_[static_cast<size_t>(r * grid_.cols + c)];
                     const bool whole =
-                        node >= 0 && nodes_[static_cast<size_t>(find(node))].cells.size() ==
+                        node >= 0 && nodes_[static_cast<size_t>(find(node))].numCells ==
                                          static_cast<size_t>(size * size);
                     return whole ? find(node) : -1;
                 };
@@ -138,8 +156,8 @@ void Graph::connect()
         const int a = find(nodeOfCell_[cellA]), b = find(nodeOfCell_[cellB]);
         if (a != b)
         {
-            nodes_[static_cast<size_t>(a)].neighbours.push_back(b);
-            nodes_[static_cast<size_t>(b)].neighbours.push_back(a);
+            nodes_[static_cast<size_t>(a)].addNeighbour(b);
+            nodes_[static_cast<size_t>(b)].addNeighbour(a);
         }
     };
     const size_t cols = static_cast<size_t>(grid_.cols), rows = static_cast<size_t>(grid_.rows);
@@ -194,10 +212,11 @@ void Graph::absorb(int into, int from, const MomentsFit& fit)
     Node& b = nodes_[static_cast<size_t>(from)];
     a.moments += b.moments;
     a.fit = fit;
-    a.cells.insert(a.cells.end(), b.cells.begin(), b.cells.end());
+    nextCell_[static_cast<size_t>(a.lastCell)] = b.firstCell;
+    a.lastCell = b.lastCell;
+    a.numCells += b.numCells;
     a.neighbours.insert(a.neighbours.end(), b.neighbours.begin(), b.neighbours.end());
     b.alive = false;
-    b.cells.clear();
     b.neighbours.clear();
     parent_[static_cast<size_t>(from)] = into;
 }
@@ -219,6 +238,19 @@ std::pair<int, MomentsFit> Graph::bestMerge(int id)
         }
     }
     return best;
+}
+
+/** Sorted. */
+std::vector<int> Graph::cellsOf(const Node& node) const
+{
+    std::vector<int> out;
+    out.reserve(node.numCells);
+    for (int cell = node.firstCell; cell >= 0; cell = nextCell_[static_cast<size_t>(cell)])
+    {
+        out.push_back(cell);
+    }
+    std::sort(out.begin(), out.end());
+    return out;
 }
 
 std::vector<CellCluster> Graph::cluster(double minPixels)
@@ -250,8 +282,7 @@ std::vector<CellCluster> Graph::cluster(double minPixels)
         const auto [other, fit] = bestMerge(top.node);
         if (other >= 0)
         {
-            const bool keepOther =
-                nodes_[static_cast<size_t>(other)].cells.size() > node.cells.size();
+            const bool keepOther = nodes_[static_cast<size_t>(other)].numCells > node.numCells;
             const int into = keepOther ? other : top.node;
             absorb(into, keepOther ? top.node : other, fit);
             enqueue(into);
@@ -260,8 +291,7 @@ std::vector<CellCluster> Graph::cluster(double minPixels)
         node.alive = false;
         if (node.moments.n >= minPixels)
         {
-            std::sort(node.cells.begin(), node.cells.end());
-            out.push_back({node.moments, node.fit, std::move(node.cells)});
+            out.push_back({node.moments, node.fit, cellsOf(node)});
         }
     }
     std::sort(

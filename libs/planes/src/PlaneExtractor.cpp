@@ -136,7 +136,7 @@ class LabelPainter
             for (const int cell : clusters[i].cells)
             {
                 labelOfCell_[static_cast<size_t>(cell)] = static_cast<uchar>(i + 1);
-                labels_(rect(cell)).setTo(static_cast<double>(i + 1));
+                paintCell(cell, static_cast<uchar>(i + 1));
             }
         }
         for (int cell = 0; cell < static_cast<int>(labelOfCell_.size()); ++cell)
@@ -154,6 +154,15 @@ class LabelPainter
     {
         const int s = grid_.cellSizePx;
         return {cell % grid_.cols * s, cell / grid_.cols * s, s, s};
+    }
+
+    void paintCell(int cell, uchar label)
+    {
+        const cv::Rect area = rect(cell);
+        for (int v = area.y; v < area.y + area.height; ++v)
+        {
+            std::fill_n(labels_.ptr<uchar>(v) + area.x, area.width, label);
+        }
     }
 
     /** Labels of the up to eight cells around, sorted, without repetition. */

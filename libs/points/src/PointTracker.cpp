@@ -3,13 +3,16 @@
 #include <pointplane/core/covariance.h>
 #include <pointplane/points/PointTracker.h>
 
+#include <opencv2/core/utility.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "local_surface.h"
+#include "lucas_kanade.h"
 #include "patch_uncertainty.h"
 
 namespace pointplane
@@ -50,28 +53,74 @@ void samplePatch(const cv::Mat& image, const cv::Point2f& centre, float* out)
     }
 }
 
-/** Zero-mean normalised cross-correlation, blind to gain and bias; 0 for flat patches. */
-double zncc(
-    const cv::Mat& imageA, const cv::Point2f& a, const cv::Mat& imageB, const cv::Point2f& b)
+/** The square around a point, to be compared with others. \pre isInside(centre, image) */
+struct ComparedPatch
 {
-    constexpr int n = kZnccPx * kZnccPx;
-    float A[n], B[n];
-    samplePatch(imageA, a, A);
-    samplePatch(imageB, b, B);
-    double sa = 0, sb = 0, saa = 0, sbb = 0, sab = 0;
-    for (int i = 0; i < n; ++i)
+    static constexpr int kSize = kZnccPx * kZnccPx;
+
+    ComparedPatch(const cv::Mat& image, const cv::Point2f& centre)
     {
-        const double x = static_cast<double>(A[i]), y = static_cast<double>(B[i]);
-        sa += x;
-        sb += y;
-        saa += x * x;
-        sbb += y * y;
-        sab += x * y;
+        samplePatch(image, centre, samples.data());
+        for (const float sample : samples)
+        {
+            const auto x = static_cast<double>(sample);
+            sum += x;
+            sumOfSquares += x * x;
+        }
     }
-    const double va = saa - sa * sa / n, vb = sbb - sb * sb / n;
-    return va > 1 && vb > 1 ? (sab - sa * sb / n) / std::sqrt(va * vb) : 0;
+
+    [[nodiscard]] double variation() const { return sumOfSquares - sum * sum / kSize; }
+
+    std::array<float, kSize> samples;
+    double sum{0}, sumOfSquares{0};
+};
+
+/** Zero-mean normalised cross-correlation, blind to gain and bias; 0 for flat patches. */
+double zncc(const ComparedPatch& a, const ComparedPatch& b)
+{
+    double product = 0;
+    for (size_t i = 0; i < a.samples.size(); ++i)
+    {
+        product += static_cast<double>(a.samples[i]) * static_cast<double>(b.samples[i]);
+    }
+    const double va = a.variation(), vb = b.variation();
+    return va > 1 && vb > 1 ? (product - a.sum * b.sum / ComparedPatch::kSize) / std::sqrt(va * vb)
+                            : 0;
 }
+
+/** A point of the reference that is looked for. */
+struct Candidate
+{
+    size_t ref;
+    cv::Point2f predicted, position;
+    bool found{false};
+};
 }  // namespace
+
+/** What the points of a reference look like. */
+struct ReferencePatches
+{
+    PatchTemplates searched;
+    std::vector<ComparedPatch> compared;
+
+    ReferencePatches(
+        const std::vector<cv::Mat>& pyramid, const std::vector<PointFeature>& points, int windowPx)
+        : searched(windowPx)
+    {
+        for (const PointFeature& point : points)
+        {
+            const cv::Point2f centre = cv::Point2d(point.uv_px.x(), point.uv_px.y());
+            searched.add(pyramid, centre);
+            compared.emplace_back(pyramid[0], centre);
+        }
+    }
+};
+
+struct PointTracker::Search
+{
+    PatchSearch ofPatch;
+    size_t step{1};  //!< every step-th point
+};
 
 void PointReference::note(const std::vector<PointTrack>& tracks)
 {
@@ -168,8 +217,9 @@ PointReference PointTracker::makeReference(const RgbdFrame& frame) const
     {
         return out;
     }
+    std::vector<cv::Mat> pyramid;
     cv::buildOpticalFlowPyramid(
-        frame.gray, out.pyramid, {params_.windowPx, params_.windowPx}, params_.numLevels - 1, true);
+        frame.gray, pyramid, {params_.windowPx, params_.windowPx}, params_.numLevels - 1, true);
     struct Edge
     {
         PointFeature point;
@@ -182,14 +232,14 @@ PointReference PointTracker::makeReference(const RgbdFrame& frame) const
         out.cov_px.push_back(uncertainty.covariance(params_.maxNoisePx));
     };
     const double noise = imageNoise(frame.gray);
-    for (const cv::Point2f& pixel : candidates(out.pyramid))
+    for (const cv::Point2f& pixel : candidates(pyramid))
     {
         if (out.points.size() >= static_cast<size_t>(params_.maxPoints))
         {
             break;
         }
         const PatchUncertainty uncertainty =
-            patchUncertainty(out.pyramid[1], pixel, params_.windowPx, noise);
+            patchUncertainty(pyramid[1], pixel, params_.windowPx, noise);
         const bool isCorner = uncertainty.worst() <= params_.maxNoisePx;
         const bool isEdge = !isCorner && uncertainty.best() <= kEdgeOfCorner * params_.maxNoisePx;
         if (!isInside(pixel, frame.gray) || !(isCorner || isEdge))
@@ -212,6 +262,7 @@ PointReference PointTracker::makeReference(const RgbdFrame& frame) const
     {
         add(edges[i].point, edges[i].uncertainty);
     }
+    out.patches = std::make_shared<ReferencePatches>(pyramid, out.points, params_.windowPx);
     return out;
 }
 
@@ -222,16 +273,16 @@ PointTracker::Search PointTracker::searchFor(double radius_px, bool isWide, size
 {
     constexpr size_t kWidePoints = 60;
     Search out;
-    out.numLevels = 1;
-    while (out.numLevels < params_.numLevels &&
-           (params_.windowPx / 4.0) * (1 << (out.numLevels - 1)) < radius_px)
+    int& numLevels = out.ofPatch.numLevels;
+    while (numLevels < params_.numLevels &&
+           (params_.windowPx / 4.0) * (1 << (numLevels - 1)) < radius_px)
     {
-        ++out.numLevels;
+        ++numLevels;
     }
     if (isWide)
     {
         out.step = std::max<size_t>(1, numPoints / kWidePoints);
-        out.epsilon_px = 0.1;
+        out.ofPatch.epsilon_px = 0.1;
     }
     return out;
 }
@@ -243,60 +294,57 @@ std::vector<PointTrack> PointTracker::track(
     const Eigen::Isometry3d& T_cur_ref,
     double radiusFactor) const
 {
-    std::vector<int> indices;
-    std::vector<cv::Point2f> from, to;
+    std::vector<PointTrack> tracks;
+    if (!reference.patches || pyramid.empty())
+    {
+        return tracks;
+    }
     const double radius = radiusFactor * params_.searchRadiusFraction * frame.gray.cols;
     const bool isWide = radiusFactor > 1;
     const Search search = searchFor(radius, isWide, reference.points.size());
+    std::vector<Candidate> candidates;
+    candidates.reserve(reference.points.size() / search.step + 1);
     for (size_t i = 0; i < reference.points.size(); i += search.step)
     {
-        const PointFeature& point = reference.points[i];
-        const Eigen::Vector3d p_cur = T_cur_ref * point.p_cam.mean;
+        const Eigen::Vector3d p_cur = T_cur_ref * reference.points[i].p_cam.mean;
         if (!(p_cur.z() > 0.1) || !(isWide || reference.isDue(i)))
         {
             continue;
         }
-        const cv::Point2d predicted(
-            frame.camera.project(p_cur).x(), frame.camera.project(p_cur).y());
+        const Eigen::Vector2d uv_px = frame.camera.project(p_cur);
+        const cv::Point2f predicted = cv::Point2d(uv_px.x(), uv_px.y());
         if (isInside(predicted, frame.gray))
         {
-            indices.push_back(static_cast<int>(i));
-            from.emplace_back(cv::Point2d(point.uv_px.x(), point.uv_px.y()));
-            to.emplace_back(predicted);
+            candidates.push_back({i, predicted, predicted});
         }
     }
-    std::vector<PointTrack> tracks;
-    if (indices.empty() || pyramid.empty())
+    cv::parallel_for_(
+        cv::Range(0, static_cast<int>(candidates.size())),
+        [&](const cv::Range& range)
+        {
+            for (int k = range.start; k < range.end; ++k)
+            {
+                Candidate& c = candidates[static_cast<size_t>(k)];
+                c.found =
+                    reference.patches->searched.find(c.ref, pyramid, search.ofPatch, c.position);
+            }
+        });
+    for (const Candidate& c : candidates)
     {
-        return tracks;
-    }
-    const std::vector<cv::Point2f> predicted = to;
-    std::vector<uchar> found;
-    cv::calcOpticalFlowPyrLK(
-        reference.pyramid,
-        pyramid,
-        from,
-        to,
-        found,
-        cv::noArray(),
-        {params_.windowPx, params_.windowPx},
-        search.numLevels - 1,
-        {cv::TermCriteria::COUNT | cv::TermCriteria::EPS, search.maxIterations, search.epsilon_px},
-        cv::OPTFLOW_USE_INITIAL_FLOW);
-    for (size_t k = 0; k < indices.size(); ++k)
-    {
-        if (found[k] == 0 || cv::norm(to[k] - predicted[k]) > radius ||
-            !isInside(to[k], frame.gray) ||
-            zncc(reference.pyramid[0], from[k], pyramid[0], to[k]) < params_.minZncc)
+        if (!c.found || cv::norm(c.position - c.predicted) > radius ||
+            !isInside(c.position, frame.gray) ||
+            zncc(reference.patches->compared[c.ref], ComparedPatch(pyramid[0], c.position)) <
+                params_.minZncc)
         {
             continue;
         }
-        if (auto feature = lifter_.lift(frame, Eigen::Vector2f(to[k].x, to[k].y).cast<double>()))
+        if (auto feature =
+                lifter_.lift(frame, Eigen::Vector2f(c.position.x, c.position.y).cast<double>()))
         {
             // Along an edge, a track slides on the surface.
-            const auto& cov_px = reference.cov_px[static_cast<size_t>(indices[k])];
-            feature->p_cam.cov += propagate(surfaceJacobian(frame.camera, *feature), cov_px);
-            tracks.push_back({indices[k], *feature});
+            feature->p_cam.cov +=
+                propagate(surfaceJacobian(frame.camera, *feature), reference.cov_px[c.ref]);
+            tracks.push_back({static_cast<int>(c.ref), *feature});
         }
     }
     return tracks;

@@ -198,7 +198,9 @@ void NormalEquations::add(FeatureSum& sum, size_t i) const
         Eigen::Matrix<double, 3, 12> J;
         J << residual.J, residual.J_V;
         const Eigen::Matrix<double, 12, 3> JtW = J.transpose() * W;
-        const Matrix12d JtWJ = JtW * J;
+        // Not as a general matrix product, which packs its operands: three columns are not worth
+        // it.
+        const Matrix12d JtWJ = JtW.lazyProduct(J);
         sum.H += g * w * JtWJ;
         sum.g += g * w * JtW * residual.r;
         // W Sigma W = W of weights that are the inverse covariance.

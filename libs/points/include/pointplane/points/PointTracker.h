@@ -9,10 +9,13 @@
 
 #include <opencv2/core/mat.hpp>
 
+#include <memory>
 #include <vector>
 
 namespace pointplane
 {
+struct ReferencePatches;
+
 /** A point found again. */
 struct PointTrack
 {
@@ -24,8 +27,8 @@ struct PointTrack
 struct PointReference
 {
     std::vector<PointFeature> points;
-    std::vector<cv::Mat> pyramid;         //!< tracking: of the grey image, with derivatives
-    cv::Mat descriptors;                  //!< matching: a row a point
+    std::shared_ptr<const ReferencePatches> patches;  //!< tracking: what each looks like
+    cv::Mat descriptors;                              //!< matching: a row a point
     std::vector<Eigen::Matrix2d> cov_px;  //!< tracking: image noise of where each is found [px^2]
     std::vector<int> misses;              //!< tracking: frames in a row without each point
 
@@ -91,7 +94,7 @@ class PointTracker
     PointTracker(
         const TParams& params, const PointLifter::TParams& lifter, const DepthNoise& noise);
 
-    /** The image pyramid that makeReference and track need. */
+    /** The image pyramid that track needs. */
     [[nodiscard]] std::vector<cv::Mat> pyramid(const cv::Mat& gray) const;
 
     /** Corners (Shi & Tomasi 1994) of the image at half its size, with depth; where there are few,
@@ -110,13 +113,7 @@ class PointTracker
 
  private:
     /** How thoroughly points are searched for. */
-    struct Search
-    {
-        int numLevels{1};
-        size_t step{1};  //!< every step-th point
-        int maxIterations{10};
-        double epsilon_px{0.03};
-    };
+    struct Search;
     [[nodiscard]] Search searchFor(double radius_px, bool isWide, size_t numPoints) const;
     [[nodiscard]] std::vector<cv::Point2f> candidates(const std::vector<cv::Mat>& pyramid) const;
 
