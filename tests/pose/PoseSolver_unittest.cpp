@@ -291,6 +291,27 @@ TEST(PoseSolver, tukeyIgnoresThirtyPercentOfOutliers)
     EXPECT_GT(harmed, 10 * 10 * clean);
 }
 
+TEST(PoseSolver, fewPointsThatTellADirectionAreBelieved)
+{
+    // Many points on vertical edges, which tell nothing of the height; eight corners, which have
+    // moved by seven sigma more than was foreseen; and one that is none and stays where it was.
+    PairWorld world(11);
+    world.addPoints(60);
+    world.T_base_cur.translation() << 0, 0.02, 0;
+    std::vector<PointPair> points = world.drawPoints(0);
+    for (size_t i = 0; i < points.size(); ++i)
+    {
+        PointPair& pair = points[i];
+        const double alongEdge = i < 9 ? 0.002 : 4;
+        pair.base.cov = pair.cur.cov =
+            Eigen::Vector3d(0.002, alongEdge, 0.01).cwiseAbs2().asDiagonal();
+    }
+    points[8].cur.mean.y() += 0.02;
+    const PoseEstimate estimate = solve({}, points, {}, loosePrior());
+    EXPECT_THAT(estimate.pose().mean, test::IsNearPose(world.T_base_cur, 1e-3, 1e-3));
+    EXPECT_EQ(estimate.numPointInliers, 59);
+}
+
 TEST(PoseSolver, studentTBearsAWrongPlane)
 {
     PairWorld world(17);

@@ -24,6 +24,7 @@ void JointCovariance::TParams::check() const
         "model = " << model << " is neither joint nor independent");
     POINTPLANE_CHECK(noise > 0, "noise = " << noise << " is not positive");
     POINTPLANE_CHECK(drift >= 0, "drift = " << drift << " is negative");
+    POINTPLANE_CHECK(driftSigma >= 0, "driftSigma = " << driftSigma << " is negative");
     POINTPLANE_CHECK(
         history >= 1 && history <= 300, "history = " << history << " is not in 1..300");
 }

@@ -26,6 +26,9 @@ constexpr int kMinMatches = 3;
  * renderings at once (docs/experiments.md). */
 constexpr double kDriftPower = 1.5;
 
+/** A common error turns the pose by as much as it moves what is seen 2 m away [rad/m]. */
+constexpr double kDriftRotation = 0.5;
+
 /** How many directions the measurements know better than the motion model does. */
 int observableDirections(const Matrix6d& information, const Matrix6d& priorCovariance)
 {
@@ -204,11 +207,16 @@ JointCovariance::Measurement PoseStage::errorsOf(
     out.noise = points + planes;
     out.noise.topLeftCorner<6, 6>() += ofShutter;
     out.priorNoise = propagate(estimate.sensitivity.prior, motion_.processNoise(dt));
-    const Matrix12d drift =
+    const Matrix12d ofFeatures =
         std::pow(residuals.points, kDriftPower) * noise_.disagreement().points * points +
         std::pow(residuals.planes, kDriftPower) * planes;
-    out.drift =
-        covariance_.drift * numViews(estimate.motion.mean.T_base_cur) * drift.topLeftCorner<6, 6>();
+    Vector6d common;  // many features do not average what they all err by
+    common << Eigen::Vector3d::Constant(covariance_.driftSigma),
+        Eigen::Vector3d::Constant(covariance_.driftSigma * kDriftRotation);
+    out.drift = covariance_.drift * ofFeatures.topLeftCorner<6, 6>();
+    out.drift.diagonal() +=
+        std::pow(residuals.points * residuals.planes, kDriftPower / 2) * common.cwiseAbs2();
+    out.drift *= numViews(estimate.motion.mean.T_base_cur);
     return out;
 }
 

@@ -39,7 +39,7 @@ NormalEquations::NormalEquations(
 {
 }
 
-void NormalEquations::evaluate(const Motion& motion)
+void NormalEquations::evaluate(const Motion& motion, double widening)
 {
     residuals_.clear();
     for (size_t i = 0; i < points_.size() + planes_.size(); ++i)
@@ -49,7 +49,8 @@ void NormalEquations::evaluate(const Motion& motion)
     if (!points_.empty())
     {
         // Below one only by chance or by a pessimistic noise model: never tighten the gate for it.
-        scale_ = std::max(params_.weighting == "none" ? 0.1 : 1.0, std::sqrt(pointVariance()));
+        const double least = params_.weighting == "none" ? 0.1 : 1.0;
+        scale_ = widening * std::max(least, std::sqrt(pointVariance()));
     }
     pointSum_ = {};
     planeSum_ = {};

@@ -31,8 +31,9 @@ class NormalEquations
         const std::vector<PlanePair>& planes,
         const NoiseFactors& noise);
 
-    /** Residuals and sums at this motion; the robust scale of the points is estimated from it. */
-    void evaluate(const Motion& motion);
+    /** Residuals and sums at this motion; the robust scale of the points is estimated from it.
+     * \param widening of that scale */
+    void evaluate(const Motion& motion, double widening = 1);
 
     /** Cost of all pairs at another motion, with the robust scale of the latest evaluate(). */
     [[nodiscard]] double costAt(const Motion& motion) const;

@@ -22,6 +22,11 @@ constexpr double kStepTolerance = 1e-5;
 /** Keeps what nothing determines finite. */
 constexpr double kDamping = 1e-9;
 
+/** Of the robust scale at the start: where a few points tell a direction and the motion was not
+ * foreseen, all of them look like outliers there, and Tukey's function would never take them back.
+ */
+constexpr double kStartWidening = 4;
+
 /** Squared Mahalanobis norm of the pose's deviation from the predicted one. */
 double deviation(const MotionPrior& prior, const Vector12d& residual)
 {
@@ -54,6 +59,70 @@ struct RobustPrior
             isDoubted(norm2) ? 6 + (dof + 6) * std::log((dof + norm2) / (dof + 6)) : norm2;
         return poseCost + r.dot(prior.velocityGivenPose * r);
     }
+};
+
+/** Levenberg-Marquardt. */
+class Descent
+{
+ public:
+    Descent(
+        NormalEquations& equations,
+        const RobustPrior& prior,
+        const Motion& start,
+        int maxIterations)
+        : equations_(equations), prior_(prior), motion_(start), maxIterations_(maxIterations)
+    {
+    }
+
+    /** One step, damped until it lowers the cost. \param widening of the robust scale
+     * \return whether another one is worth trying */
+    bool step(double widening)
+    {
+        equations_.evaluate(motion_, widening);
+        const double cost = equations_.cost() + prior_.cost(motion_);
+        const Matrix12d information = prior_.information(motion_);
+        const Matrix12d H = equations_.points().H + equations_.planes().H + information;
+        const Vector12d g = equations_.points().g + equations_.planes().g -
+                            information * prior_.prior.residual(motion_);
+        converged_ = false;
+        for (bool accepted = false; !accepted && !isDone();)
+        {
+            ++iterations_;
+            Matrix12d damped = H;
+            damped.diagonal() += lambda_ * H.diagonal() + Vector12d::Constant(kDamping);
+            const Vector12d step = -damped.ldlt().solve(g);
+            const Motion candidate{
+                se3Exp(step.head<6>()) * motion_.T_base_cur, motion_.velocity + step.tail<6>()};
+            accepted = step.allFinite() &&
+                       equations_.costAt(candidate) + prior_.cost(candidate) <= cost * (1 + 1e-12);
+            converged_ = (step.head<3>().norm() < kStepTolerance &&
+                          step.segment<3>(3).norm() < kStepTolerance) ||
+                         (!accepted && lambda_ > kMostDamped);
+            lambda_ = accepted ? std::max(kLeastDamped, lambda_ * 0.1) : lambda_ * 10;
+            if (accepted)
+            {
+                motion_ = {orthonormalised(candidate.T_base_cur), candidate.velocity};
+            }
+        }
+        return !isDone();
+    }
+
+    [[nodiscard]] const Motion& motion() const { return motion_; }
+    [[nodiscard]] int iterations() const { return iterations_; }
+    [[nodiscard]] bool converged() const { return converged_; }
+
+ private:
+    static constexpr double kLeastDamped = 1e-9, kMostDamped = 1e7;
+
+    [[nodiscard]] bool isDone() const { return converged_ || iterations_ >= maxIterations_; }
+
+    NormalEquations& equations_;
+    const RobustPrior& prior_;
+    Motion motion_;
+    int maxIterations_;
+    double lambda_{1e-6};
+    int iterations_{0};
+    bool converged_{false};
 };
 }  // namespace
 
@@ -102,42 +171,16 @@ PoseEstimate PoseSolver::solve(
 {
     const RobustPrior prior{motionPrior, params_.priorStudentDof};
     NormalEquations equations(params_, points, planes, noise);
-    PoseEstimate out;
-    Motion x = start;
-    double lambda = 1e-6;
-    while (out.iterations < params_.maxIterations && !out.converged)
+    Descent descent(equations, prior, start, params_.maxIterations);
+    descent.step(kStartWidening);
+    while (descent.step(1))
     {
-        equations.evaluate(x);
-        const double cost = equations.cost() + prior.cost(x);
-        const Matrix12d information = prior.information(x);
-        const Matrix12d H = equations.points().H + equations.planes().H + information;
-        const Vector12d g =
-            equations.points().g + equations.planes().g - information * motionPrior.residual(x);
-        for (bool accepted = false; !accepted && out.iterations < params_.maxIterations;)
-        {
-            ++out.iterations;
-            Matrix12d damped = H;
-            damped.diagonal() += lambda * H.diagonal() + Vector12d::Constant(kDamping);
-            const Vector12d step = -damped.ldlt().solve(g);
-            const Motion candidate{
-                se3Exp(step.head<6>()) * x.T_base_cur, x.velocity + step.tail<6>()};
-            accepted = step.allFinite() &&
-                       equations.costAt(candidate) + prior.cost(candidate) <= cost * (1 + 1e-12);
-            out.converged = step.head<3>().norm() < kStepTolerance &&
-                            step.segment<3>(3).norm() < kStepTolerance;
-            lambda = accepted ? std::max(1e-9, lambda * 0.1) : lambda * 10;
-            if (accepted)
-            {
-                x = {orthonormalised(candidate.T_base_cur), candidate.velocity};
-            }
-            else if (out.converged || lambda > 1e8)
-            {
-                out.converged = true;
-                break;
-            }
-        }
     }
+    const Motion& x = descent.motion();
     equations.evaluate(x);
+    PoseEstimate out;
+    out.iterations = descent.iterations();
+    out.converged = descent.converged();
     const FeatureSum& p = equations.points();
     const FeatureSum& m = equations.planes();
     const Matrix12d known = prior.information(x) + kDamping * Matrix12d::Identity();

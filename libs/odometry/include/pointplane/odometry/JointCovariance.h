@@ -24,8 +24,9 @@ class JointCovariance
     struct TParams
     {
         std::string model{"joint"};
-        double noise{0.6};
-        double drift{12};
+        double noise{0.4};
+        double drift{10};
+        double driftSigma{0.00025};
         int history{1};
 
         template <class V>
@@ -45,6 +46,11 @@ class JointCovariance
               "-",
               "variance that what a reference says gains until another view (0.15 m or 10 deg), "
               "over that");
+            v("driftSigma",
+              driftSigma,
+              "m",
+              "standard deviation that it gains besides in every direction, and half as many rad, "
+              "if residuals are as the sensor's noise makes them");
             v("history", history, "frames", "how far back motions are told with their covariances");
         }
         /** \throws std::invalid_argument naming the key */
