@@ -79,6 +79,19 @@ TEST(PatchUncertainty, OfAnEdgeIsInfiniteAlongIt)
     EXPECT_NEAR(cov(0, 1), 0, 1e-6);
 }
 
+TEST(PatchUncertainty, WeakStructureOnAnEdgeDoesNotCount)
+{
+    for (const auto& [step, counts] : {std::pair(4, false), std::pair(20, true)})
+    {
+        cv::Mat gray(100, 100, CV_8UC1, cv::Scalar(150));
+        gray(cv::Rect(0, 50, 50, 50)).setTo(150 - step);
+        gray(cv::Rect(50, 0, 50, 100)).setTo(50);
+        const PatchUncertainty u = patchUncertainty(derivativesOf(gray), {50, 50}, kWindowPx, 0.3);
+        EXPECT_EQ(std::isfinite(u.worst()), counts) << step;
+        EXPECT_LT(u.best(), 0.01);
+    }
+}
+
 TEST(PatchUncertainty, OfNoiseIsLarge)
 {
     const cv::Mat gray = blankWall(1.5), derivatives = derivativesOf(gray);

@@ -55,6 +55,7 @@ PatchUncertainty patchUncertainty(
     const cv::Mat& derivatives, const cv::Point2f& centre, int windowPx, double noise)
 {
     constexpr double kGain = 32;
+    constexpr double kEdge = 10;
     constexpr double kNoiseGain = 2 * (3 * 3 + 10 * 10 + 3 * 3) / (kGain * kGain);
     const int half = windowPx / 2;
     const cv::Rect patch =
@@ -82,6 +83,10 @@ PatchUncertainty patchUncertainty(
         const double structure = es.eigenvalues()[k] - kNoiseGain * noise * noise * patch.area();
         out.sigma_px[k] = structure > 0 ? noise * std::sqrt(2 / structure)
                                         : std::numeric_limits<double>::infinity();
+    }
+    if (out.worst() > kEdge * out.best())
+    {
+        out.sigma_px[0] = std::numeric_limits<double>::infinity();
     }
     return out;
 }

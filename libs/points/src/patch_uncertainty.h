@@ -27,7 +27,8 @@ struct PatchUncertainty
 
 /** The Cramer-Rao bound sigma sqrt(2 / lambda) in each of the principal directions, with the
  * eigenvalues lambda of the patch's gradient matrix, less what noise itself contributes to it.
- * Infinite for a patch of noise.
+ * Infinite for a patch of noise, and along an edge whose structure is ten times that along it: the
+ * rest is the edge's own bend and its brighter side's noise, on which a search stays where it began.
  * \param derivatives CV_16SC2, Scharr's (OpenCV's pyramids), gain 32
  * \param windowPx side of the patch \param noise [grey] */
 [[nodiscard]] PatchUncertainty patchUncertainty(
