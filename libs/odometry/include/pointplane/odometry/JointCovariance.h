@@ -24,8 +24,8 @@ class JointCovariance
     struct TParams
     {
         std::string model{"joint"};
-        double noise{0.4};
-        double drift{10};
+        double noise{0.3};
+        double drift{24};
         double driftSigma{0.00025};
         int history{1};
 
