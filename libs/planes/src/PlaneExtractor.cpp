@@ -166,9 +166,10 @@ class LabelPainter
     }
 
     /** Labels of the up to eight cells around, sorted, without repetition. */
-    [[nodiscard]] std::vector<uchar> adjacentLabels(int cell) const
+    const std::vector<uchar>& adjacentLabels(int cell)
     {
-        std::vector<uchar> out;
+        std::vector<uchar>& out = adjacent_;
+        out.clear();
         const int col = cell % grid_.cols, row = cell / grid_.cols;
         for (int r = std::max(0, row - 1); r <= std::min(grid_.rows - 1, row + 1); ++r)
         {
@@ -188,9 +189,8 @@ class LabelPainter
     void paintBorderCell(
         int cell, const std::vector<CellCluster>& clusters, const PlanarityTest& test)
     {
-        const std::vector<uchar> candidates = adjacentLabels(cell);
         const cv::Rect area = rect(cell);
-        for (const uchar label : candidates)
+        for (const uchar label : adjacentLabels(cell))
         {
             const Eigen::Vector3d& theta = clusters[static_cast<size_t>(label - 1)].fit.theta_m;
             const double limit = test.cellSigmas * std::sqrt(test.toleranceSquared(theta));
@@ -217,6 +217,7 @@ class LabelPainter
     const PinholeCamera& camera_;
     cv::Mat labels_;
     std::vector<uchar> labelOfCell_;
+    std::vector<uchar> adjacent_;  //!< memory of adjacentLabels()
 };
 }  // namespace
 

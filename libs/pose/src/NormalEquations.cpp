@@ -97,7 +97,10 @@ template <class Pairs>
 Matrix12d NormalEquations::currentNoise(const Pairs& pairs, size_t offset) const
 {
     using Influence = Eigen::Matrix<double, 12, 3>;  // of a feature's unit noise on g
-    std::map<int, Influence> influences;
+    std::vector<Influence> influences;
+    std::vector<std::pair<int, size_t>> order;  // feature, influence
+    influences.reserve(pairs.size());
+    order.reserve(pairs.size());
     for (size_t i = 0; i < pairs.size(); ++i)
     {
         const auto& [residual, W, squaredNorm] = residuals_[offset + i];
@@ -107,20 +110,22 @@ Matrix12d NormalEquations::currentNoise(const Pairs& pairs, size_t offset) const
         {
             Eigen::Matrix<double, 3, 12> J;
             J << residual.J, residual.J_V;
-            const Influence influence =
-                gain(offset + i) * w * J.transpose() * (W * Eigen::Matrix3d(root.matrixL()));
             const int own = -1 - static_cast<int>(i);
-            const int feature = pairs[i].feature < 0 ? own : pairs[i].feature;
-            const auto [it, isNew] = influences.emplace(feature, influence);
-            if (!isNew)
-            {
-                it->second += influence;
-            }
+            order.emplace_back(pairs[i].feature < 0 ? own : pairs[i].feature, influences.size());
+            influences.push_back(
+                gain(offset + i) * w * J.transpose() * (W * Eigen::Matrix3d(root.matrixL())));
         }
     }
+    std::sort(order.begin(), order.end());
     Matrix12d out = Matrix12d::Zero();
-    for (const auto& [feature, influence] : influences)
+    for (auto it = order.begin(); it != order.end();)
     {
+        const int feature = it->first;
+        Influence influence = Influence::Zero();
+        for (; it != order.end() && it->first == feature; ++it)
+        {
+            influence += influences[it->second];
+        }
         out += influence * influence.transpose();
     }
     return out;
