@@ -4,6 +4,7 @@
 #include <pointplane/mrpt_io/errors.h>
 
 #include <algorithm>
+#include <cmath>
 #include <ostream>
 
 #include "ProgressBar.h"
@@ -46,7 +47,7 @@ int convert(const TumConverterOptions& options, std::ostream& out, std::ostream&
             << " s: " << done.numColourAlone << " colour and " << done.numDepthAlone
             << " depth images\n";
     }
-    out << "depth after colour: " << done.depthDelay << " s (median)\n";
+    out << "depth after colour: " << std::round(1e4 * done.depthDelay) / 10 << " ms (median)\n";
     if (!done.groundTruth.empty())
     {
         out << done.groundTruth << ": ground truth\n";

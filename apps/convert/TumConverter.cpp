@@ -10,6 +10,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <optional>
@@ -24,6 +25,9 @@ namespace pointplane
 namespace
 {
 namespace fs = std::filesystem;
+
+/** Delays this close are not told anew [s]. */
+constexpr double kSameDelay = 1e-4;
 
 [[nodiscard]] std::vector<double> secondsOf(const std::vector<TumImage>& images)
 {
@@ -134,11 +138,8 @@ TumConversion convertTum(const TumConverterOptions& options, std::ostream& progr
     {
         delays.push_back(depth[d].seconds - colour[c].seconds);
     }
-    camera.shutter.depthDelay = median(delays);
 
     ScanWriter writer(options.output, options.label, options.external);
-    writer.writeComment(
-        colour[pairs.front().first].stamp, shutterComment(options.label, camera.shutter));
     std::optional<ProgressBar> bar;
     if (!options.quiet)
     {
@@ -147,6 +148,13 @@ TumConversion convertTum(const TumConverterOptions& options, std::ostream& progr
     TumConversion out;
     for (const auto& [c, d] : pairs)
     {
+        // Some colour images go with the depth image before, some with that after: 33 ms apart.
+        const double delay = depth[d].seconds - colour[c].seconds;
+        if (out.numFrames == 0 || std::abs(delay - camera.shutter.depthDelay) > kSameDelay)
+        {
+            camera.shutter.depthDelay = delay;
+            writer.writeComment(colour[c].stamp, shutterComment(options.label, camera.shutter));
+        }
         writer.write(readScan(colour[c], depth[d], camera));
         ++out.numFrames;
         if (bar)
@@ -160,7 +168,7 @@ TumConversion convertTum(const TumConverterOptions& options, std::ostream& progr
     writer.close();
     out.numColourAlone = colour.size() - pairs.size();
     out.numDepthAlone = depth.size() - pairs.size();
-    out.depthDelay = camera.shutter.depthDelay;
+    out.depthDelay = median(delays);
     return out;
 }
 }  // namespace pointplane

@@ -47,24 +47,12 @@ struct TumPair
     return out;
 }
 
-[[nodiscard]] double medianDelay(const std::vector<TumPair>& pairs)
-{
-    std::vector<double> delays;
-    for (const TumPair& pair : pairs)
-    {
-        delays.push_back(pair.depth.seconds - pair.colour.seconds);
-    }
-    const auto middle = delays.begin() + static_cast<std::ptrdiff_t>(delays.size() / 2);
-    std::nth_element(delays.begin(), middle, delays.end());
-    return *middle;
-}
-
 [[nodiscard]] RgbdFrame readFrame(const TumPair& pair, const TumCamera& camera)
 {
     RgbdFrame out;
     out.stamp = pair.colour.seconds;
     out.camera = camera.camera;
-    out.shutter = camera.shutter;
+    out.shutter.depthDelay = pair.depth.seconds - pair.colour.seconds;
     out.gray = cv::imread(pair.colour.path, cv::IMREAD_GRAYSCALE);
     const cv::Mat raw = cv::imread(pair.depth.path, cv::IMREAD_UNCHANGED);
     if (out.gray.empty() || raw.type() != CV_16UC1 || raw.size() != out.gray.size())
@@ -78,7 +66,7 @@ struct TumPair
 
 /** Noise of the motion capture of the TUM sequences, per pose; of the rotation about the camera's
  * x, y, z as benchmark_ground_truth finds it on fr1 and fr3, averaged. */
-constexpr double kMotionCaptureSigma = 1e-4;                     // [m]
+constexpr double kMotionCaptureSigma = 1e-4;  // [m]
 constexpr double kMotionCaptureSigmaDeg[] = {0.12, 0.06, 0.055};
 
 [[nodiscard]] bool startsWith(const std::string& text, const std::string& start)
@@ -88,10 +76,8 @@ constexpr double kMotionCaptureSigmaDeg[] = {0.12, 0.06, 0.055};
 
 [[nodiscard]] BenchmarkSequence tumSequence(const std::string& folder)
 {
-    TumCamera camera = loadTumCamera("", folder);
+    const TumCamera camera = loadTumCamera("", folder);
     const auto pairs = pairsOf(folder);
-    camera.shutter = {};
-    camera.shutter.depthDelay = medianDelay(pairs);
     BenchmarkSequence out;
     out.name = fs::path(folder).filename().string();
     out.numFrames = pairs.size();

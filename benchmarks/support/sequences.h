@@ -29,9 +29,9 @@ struct SequenceSource
 };
 
 /** All folders with rgb.txt, depth.txt and groundtruth.txt in `data`, in order of name. Of the
- * shutter the median delay of the stamps is known. The ground truth of folders called tum_... or
- * rgbd_dataset_... is motion capture: 0.1 mm and 0.06 deg of noise per pose and axis; that of
- * others is exact. */
+ * shutter the delay between each frame's stamps is known. The ground truth of folders called
+ * tum_... or rgbd_dataset_... is motion capture: 0.1 mm and 0.06 deg of noise per pose and axis;
+ * that of others is exact. */
 [[nodiscard]] std::vector<SequenceSource> tumSequences(const std::string& data);
 
 /** Simulated scenes through a first generation Kinect, rolling shutter included, which the frames

@@ -121,20 +121,31 @@ TEST_F(ConvertApp, pairsAreThoseOfAssociateAndNothingIsLost)
         test::readBytes(dir_ / "in/groundtruth.txt"));
 }
 
-TEST_F(ConvertApp, cameraAndDelayReachTheFrame)
+TEST_F(ConvertApp, cameraAndDelayReachEachFrame)
 {
     ASSERT_EQ(run({in_, "-o", out_}), kExitOk) << text_;
     ObservationConverter converter;
-    const auto contents = readAll(out_);
-    converter.readComment(
-        *std::dynamic_pointer_cast<mrpt::obs::CObservationComment>(contents.objects.at(0)));
-    const ConvertedFrame converted = converter.convert(*scansOf(out_).front());
-    ASSERT_EQ(converted.problem, "");
-    EXPECT_DOUBLE_EQ(converted.frame.camera.fy, -26.1);
-    EXPECT_DOUBLE_EQ(converted.frame.camera.distortion[0], 0.1);
-    EXPECT_TRUE(converted.frame.camera.depthAtUndistortedPixel);
-    // Offsets -14.897 and +15.524 ms: the upper median.
-    EXPECT_NEAR(converted.frame.shutter.depthDelay, 0.015524, 1e-6);
+    std::vector<double> delays;
+    for (const auto& object : readAll(out_).objects)
+    {
+        if (const auto comment = std::dynamic_pointer_cast<mrpt::obs::CObservationComment>(object))
+        {
+            converter.readComment(*comment);
+            continue;
+        }
+        const auto scan = std::dynamic_pointer_cast<mrpt::obs::CObservation3DRangeScan>(object);
+        ASSERT_TRUE(scan);
+        const ConvertedFrame converted = converter.convert(*scan);
+        ASSERT_EQ(converted.problem, "");
+        EXPECT_DOUBLE_EQ(converted.frame.camera.fy, -26.1);
+        EXPECT_DOUBLE_EQ(converted.frame.camera.distortion[0], 0.1);
+        EXPECT_TRUE(converted.frame.camera.depthAtUndistortedPixel);
+        delays.push_back(converted.frame.shutter.depthDelay);
+    }
+    ASSERT_EQ(delays.size(), 2U);
+    EXPECT_NEAR(delays[0], -0.014897, 1e-6);
+    EXPECT_NEAR(delays[1], 0.015524, 1e-6);
+    EXPECT_THAT(text_, testing::HasSubstr("15.5 ms (median)"));  // the upper one
 }
 
 TEST_F(ConvertApp, aFullDiskIsExitCode3AndLeavesNothingThatLooksComplete)
