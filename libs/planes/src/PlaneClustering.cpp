@@ -2,6 +2,7 @@
 #include <pointplane/planes/PlaneClustering.h>
 
 #include <algorithm>
+#include <memory_resource>
 #include <numeric>
 #include <queue>
 
@@ -9,13 +10,15 @@ namespace pointplane
 {
 namespace
 {
+constexpr size_t kUsualNeighbours = 8;
+
 struct Node
 {
     PlaneMoments moments;
     MomentsFit fit;
     int firstCell{-1}, lastCell{-1};  //!< of a chain, which Graph keeps
     size_t numCells{0};
-    std::vector<int> neighbours;  //!< node ids; sorted, and not of merged nodes, once resolved
+    std::pmr::vector<int> neighbours;  //!< sorted, and not of merged nodes, once resolved
     bool alive{true};
 
     [[nodiscard]] double meanSquaredError() const { return fit.sse / moments.n; }
@@ -23,10 +26,9 @@ struct Node
     /** Runs of the same one are common: cells along a border. */
     void addNeighbour(int node)
     {
-        constexpr size_t kUsual = 8;
         if (neighbours.empty() || neighbours.back() != node)
         {
-            neighbours.reserve(std::max(kUsual, neighbours.capacity()));
+            neighbours.reserve(std::max(kUsualNeighbours, neighbours.capacity()));
             neighbours.push_back(node);
         }
     }
@@ -63,6 +65,7 @@ class Graph
 
     const CellGrid& grid_;
     const PlanarityTest& test_;
+    std::pmr::monotonic_buffer_resource memory_;  //!< of the nodes' lists: one each is slow
     std::vector<Node> nodes_;
     std::vector<int> nodeOfCell_;  //!< -1 = not planar
     std::vector<int> nextCell_;    //!< of the same node; -1 = none
@@ -72,6 +75,7 @@ class Graph
 Graph::Graph(const CellGrid& grid, const PlanarityTest& test, double minValidFraction)
     : grid_(grid),
       test_(test),
+      memory_((grid.moments.size() + 1) * kUsualNeighbours * 2 * sizeof(int)),
       nodeOfCell_(grid.moments.size(), -1),
       nextCell_(grid.moments.size(), -1)
 {
@@ -95,7 +99,7 @@ void Graph::makeCellNodes(double minValidFraction)
         }
         nodeOfCell_[i] = static_cast<int>(nodes_.size());
         const int cell = static_cast<int>(i);
-        nodes_.push_back({m, *fitPlane(m), cell, cell, 1, {}, true});
+        nodes_.push_back({m, *fitPlane(m), cell, cell, 1, std::pmr::vector<int>(&memory_), true});
     }
 }
 
