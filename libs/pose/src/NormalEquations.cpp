@@ -204,8 +204,7 @@ void NormalEquations::add(FeatureSum& sum, size_t i) const
         Eigen::Matrix<double, 3, 12> J;
         J << residual.J, residual.J_V;
         const Eigen::Matrix<double, 12, 3> JtW = J.transpose() * W;
-        // Not as a general matrix product, which packs its operands: three columns are not worth
-        // it.
+        // A general matrix product would pack its operands.
         const Matrix12d JtWJ = JtW.lazyProduct(J);
         sum.H += g * w * JtWJ;
         sum.g += g * w * JtW * residual.r;

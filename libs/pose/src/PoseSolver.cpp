@@ -23,8 +23,7 @@ constexpr double kStepTolerance = 1e-5;
 constexpr double kDamping = 1e-9;
 
 /** Of the robust scale at the start: where a few points tell a direction and the motion was not
- * foreseen, all of them look like outliers there, and Tukey's function would never take them back.
- */
+ * foreseen, all of them look like outliers there, and Tukey's function never takes them back. */
 constexpr double kStartWidening = 4;
 
 /** Squared Mahalanobis norm of the pose's deviation from the predicted one. */
