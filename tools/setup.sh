@@ -1,19 +1,21 @@
 # shellcheck shell=bash disable=SC2034
 # Sourced by ./demo, ./test and the tools: Debian packages, build, job count. Needs bash; changes to
-# the clone. Who wants another build folder sets build_dir before.
+# the clone. Who wants another build folder sets build_dir before. CXX is another compiler than
+# Debian's g++, e.g. clang++; what it builds has a folder of its own.
 
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-readonly build_dir=${build_dir:-build/release}
+readonly build_dir=${build_dir:-build/release${CXX:+-${CXX##*/}}}
 
 # A question mark: not in every release. What it is for is left out, or its tests are skipped.
-readonly build_packages=(
+build_packages=(
     g++ cmake ninja-build pkgconf
     libeigen3-dev libopencv-dev libdlib-dev zlib1g-dev libdeflate-dev
     libmrpt-obs-dev libmrpt-graphslam-dev libcli11-dev nlohmann-json3-dev libgtest-dev libgmock-dev
     libopenni2-dev "libfreenect-dev?" libjs-chart.js
 )
+[[ ${CXX:-} != *clang* ]] || build_packages+=(clang)
 # MRPT's own programs and data sets, which the tests run on our output; a browser for the reports;
 # the documentation of the code must be complete.
 readonly test_packages=(mrpt-apps mrpt-common doxygen "chromium?")
