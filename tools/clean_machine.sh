@@ -48,7 +48,7 @@ unshare --mount bash -euo pipefail -c '
             git config --global --replace-all safe.directory \"*\"
             [[ -d /clone ]] || git clone --quiet /source /clone
             cd /clone
-            git fetch --quiet origin
+            git fetch --quiet origin HEAD
             git checkout --quiet --detach $commit
             $command"
 '
