@@ -71,7 +71,7 @@ TEST_P(LucasKanade, AgreesWithOpenCvToTheBit)
     PatchTemplates templates(window);
     for (const cv::Point2f& point : points)
     {
-        templates.add(from, point);
+        templates.add(from, point, Brightness::Constant);
     }
     int numFound = 0;
     for (size_t i = 0; i < points.size(); ++i)
@@ -91,12 +91,44 @@ TEST_P(LucasKanade, AgreesWithOpenCvToTheBit)
 
 INSTANTIATE_TEST_SUITE_P(Windows, LucasKanade, testing::Values(5, 8, 11, 15, 16, 21, 63));
 
+TEST(LucasKanadeTest, SolvesForAShiftOfBrightness)
+{
+    constexpr int kWindow = 15;
+    const cv::Point2f shift(2.3F, -1.6F);
+    const std::vector<cv::Mat> from = pyramid(image(0, 0, 1), kWindow, true);
+    const PatchSearch search{kMaxLevel + 1, 20, 0.01};
+    const auto rmsError = [&](Brightness brightness, int brighter)
+    {
+        const cv::Mat second = image(shift.x, shift.y, 2) + brighter;
+        const std::vector<cv::Mat> to = pyramid(second, kWindow, false);
+        PatchTemplates templates(kWindow);
+        double sum = 0;
+        size_t num = 0;
+        for (float v = 20; v < kRows - 20; v += 5)
+        {
+            for (float u = 20; u < kCols - 20; u += 5)
+            {
+                templates.add(from, {u, v}, brightness);
+                cv::Point2f position(u, v);
+                EXPECT_TRUE(templates.find(num++, to, search, position));
+                const cv::Point2f error = position - cv::Point2f(u, v) - shift;
+                sum += error.ddot(error);
+            }
+        }
+        return std::sqrt(sum / static_cast<double>(num));
+    };
+    EXPECT_LT(rmsError(Brightness::Constant, 0), 0.1);
+    EXPECT_LT(rmsError(Brightness::Shifted, 0), 0.1);
+    EXPECT_LT(rmsError(Brightness::Shifted, 30), 0.1);
+    EXPECT_GT(rmsError(Brightness::Constant, 30), 0.3);
+}
+
 TEST(LucasKanadeTest, SearchesAsManyLevelsAsThereAre)
 {
     constexpr int kWindow = 15;
     const cv::Mat gray = image(0, 0, 1);
     PatchTemplates templates(kWindow);
-    templates.add(pyramid(gray, kWindow, true), {80, 60});
+    templates.add(pyramid(gray, kWindow, true), {80, 60}, Brightness::Shifted);
     cv::Point2f position(81, 59);
     EXPECT_TRUE(templates.find(0, pyramid(gray, kWindow, false), {8, 20, 0.01}, position));
     EXPECT_NEAR(position.x, 80, 0.05);

@@ -59,16 +59,37 @@ TEST(PatchUncertainty, OfAStepCornerIsByHand)
     gray(cv::Rect(50, 50, 50, 50)).setTo(50);
     const double lambda = 7.5 * 2 * 50 * 50;
     EXPECT_NEAR(
-        patchUncertainty(derivativesOf(gray), {50, 50}, kWindowPx, 1.5).worst(),
+        patchUncertainty(derivativesOf(gray), {50, 50}, kWindowPx, 1.5, Brightness::Constant)
+            .worst(),
         1.5 * std::sqrt(2 / lambda),
         1e-3);
+    // A shift of brightness looks like half of a move along the diagonal: all gradients point to
+    // one side, each sum being 7.5 * 2 * 50.
+    const double sum = 7.5 * 2 * 50;
+    EXPECT_NEAR(
+        patchUncertainty(derivativesOf(gray), {50, 50}, kWindowPx, 1.5, Brightness::Shifted)
+            .worst(),
+        1.5 * std::sqrt(2 / (lambda - 2 * sum * sum / (kWindowPx * kWindowPx))),
+        1e-3);
+}
+
+TEST(PatchUncertainty, OfASlopeIsThatOfItsBrightness)
+{
+    const cv::Mat gray = test::renderImage(100, 100, [](double u, double) { return 20 + 2 * u; });
+    const auto uncertaintyWith = [&](Brightness brightness) {
+        return patchUncertainty(derivativesOf(gray), {50, 50}, kWindowPx, 1.0, brightness);
+    };
+    EXPECT_NEAR(
+        uncertaintyWith(Brightness::Constant).best(), std::sqrt(2.0 / (15 * 15 * 2 * 2)), 0.002);
+    EXPECT_TRUE(std::isinf(uncertaintyWith(Brightness::Shifted).best()));
 }
 
 TEST(PatchUncertainty, OfAnEdgeIsInfiniteAlongIt)
 {
     cv::Mat gray(100, 100, CV_8UC1, cv::Scalar(150));
     gray(cv::Rect(50, 0, 50, 100)).setTo(50);  // upright
-    const PatchUncertainty u = patchUncertainty(derivativesOf(gray), {50, 50}, kWindowPx, 1.0);
+    const PatchUncertainty u =
+        patchUncertainty(derivativesOf(gray), {50, 50}, kWindowPx, 1.0, Brightness::Constant);
     EXPECT_TRUE(std::isinf(u.worst()));
     EXPECT_NEAR(u.best(), std::sqrt(2 / (15 * 2 * 50.0 * 50.0)), 1e-3);
     EXPECT_NEAR(std::abs(u.axes(1, 0)), 1, 1e-6);
@@ -86,7 +107,8 @@ TEST(PatchUncertainty, WeakStructureOnAnEdgeDoesNotCount)
         cv::Mat gray(100, 100, CV_8UC1, cv::Scalar(150));
         gray(cv::Rect(0, 50, 50, 50)).setTo(150 - step);
         gray(cv::Rect(50, 0, 50, 100)).setTo(50);
-        const PatchUncertainty u = patchUncertainty(derivativesOf(gray), {50, 50}, kWindowPx, 0.3);
+        const PatchUncertainty u =
+            patchUncertainty(derivativesOf(gray), {50, 50}, kWindowPx, 0.3, Brightness::Constant);
         EXPECT_EQ(std::isfinite(u.worst()), counts) << step;
         EXPECT_LT(u.best(), 0.01);
     }
@@ -101,7 +123,10 @@ TEST(PatchUncertainty, OfNoiseIsLarge)
         for (int u = 20; u < 620; u += 40)
         {
             const cv::Point2f centre(static_cast<float>(u), static_cast<float>(v));
-            EXPECT_GT(patchUncertainty(derivatives, centre, kWindowPx, noise).worst(), 0.1);
+            EXPECT_GT(
+                patchUncertainty(derivatives, centre, kWindowPx, noise, Brightness::Constant)
+                    .worst(),
+                0.1);
         }
     }
 }

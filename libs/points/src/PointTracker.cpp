@@ -88,6 +88,13 @@ double zncc(const ComparedPatch& a, const ComparedPatch& b)
                             : 0;
 }
 
+/** Exposure changes brightness, but not by this much. */
+bool isAsBright(const ComparedPatch& a, const ComparedPatch& b)
+{
+    constexpr double kMostShift = 30;  // [grey]
+    return std::abs(a.sum - b.sum) < kMostShift * ComparedPatch::kSize;
+}
+
 /** A point of the reference that is looked for. */
 struct Candidate
 {
@@ -103,14 +110,20 @@ struct ReferencePatches
     PatchTemplates searched;
     std::vector<ComparedPatch> compared;
 
+    /** \param numCorners the first so many points are corners, which can do without the constancy
+     * of brightness; along edges it may be all that tells anything */
     ReferencePatches(
-        const std::vector<cv::Mat>& pyramid, const std::vector<PointFeature>& points, int windowPx)
+        const std::vector<cv::Mat>& pyramid,
+        const std::vector<PointFeature>& points,
+        int windowPx,
+        size_t numCorners)
         : searched(windowPx)
     {
         for (const PointFeature& point : points)
         {
             const cv::Point2f centre = cv::Point2d(point.uv_px.x(), point.uv_px.y());
-            searched.add(pyramid, centre);
+            const bool isCorner = compared.size() < numCorners;
+            searched.add(pyramid, centre, isCorner ? Brightness::Shifted : Brightness::Constant);
             compared.emplace_back(pyramid[0], centre);
         }
     }
@@ -238,9 +251,14 @@ PointReference PointTracker::makeReference(const RgbdFrame& frame) const
         {
             break;
         }
-        const PatchUncertainty uncertainty =
-            patchUncertainty(pyramid[1], pixel, params_.windowPx, noise);
+        const auto uncertaintyWith = [&](Brightness brightness)
+        { return patchUncertainty(pyramid[1], pixel, params_.windowPx, noise, brightness); };
+        PatchUncertainty uncertainty = uncertaintyWith(Brightness::Shifted);
         const bool isCorner = uncertainty.worst() <= params_.maxNoisePx;
+        if (!isCorner)
+        {
+            uncertainty = uncertaintyWith(Brightness::Constant);
+        }
         const bool isEdge = !isCorner && uncertainty.best() <= kEdgeOfCorner * params_.maxNoisePx;
         if (!isInside(pixel, frame.gray) || !(isCorner || isEdge))
         {
@@ -256,13 +274,15 @@ PointReference PointTracker::makeReference(const RgbdFrame& frame) const
             edges.push_back({*feature, uncertainty});
         }
     }
+    const size_t numCorners = out.points.size();
     for (size_t i = 0;
          i < edges.size() && out.points.size() < static_cast<size_t>(params_.minPoints);
          ++i)
     {
         add(edges[i].point, edges[i].uncertainty);
     }
-    out.patches = std::make_shared<ReferencePatches>(pyramid, out.points, params_.windowPx);
+    out.patches =
+        std::make_shared<ReferencePatches>(pyramid, out.points, params_.windowPx, numCorners);
     return out;
 }
 
@@ -332,9 +352,13 @@ std::vector<PointTrack> PointTracker::track(
     for (const Candidate& c : candidates)
     {
         if (!c.found || cv::norm(c.position - c.predicted) > radius ||
-            !isInside(c.position, frame.gray) ||
-            zncc(reference.patches->compared[c.ref], ComparedPatch(pyramid[0], c.position)) <
-                params_.minZncc)
+            !isInside(c.position, frame.gray))
+        {
+            continue;
+        }
+        const ComparedPatch& looked = reference.patches->compared[c.ref];
+        const ComparedPatch found(pyramid[0], c.position);
+        if (!isAsBright(looked, found) || zncc(looked, found) < params_.minZncc)
         {
             continue;
         }

@@ -4,6 +4,7 @@
 #include <opencv2/core/hal/intrin.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cfloat>
 #include <cmath>
 
@@ -16,6 +17,7 @@ constexpr int kGreyBits = 5;  //!< of the samples' fraction of a grey level
 constexpr float kScale = 1.F / (1 << 20);
 constexpr int kStrip = 8;                  //!< columns that are treated at once
 constexpr int kStripSamples = 3 * kStrip;  //!< grey, x and y gradients
+constexpr int kLongestWindow = 63;
 
 /** A position's whole pixel, and the weights of the four pixels around the position. */
 struct Bilinear
@@ -198,6 +200,42 @@ constexpr decltype(&sumOfRows<0>) kSumOfRows[] = {
     sumOfRows<6>,
     sumOfRows<7>};
 
+struct Gradient
+{
+    short x, y;
+};
+
+/** Those of one patch. */
+class Gradients
+{
+ public:
+    explicit Gradients(int windowPx) : windowPx_(windowPx) {}
+
+    [[nodiscard]] Gradient& at(int x, int y)
+    {
+        return gradients_[static_cast<std::size_t>(y * windowPx_ + x)];
+    }
+
+    void subtractMean()
+    {
+        const auto end = gradients_.begin() + windowPx_ * windowPx_;
+        int x = 0, y = 0;
+        std::for_each(gradients_.begin(), end, [&](const Gradient& g) { x += g.x, y += g.y; });
+        const double area = windowPx_ * windowPx_;
+        const int meanX = cvRound(x / area), meanY = cvRound(y / area);
+        std::for_each(
+            gradients_.begin(),
+            end,
+            [&](Gradient& g) {
+                g = {static_cast<short>(g.x - meanX), static_cast<short>(g.y - meanY)};
+            });
+    }
+
+ private:
+    int windowPx_;
+    std::array<Gradient, kLongestWindow * kLongestWindow> gradients_;
+};
+
 /** Stores a column's gradient as GradientSum wants it. */
 void storeGradient(std::int16_t* out, int column, bool isWhole, short gx, short gy)
 {
@@ -248,7 +286,8 @@ std::size_t PatchTemplates::templateSize() const
     return static_cast<std::size_t>(windowPx_ * stripsPerRow * kStripSamples);
 }
 
-void PatchTemplates::add(const std::vector<cv::Mat>& pyramid, const cv::Point2f& centre)
+void PatchTemplates::add(
+    const std::vector<cv::Mat>& pyramid, const cv::Point2f& centre, Brightness brightness)
 {
     numLevels_ = pyramid.size() / 2;
     const float half = static_cast<float>(windowPx_ - 1) * 0.5F;
@@ -256,20 +295,24 @@ void PatchTemplates::add(const std::vector<cv::Mat>& pyramid, const cv::Point2f&
     {
         const cv::Point2f corner =
             centre * (1.F / static_cast<float>(1 << level)) - cv::Point2f(half, half);
-        normals_.push_back(append(pyramid[2 * level], pyramid[2 * level + 1], corner));
+        normals_.push_back(append(pyramid[2 * level], pyramid[2 * level + 1], corner, brightness));
     }
 }
 
 /** Adds the samples of one level. */
 PatchTemplates::Normal PatchTemplates::append(
-    const cv::Mat& image, const cv::Mat& derivatives, const cv::Point2f& corner)
+    const cv::Mat& image,
+    const cv::Mat& derivatives,
+    const cv::Point2f& corner,
+    Brightness brightness)
 {
     constexpr float kLeastEigenvalue = 1e-4F;
     const Bilinear bilinear(corner);
     const StripSampler sampler(bilinear);
     samples_.resize(samples_.size() + templateSize(), 0);
-    std::int16_t* strip = samples_.data() + samples_.size() - templateSize();
-    NormalSum sum;
+    std::int16_t* const patch = samples_.data() + samples_.size() - templateSize();
+    Gradients gradients(windowPx_);
+    std::int16_t* strip = patch;
     for (int y = 0; y < windowPx_; ++y)
     {
         for (int x = 0; x < windowPx_; x += kStrip, strip += kStripSamples)
@@ -282,14 +325,30 @@ PatchTemplates::Normal PatchTemplates::append(
                     StripSampler::neighbours(grey),
                     StripSampler::neighbours(grey + image.step[0])));
             const auto* gradient = elementAt<short>(derivatives, pixel);
-            short gradients[2 * kStrip];
-            cv::v_store(gradients, sampler.gradients(gradient, derivatives.step1()));
+            short sampled[2 * kStrip];
+            cv::v_store(sampled, sampler.gradients(gradient, derivatives.step1()));
             cv::v_store(
-                gradients + kStrip, sampler.gradients(gradient + kStrip, derivatives.step1()));
+                sampled + kStrip, sampler.gradients(gradient + kStrip, derivatives.step1()));
+            for (int k = 0; k < std::min(kStrip, windowPx_ - x); ++k)
+            {
+                gradients.at(x + k, y) = {sampled[2 * k], sampled[2 * k + 1]};
+            }
+        }
+    }
+    if (brightness == Brightness::Shifted)
+    {
+        gradients.subtractMean();
+    }
+    NormalSum sum;
+    strip = patch;
+    for (int y = 0; y < windowPx_; ++y)
+    {
+        for (int x = 0; x < windowPx_; x += kStrip, strip += kStripSamples)
+        {
             const bool isWhole = x + kStrip <= windowPx_;
             for (int k = 0; k < std::min(kStrip, windowPx_ - x); ++k)
             {
-                const short gx = gradients[2 * k], gy = gradients[2 * k + 1];
+                const auto [gx, gy] = gradients.at(x + k, y);
                 storeGradient(strip + kStrip, k, isWhole, gx, gy);
                 sum.add(gx, gy, static_cast<std::size_t>(k), isWhole);
             }

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "brightness.h"
+
 namespace pointplane
 {
 /** How thoroughly a patch is searched for. */
@@ -18,9 +20,12 @@ struct PatchSearch
 };
 
 /** Patches of a reference image at all levels of its pyramid, and pyramidal Lucas-Kanade (Bouguet
- * 2001) that finds them in other images. Positions are those of cv::calcOpticalFlowPyrLK to the
- * bit. It takes in the patches anew for each image, though, and the columns beyond the last whole
- * eight one by one. */
+ * 2001) that finds them in other images. With constant brightness, positions are those of
+ * cv::calcOpticalFlowPyrLK to the bit. It takes in the patches anew for each image, though, and the
+ * columns beyond the last whole eight one by one.
+ *
+ * A shift of brightness is solved for with the position. Eliminated from the normal equations, it
+ * takes the mean from the patch's gradients: nothing else changes. */
 class PatchTemplates
 {
  public:
@@ -29,7 +34,7 @@ class PatchTemplates
 
     /** \param pyramid by cv::buildOpticalFlowPyramid with this window, with derivatives
      * \param centre inside the image */
-    void add(const std::vector<cv::Mat>& pyramid, const cv::Point2f& centre);
+    void add(const std::vector<cv::Mat>& pyramid, const cv::Point2f& centre, Brightness brightness);
 
     /** \param pyramid likewise, without derivatives \param position where to start; where the
      * search ended \return whether it ended inside, on a patch with structure */
@@ -48,7 +53,10 @@ class PatchTemplates
     };
     [[nodiscard]] std::size_t templateSize() const;
     [[nodiscard]] Normal append(
-        const cv::Mat& image, const cv::Mat& derivatives, const cv::Point2f& corner);
+        const cv::Mat& image,
+        const cv::Mat& derivatives,
+        const cv::Point2f& corner,
+        Brightness brightness);
     [[nodiscard]] cv::Point2f correlation(
         const std::int16_t* patch, const cv::Mat& image, const cv::Point2f& corner) const;
     [[nodiscard]] bool align(

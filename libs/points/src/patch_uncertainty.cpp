@@ -52,29 +52,35 @@ Eigen::Matrix2d PatchUncertainty::covariance(double limit_px) const
 }
 
 PatchUncertainty patchUncertainty(
-    const cv::Mat& derivatives, const cv::Point2f& centre, int windowPx, double noise)
+    const cv::Mat& derivatives,
+    const cv::Point2f& centre,
+    int windowPx,
+    double noise,
+    Brightness brightness)
 {
     constexpr double kGain = 32;
-    constexpr double kEdge = 10;
+    constexpr double kEdge = 7;
     constexpr double kNoiseGain = 2 * (3 * 3 + 10 * 10 + 3 * 3) / (kGain * kGain);
     const int half = windowPx / 2;
     const cv::Rect patch =
         cv::Rect(cvRound(centre.x) - half, cvRound(centre.y) - half, windowPx, windowPx) &
         cv::Rect(0, 0, derivatives.cols, derivatives.rows);
-    double xx = 0, xy = 0, yy = 0;
+    Eigen::Matrix2d gradients = Eigen::Matrix2d::Zero();
+    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
     for (int v = patch.y; v < patch.br().y; ++v)
     {
         const auto* row = derivatives.ptr<cv::Vec2s>(v);
         for (int u = patch.x; u < patch.br().x; ++u)
         {
-            const double gx = row[u][0] / kGain, gy = row[u][1] / kGain;
-            xx += gx * gx;
-            xy += gx * gy;
-            yy += gy * gy;
+            const Eigen::Vector2d g(row[u][0] / kGain, row[u][1] / kGain);
+            gradients += g * g.transpose();
+            sum += g;
         }
     }
-    Eigen::Matrix2d gradients;
-    gradients << xx, xy, xy, yy;
+    if (brightness == Brightness::Shifted)
+    {
+        gradients -= sum * sum.transpose() / patch.area();
+    }
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> es(gradients);
     PatchUncertainty out;
     out.axes = es.eigenvectors();

@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <opencv2/core/mat.hpp>
 
+#include "brightness.h"
+
 namespace pointplane
 {
 /** Standard deviation of an image's white noise [grey], at least that of rounding: median response
@@ -27,10 +29,15 @@ struct PatchUncertainty
 
 /** The Cramer-Rao bound sigma sqrt(2 / lambda) in each of the principal directions, with the
  * eigenvalues lambda of the patch's gradient matrix, less what noise itself contributes to it.
- * Infinite for a patch of noise, and along an edge whose structure is ten times that along it: the
- * rest is the edge's own bend and its brighter side's noise, on which a search stays where it began.
- * \param derivatives CV_16SC2, Scharr's (OpenCV's pyramids), gain 32
- * \param windowPx side of the patch \param noise [grey] */
+ * Infinite for a patch of noise, and along an edge whose structure is seven times that along it:
+ * the rest is how the pixel grid cuts the edge, its own bend and its brighter side's noise, on
+ * which a search stays where it began. \param derivatives CV_16SC2, Scharr's (OpenCV's pyramids),
+ * gain 32 \param windowPx side of the patch \param noise [grey] \param brightness shifted: what a
+ * shift of brightness could explain is no structure */
 [[nodiscard]] PatchUncertainty patchUncertainty(
-    const cv::Mat& derivatives, const cv::Point2f& centre, int windowPx, double noise);
+    const cv::Mat& derivatives,
+    const cv::Point2f& centre,
+    int windowPx,
+    double noise,
+    Brightness brightness);
 }  // namespace pointplane

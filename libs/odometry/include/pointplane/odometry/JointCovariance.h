@@ -24,9 +24,9 @@ class JointCovariance
     struct TParams
     {
         std::string model{"joint"};
-        double noise{0.3};
-        double drift{24};
-        double driftSigma{0.00025};
+        double noise{0.28};
+        double drift{29};
+        double driftSigma{0.00026};
         int history{1};
 
         template <class V>
