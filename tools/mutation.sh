@@ -23,6 +23,8 @@ mutants=(
     'libs/pose/src/NormalEquations.cpp|influence += influences[it->second]|influence = influences[it->second]|pose_Sensitivity'
     'libs/pose/src/PoseSolver.cpp|kStartWidening = 4|kStartWidening = 1|pose_PoseSolver'
     'libs/odometry/src/ShutterCorrection.cpp|(sColour - sDepth) * P|(sDepth - sColour) * P|odometry_ShutterCorrection'
+    'libs/points/src/lucas_kanade.cpp|static_cast<short>(g.x - meanX)|static_cast<short>(g.x)|points_lucas_kanade'
+    'libs/points/src/patch_uncertainty.cpp|gradients -= sum|gradients += sum|points_patch_uncertainty'
     'libs/planes/src/PlaneMatcher.cpp|dot(plane.n) >= minCosine|dot(plane.n) <= minCosine|planes_PlaneMatcher'
 )
 readonly tree=build/mutation/tree log=build/mutation/log
