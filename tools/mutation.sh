@@ -33,7 +33,7 @@ install_packages "${build_packages[@]}"
 rm -rf "$tree"
 mkdir -p "$tree"
 # shellcheck disable=SC2046  # no name in this tree has a space
-cp -p --parents $(git ls-files CMakeLists.txt cmake libs tests) "$tree"
+cp -p --parents $(git ls-files CMakeLists.txt cmake libs tests benchmarks) "$tree"
 
 source_dir=$tree
 configure_instrumented -DPOINTPLANE_BUILD_APPS=OFF -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O1
