@@ -215,6 +215,10 @@ class Gradients
     {
         return gradients_[static_cast<std::size_t>(y * windowPx_ + x)];
     }
+    [[nodiscard]] const Gradient& at(int x, int y) const
+    {
+        return gradients_[static_cast<std::size_t>(y * windowPx_ + x)];
+    }
 
     void subtractMean()
     {
@@ -276,6 +280,61 @@ class NormalSum
  private:
     float sums_[5][3] = {};
 };
+
+/** Stores a patch's grey values. \return its gradients */
+Gradients sampledAt(
+    const Bilinear& bilinear,
+    const cv::Mat& image,
+    const cv::Mat& derivatives,
+    int windowPx,
+    std::int16_t* strip)
+{
+    const StripSampler sampler(bilinear);
+    Gradients out(windowPx);
+    for (int y = 0; y < windowPx; ++y)
+    {
+        for (int x = 0; x < windowPx; x += kStrip, strip += kStripSamples)
+        {
+            const cv::Point pixel(bilinear.u + x, bilinear.v + y);
+            const auto* grey = elementAt<uchar>(image, pixel);
+            cv::v_store(
+                strip,
+                sampler.grey(
+                    StripSampler::neighbours(grey),
+                    StripSampler::neighbours(grey + image.step[0])));
+            const auto* gradient = elementAt<short>(derivatives, pixel);
+            short sampled[2 * kStrip];
+            cv::v_store(sampled, sampler.gradients(gradient, derivatives.step1()));
+            cv::v_store(
+                sampled + kStrip, sampler.gradients(gradient + kStrip, derivatives.step1()));
+            for (int k = 0; k < std::min(kStrip, windowPx - x); ++k)
+            {
+                out.at(x + k, y) = {sampled[2 * k], sampled[2 * k + 1]};
+            }
+        }
+    }
+    return out;
+}
+
+/** Stores a patch's gradients. \return the sums of their products */
+NormalSum storeGradients(const Gradients& gradients, int windowPx, std::int16_t* strip)
+{
+    NormalSum out;
+    for (int y = 0; y < windowPx; ++y)
+    {
+        for (int x = 0; x < windowPx; x += kStrip, strip += kStripSamples)
+        {
+            const bool isWhole = x + kStrip <= windowPx;
+            for (int k = 0; k < std::min(kStrip, windowPx - x); ++k)
+            {
+                const auto [gx, gy] = gradients.at(x + k, y);
+                storeGradient(strip + kStrip, k, isWhole, gx, gy);
+                out.add(gx, gy, static_cast<std::size_t>(k), isWhole);
+            }
+        }
+    }
+    return out;
+}
 }  // namespace
 
 PatchTemplates::PatchTemplates(int windowPx) : windowPx_(windowPx) {}
@@ -307,53 +366,14 @@ PatchTemplates::Normal PatchTemplates::append(
     Brightness brightness)
 {
     constexpr float kLeastEigenvalue = 1e-4F;
-    const Bilinear bilinear(corner);
-    const StripSampler sampler(bilinear);
     samples_.resize(samples_.size() + templateSize(), 0);
     std::int16_t* const patch = samples_.data() + samples_.size() - templateSize();
-    Gradients gradients(windowPx_);
-    std::int16_t* strip = patch;
-    for (int y = 0; y < windowPx_; ++y)
-    {
-        for (int x = 0; x < windowPx_; x += kStrip, strip += kStripSamples)
-        {
-            const cv::Point pixel(bilinear.u + x, bilinear.v + y);
-            const auto* grey = elementAt<uchar>(image, pixel);
-            cv::v_store(
-                strip,
-                sampler.grey(
-                    StripSampler::neighbours(grey),
-                    StripSampler::neighbours(grey + image.step[0])));
-            const auto* gradient = elementAt<short>(derivatives, pixel);
-            short sampled[2 * kStrip];
-            cv::v_store(sampled, sampler.gradients(gradient, derivatives.step1()));
-            cv::v_store(
-                sampled + kStrip, sampler.gradients(gradient + kStrip, derivatives.step1()));
-            for (int k = 0; k < std::min(kStrip, windowPx_ - x); ++k)
-            {
-                gradients.at(x + k, y) = {sampled[2 * k], sampled[2 * k + 1]};
-            }
-        }
-    }
+    Gradients gradients = sampledAt(Bilinear(corner), image, derivatives, windowPx_, patch);
     if (brightness == Brightness::Shifted)
     {
         gradients.subtractMean();
     }
-    NormalSum sum;
-    strip = patch;
-    for (int y = 0; y < windowPx_; ++y)
-    {
-        for (int x = 0; x < windowPx_; x += kStrip, strip += kStripSamples)
-        {
-            const bool isWhole = x + kStrip <= windowPx_;
-            for (int k = 0; k < std::min(kStrip, windowPx_ - x); ++k)
-            {
-                const auto [gx, gy] = gradients.at(x + k, y);
-                storeGradient(strip + kStrip, k, isWhole, gx, gy);
-                sum.add(gx, gy, static_cast<std::size_t>(k), isWhole);
-            }
-        }
-    }
+    const NormalSum sum = storeGradients(gradients, windowPx_, patch);
     Normal normal{sum.total(0) * kScale, sum.total(1) * kScale, sum.total(2) * kScale};
     const float determinant = normal.xx * normal.yy - normal.xy * normal.xy;
     const float difference = normal.xx - normal.yy;
