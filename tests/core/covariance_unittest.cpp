@@ -64,3 +64,13 @@ TEST(covariance, eigenvalueFloor)
     const Eigen::Matrix3d bad = Eigen::Matrix3d::Constant(std::numeric_limits<double>::quiet_NaN());
     EXPECT_THROW((void)withEigenvalueFloor(bad, 1e-9), std::invalid_argument);
 }
+
+TEST(covariance, strictlyPositiveLeavesWhatIsAndLiftsWhatDrowns)
+{
+    Matrix6d S = Matrix6d::Identity();
+    EXPECT_THAT(strictlyPositive(S), IsMatrixNear(S, 0)) << "left alone";
+    S(0, 0) = 1e6;
+    S(5, 5) = 0;
+    EXPECT_NEAR(strictlyPositive(S)(5, 5), 1e-6, 1e-8) << "a part of what is known least";
+    EXPECT_NEAR(strictlyPositive(Matrix6d::Zero().eval())(2, 2), 1e-14, 1e-20);
+}

@@ -146,6 +146,29 @@ TEST(MrptPoses, writtenCovarianceIsPositiveDefiniteWhateverComes)
     EXPECT_TRUE(isPositiveDefinite(Matrix6d(toMrpt(pose).cov.asEigen())));
 }
 
+/** Found by fuzzing: rank 3, which one order of factorisation takes for positive definite. */
+TEST(MrptPoses, writtenCovarianceIsPositiveDefiniteInAnyOrder)
+{
+    std::mt19937_64 random(7);
+    std::normal_distribution<double> normal(0, 20);
+    for (int i = 0; i < 200; ++i)
+    {
+        const Eigen::Matrix<double, 6, 3> root =
+            Eigen::Matrix<double, 6, 3>::NullaryExpr([&] { return normal(random); });
+        PoseGaussian pose;
+        pose.mean = poseAt(0.01, -0.003, -0.001, -0.006, 0.004, 0.002);
+        pose.cov = root * root.transpose();
+        const Matrix6d cov = toMrpt(pose).cov.asEigen();
+        EXPECT_TRUE(isPositiveDefinite(cov)) << i;
+        EXPECT_TRUE(isPositiveDefinite(cov.reverse().eval())) << i;
+        const Eigen::SelfAdjointEigenSolver<Matrix6d> es(cov);
+        EXPECT_GT(es.eigenvalues()[0], 0.9e-12 * cov.trace()) << i;
+        EXPECT_LT(
+            (cov - propagate(jacobianYprOfTangent(pose.mean), pose.cov)).norm(),
+            1e-11 * cov.norm());
+    }
+}
+
 TEST(MrptPoses, stampsOutsideOfTheClockStayInside)
 {
     const auto earliest = mrpt::Clock::time_point::min(), latest = mrpt::Clock::time_point::max();

@@ -77,11 +77,7 @@ Matrix6d jacobianYprOfTangent(const Eigen::Isometry3d& T_a_b)
 
 mrpt::poses::CPose3DPDFGaussian toMrpt(const PoseGaussian& T_a_b)
 {
-    Matrix6d cov = propagate(jacobianYprOfTangent(T_a_b.mean), T_a_b.cov);
-    if (!isPositiveDefinite(cov))
-    {
-        cov = withEigenvalueFloor(cov, std::max(1e-15, 1e-12 * cov.trace()));
-    }
+    const Matrix6d cov = strictlyPositive(propagate(jacobianYprOfTangent(T_a_b.mean), T_a_b.cov));
     return {toMrpt(T_a_b.mean), mrpt::math::CMatrixDouble66(cov)};
 }
 

@@ -7,19 +7,6 @@
 
 namespace pointplane
 {
-namespace
-{
-/** Least eigenvalue of a covariance that is told [m^2, rad^2], and as a part of all of them: what
- * is smaller drowns in rounding when nothing is known of other directions. */
-constexpr double kLeastVariance = 1e-14;
-constexpr double kLeastShare = 1e-12;
-
-Matrix6d strictlyPositive(const Matrix6d& cov)
-{
-    return withEigenvalueFloor(cov, std::max(kLeastVariance, kLeastShare * cov.trace()));
-}
-}  // namespace
-
 PoseHistory::PoseHistory(const JointCovariance::TParams& params)
     : history_(params.history), joint_(params), poses_{Eigen::Isometry3d::Identity()}
 {

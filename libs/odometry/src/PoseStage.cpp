@@ -222,7 +222,8 @@ JointCovariance::Measurement PoseStage::errorsOf(
 
 PoseGaussian PoseStage::coast(double dt)
 {
-    const PoseGaussian out = predict(dt).pose;
+    PoseGaussian out = predict(dt).pose;
+    out.cov = strictlyPositive(out.cov);
     motion_.coast(dt);
     return out;
 }

@@ -50,4 +50,14 @@ template <class Derived>
     Plain out = es.eigenvectors() * clamped.asDiagonal() * es.eigenvectors().transpose();
     return 0.5 * (out + out.transpose());
 }
+
+/** Positive definite by a margin that stays when it is copied, transformed or factorised in another
+ * order: what is smaller than the 1e-12th part of all eigenvalues drowns in rounding, when nothing
+ * is known of other directions. S must be finite. */
+template <class Derived>
+[[nodiscard]] typename Derived::PlainObject strictlyPositive(const Eigen::MatrixBase<Derived>& S)
+{
+    constexpr double kLeastVariance = 1e-14, kLeastShare = 1e-12;
+    return withEigenvalueFloor(S, std::max(kLeastVariance, kLeastShare * S.trace()));
+}
 }  // namespace pointplane
