@@ -399,9 +399,53 @@ TEST(PointTracker, EdgesTellTheDirectionAcrossThem)
     }
 }
 
+/** A wall that becomes bright gradually from left to right, by a lens that darkens corners. */
+TEST(PointTracker, VignettingDisplacesShadingAsTold)
+{
+    constexpr double kVignetting = 0.2, kShift_px = 16;
+    const auto shaded = [&](double shift_px, unsigned noiseSeed)
+    {
+        test::GaussianSampler random(noiseSeed);
+        RgbdFrame out = wall({0, 0}, noiseSeed);
+        out.gray = test::renderImage(
+            640,
+            480,
+            [&](double u, double v)
+            {
+                const double x = u - 319.5, y = v - 239.5;
+                const double falloff =
+                    1 - kVignetting * (x * x + y * y) / (319.5 * 319.5 + 239.5 * 239.5);
+                return falloff * (60 + 150 / (1 + std::exp(-(u - shift_px - 480) / 10)));
+            },
+            1.5,
+            &random);
+        return out;
+    };
+    const PointTracker tracker = makeTracker();
+    const PointReference reference = tracker.makeReference(shaded(0, 1));
+    const RgbdFrame frame = shaded(kShift_px, 2);
+    const auto tracks = tracker.track(
+        reference, frame, tracker.pyramid(frame.gray), motionFor({kShift_px, 0}, frame.camera));
+    ASSERT_GT(tracks.size(), 10U);
+    double told = 0, found = 0;
+    for (const PointTrack& t : tracks)
+    {
+        const PointFeature& ref = reference.points[static_cast<size_t>(t.ref)];
+        told += kVignetting * t.cur.ofVignetting_m.x() * frame.camera.fx / kDepth;
+        found += t.cur.uv_px.x() - ref.uv_px.x() - kShift_px;
+    }
+    const auto n = static_cast<double>(tracks.size());
+    EXPECT_GT(found / n, 0.2) << "darker: to the brighter side";
+    EXPECT_NEAR(told / n, found / n, 0.2 * found / n);
+}
+
 TEST(PointTracker, EdgesAreLeftOutWhereCornersAbound)
 {
     const PointReference reference = makeTracker().makeReference(wall({0, 0}, 1));
+    for (const Vector2d& displacement : reference.ofBrightness_px)
+    {
+        EXPECT_TRUE(displacement.isZero(0)) << "corners are found at any brightness";
+    }
     for (const Eigen::Matrix2d& cov : reference.cov_px)
     {
         EXPECT_LT(cov.trace(), 2 * 0.2 * 0.2);

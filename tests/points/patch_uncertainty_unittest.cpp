@@ -59,7 +59,7 @@ TEST(PatchUncertainty, OfAStepCornerIsByHand)
     gray(cv::Rect(50, 50, 50, 50)).setTo(50);
     const double lambda = 7.5 * 2 * 50 * 50;
     EXPECT_NEAR(
-        patchUncertainty(derivativesOf(gray), {50, 50}, kWindowPx, 1.5, Brightness::Constant)
+        patchUncertainty(gray, derivativesOf(gray), {50, 50}, kWindowPx, 1.5, Brightness::Constant)
             .worst(),
         1.5 * std::sqrt(2 / lambda),
         1e-3);
@@ -67,7 +67,7 @@ TEST(PatchUncertainty, OfAStepCornerIsByHand)
     // one side, each sum being 7.5 * 2 * 50.
     const double sum = 7.5 * 2 * 50;
     EXPECT_NEAR(
-        patchUncertainty(derivativesOf(gray), {50, 50}, kWindowPx, 1.5, Brightness::Shifted)
+        patchUncertainty(gray, derivativesOf(gray), {50, 50}, kWindowPx, 1.5, Brightness::Shifted)
             .worst(),
         1.5 * std::sqrt(2 / (lambda - 2 * sum * sum / (kWindowPx * kWindowPx))),
         1e-3);
@@ -77,7 +77,7 @@ TEST(PatchUncertainty, OfASlopeIsThatOfItsBrightness)
 {
     const cv::Mat gray = test::renderImage(100, 100, [](double u, double) { return 20 + 2 * u; });
     const auto uncertaintyWith = [&](Brightness brightness) {
-        return patchUncertainty(derivativesOf(gray), {50, 50}, kWindowPx, 1.0, brightness);
+        return patchUncertainty(gray, derivativesOf(gray), {50, 50}, kWindowPx, 1.0, brightness);
     };
     EXPECT_NEAR(
         uncertaintyWith(Brightness::Constant).best(), std::sqrt(2.0 / (15 * 15 * 2 * 2)), 0.002);
@@ -89,7 +89,7 @@ TEST(PatchUncertainty, OfAnEdgeIsInfiniteAlongIt)
     cv::Mat gray(100, 100, CV_8UC1, cv::Scalar(150));
     gray(cv::Rect(50, 0, 50, 100)).setTo(50);  // upright
     const PatchUncertainty u =
-        patchUncertainty(derivativesOf(gray), {50, 50}, kWindowPx, 1.0, Brightness::Constant);
+        patchUncertainty(gray, derivativesOf(gray), {50, 50}, kWindowPx, 1.0, Brightness::Constant);
     EXPECT_TRUE(std::isinf(u.worst()));
     EXPECT_NEAR(u.best(), std::sqrt(2 / (15 * 2 * 50.0 * 50.0)), 1e-3);
     EXPECT_NEAR(std::abs(u.axes(1, 0)), 1, 1e-6);
@@ -100,6 +100,31 @@ TEST(PatchUncertainty, OfAnEdgeIsInfiniteAlongIt)
     EXPECT_NEAR(cov(0, 1), 0, 1e-6);
 }
 
+TEST(PatchUncertainty, ASlopeGoesWhereItsBrightnessIs)
+{
+    const cv::Mat gray = test::renderImage(100, 100, [](double u, double) { return 20 + 2 * u; });
+    const auto displacementWith = [&](Brightness brightness)
+    {
+        return patchUncertainty(gray, derivativesOf(gray), {50, 50}, kWindowPx, 1.0, brightness)
+            .displacement(0.2);
+    };
+    // 120 grey levels at its centre, 2 a pixel.
+    EXPECT_NEAR(displacementWith(Brightness::Constant).x(), -120.0 / 2, 0.1);
+    EXPECT_EQ(displacementWith(Brightness::Constant).y(), 0) << "not measured";
+    EXPECT_TRUE(displacementWith(Brightness::Shifted).isZero(0));
+}
+
+TEST(PatchUncertainty, BrightnessHardlyMovesAnEdge)
+{
+    cv::Mat gray(100, 100, CV_8UC1, cv::Scalar(150));
+    gray(cv::Rect(50, 0, 50, 100)).setTo(50);
+    const PatchUncertainty u =
+        patchUncertainty(gray, derivativesOf(gray), {50, 50}, kWindowPx, 1.0, Brightness::Constant);
+    // Gradients of -50 where it is 150 and 50.
+    EXPECT_NEAR(u.displacement(0.2).x(), 50 * (150 + 50) / (2 * 50.0 * 50.0), 0.01);
+    EXPECT_NEAR(u.displacement(0.2).y(), 0, 1e-6);
+}
+
 TEST(PatchUncertainty, WeakStructureOnAnEdgeDoesNotCount)
 {
     for (const auto& [step, counts] : {std::pair(4, false), std::pair(20, true)})
@@ -107,8 +132,8 @@ TEST(PatchUncertainty, WeakStructureOnAnEdgeDoesNotCount)
         cv::Mat gray(100, 100, CV_8UC1, cv::Scalar(150));
         gray(cv::Rect(0, 50, 50, 50)).setTo(150 - step);
         gray(cv::Rect(50, 0, 50, 100)).setTo(50);
-        const PatchUncertainty u =
-            patchUncertainty(derivativesOf(gray), {50, 50}, kWindowPx, 0.3, Brightness::Constant);
+        const PatchUncertainty u = patchUncertainty(
+            gray, derivativesOf(gray), {50, 50}, kWindowPx, 0.3, Brightness::Constant);
         EXPECT_EQ(std::isfinite(u.worst()), counts) << step;
         EXPECT_LT(u.best(), 0.01);
     }
@@ -124,7 +149,7 @@ TEST(PatchUncertainty, OfNoiseIsLarge)
         {
             const cv::Point2f centre(static_cast<float>(u), static_cast<float>(v));
             EXPECT_GT(
-                patchUncertainty(derivatives, centre, kWindowPx, noise, Brightness::Constant)
+                patchUncertainty(gray, derivatives, centre, kWindowPx, noise, Brightness::Constant)
                     .worst(),
                 0.1);
         }

@@ -100,6 +100,26 @@ TEST(Sensitivity, toThePrior)
     }
 }
 
+TEST(Sensitivity, toTheVignetting)
+{
+    Problem problem = makeProblem(85);
+    test::GaussianSampler sampler(86);
+    for (size_t i = 0; i < problem.points.size(); i += 3)
+    {
+        problem.points[i].dCur_dVignetting = 0.1 * sampler.vector<3>();
+    }
+    const PoseEstimate estimate = problem.solve();
+    constexpr double kVignetting = 0.01;
+    Problem displaced = problem;
+    for (PointPair& pair : displaced.points)
+    {
+        pair.cur.mean += kVignetting * pair.dCur_dVignetting;
+    }
+    const Vector12d expected = kVignetting * estimate.sensitivity.vignetting;
+    EXPECT_THAT(change(estimate, displaced.solve()), test::IsMatrixNear(expected, 2e-5));
+    EXPECT_GT(expected.head<6>().norm(), 1e-4);
+}
+
 /** All that the estimate depends on moves: so does the estimate. */
 TEST(Sensitivity, toAllTogetherIsOne)
 {

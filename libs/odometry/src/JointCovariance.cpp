@@ -25,6 +25,7 @@ void JointCovariance::TParams::check() const
     POINTPLANE_CHECK(noise > 0, "noise = " << noise << " is not positive");
     POINTPLANE_CHECK(drift >= 0, "drift = " << drift << " is negative");
     POINTPLANE_CHECK(driftSigma >= 0, "driftSigma = " << driftSigma << " is negative");
+    POINTPLANE_CHECK(vignetting >= 0, "vignetting = " << vignetting << " is negative");
     POINTPLANE_CHECK(
         history >= 1 && history <= 300, "history = " << history << " is not in 1..300");
 }
@@ -33,9 +34,11 @@ JointCovariance::JointCovariance(const TParams& params) : params_(params) { para
 
 void JointCovariance::start(int frame, const Matrix6d& cov)
 {
-    blocks_ = {{Kind::Pose, frame}, {Kind::Velocity, 0}};
-    cov_ = Eigen::MatrixXd::Zero(2 * kSize, 2 * kSize);
+    blocks_ = {{Kind::Pose, frame}, {Kind::Velocity, 0}, {Kind::Vignetting, 0}};
+    cov_ = Eigen::MatrixXd::Zero(3 * kSize, 3 * kSize);
     cov_.topLeftCorner<kSize, kSize>() = cov;
+    const auto k = find(Kind::Vignetting, 0);
+    cov_(k, k) = params_.vignetting * params_.vignetting;
     restart(frame);
 }
 
@@ -71,6 +74,7 @@ Eigen::MatrixXd JointCovariance::dependence(
     {
         A.middleCols<kSize>(find(Kind::Reference, frame)) += change * Ad_inverse;
     }
+    A.col(find(Kind::Vignetting, 0)) += measurement.vignetting;
     A.topRows<kSize>() = (Ad * A.topRows<kSize>()).eval();
     return A;
 }

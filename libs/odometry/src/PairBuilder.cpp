@@ -60,6 +60,7 @@ void PairBuilder::build(
             pair.base.cov = propagate(T_base_ref.linear(), ref.p_cam.cov);
             pair.cur = cur.p_cam;
             pair.dCur_dV = current.pointJacobian(cur);
+            pair.dCur_dVignetting = cur.ofVignetting_m;
             pair.reference = reference.id;
             pair.feature = cellOf(cur.uv_px);
             points.push_back(pair);

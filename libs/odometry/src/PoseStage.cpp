@@ -24,7 +24,11 @@ constexpr int kMinMatches = 3;
  * changes with the view rather than from frame to frame: drift grows faster than they do. The power
  * suits Kinects (variance up to 56 times the propagated one), simulated ones (0.5 to 1.6) and exact
  * renderings at once (docs/experiments.md). */
-constexpr double kDriftPower = 1.5;
+constexpr double kDriftPower = 1.8;
+
+/** Planes with smaller residuals than propagated drift as if they had these: many pixels average
+ * noise, but not that a surface is no plane. */
+constexpr double kLeastPlaneVariance = 1;
 
 /** A common error turns the pose by as much as it moves what is seen 2 m away [rad/m]. */
 constexpr double kDriftRotation = 0.5;
@@ -204,18 +208,20 @@ JointCovariance::Measurement PoseStage::errorsOf(
     {
         out.prior.rightCols<6>().setZero();  // the velocity is a new one for each frame
     }
+    out.vignetting = estimate.sensitivity.vignetting;
     out.noise = points + planes;
     out.noise.topLeftCorner<6, 6>() += ofShutter;
     out.priorNoise = propagate(estimate.sensitivity.prior, motion_.processNoise(dt));
+    const double ofPlanes = std::max(kLeastPlaneVariance, residuals.planes);
     const Matrix12d ofFeatures =
         std::pow(residuals.points, kDriftPower) * noise_.disagreement().points * points +
-        std::pow(residuals.planes, kDriftPower) * planes;
+        std::pow(ofPlanes, kDriftPower) * planes;
     Vector6d common;  // many features do not average what they all err by
     common << Eigen::Vector3d::Constant(covariance_.driftSigma),
         Eigen::Vector3d::Constant(covariance_.driftSigma * kDriftRotation);
     out.drift = covariance_.drift * ofFeatures.topLeftCorner<6, 6>();
     out.drift.diagonal() +=
-        std::pow(residuals.points * residuals.planes, kDriftPower / 2) * common.cwiseAbs2();
+        std::pow(residuals.points * ofPlanes, kDriftPower / 2) * common.cwiseAbs2();
     out.drift *= numViews(estimate.motion.mean.T_base_cur);
     return out;
 }

@@ -95,6 +95,16 @@ bool isAsBright(const ComparedPatch& a, const ComparedPatch& b)
     return std::abs(a.sum - b.sum) < kMostShift * ComparedPatch::kSize;
 }
 
+/** Relative change of brightness from one pixel to another, per vignetting: it grows with the
+ * square of the distance from the centre. */
+double vignettingBetween(
+    const cv::Mat& image, const Eigen::Vector2d& from_px, const Eigen::Vector2d& to_px)
+{
+    const Eigen::Vector2d centre(0.5 * (image.cols - 1), 0.5 * (image.rows - 1));
+    return ((from_px - centre).squaredNorm() - (to_px - centre).squaredNorm()) /
+           centre.squaredNorm();
+}
+
 /** A point of the reference that is looked for. */
 struct Candidate
 {
@@ -243,6 +253,7 @@ PointReference PointTracker::makeReference(const RgbdFrame& frame) const
     {
         out.points.push_back(point);
         out.cov_px.push_back(uncertainty.covariance(params_.maxNoisePx));
+        out.ofBrightness_px.push_back(uncertainty.displacement(params_.maxNoisePx));
     };
     const double noise = imageNoise(frame.gray);
     for (const cv::Point2f& pixel : candidates(pyramid))
@@ -251,8 +262,10 @@ PointReference PointTracker::makeReference(const RgbdFrame& frame) const
         {
             break;
         }
-        const auto uncertaintyWith = [&](Brightness brightness)
-        { return patchUncertainty(pyramid[1], pixel, params_.windowPx, noise, brightness); };
+        const auto uncertaintyWith = [&](Brightness brightness) {
+            return patchUncertainty(
+                frame.gray, pyramid[1], pixel, params_.windowPx, noise, brightness);
+        };
         PatchUncertainty uncertainty = uncertaintyWith(Brightness::Shifted);
         const bool isCorner = uncertainty.worst() <= params_.maxNoisePx;
         if (!isCorner)
@@ -366,8 +379,11 @@ std::vector<PointTrack> PointTracker::track(
                 lifter_.lift(frame, Eigen::Vector2f(c.position.x, c.position.y).cast<double>()))
         {
             // Along an edge, a track slides on the surface.
-            feature->p_cam.cov +=
-                propagate(surfaceJacobian(frame.camera, *feature), reference.cov_px[c.ref]);
+            const auto J = surfaceJacobian(frame.camera, *feature);
+            feature->p_cam.cov += propagate(J, reference.cov_px[c.ref]);
+            feature->ofVignetting_m =
+                J * (vignettingBetween(frame.gray, reference.points[c.ref].uv_px, feature->uv_px) *
+                     reference.ofBrightness_px[c.ref]);
             tracks.push_back({static_cast<int>(c.ref), *feature});
         }
     }

@@ -51,7 +51,13 @@ Eigen::Matrix2d PatchUncertainty::covariance(double limit_px) const
     return axes * sigma.cwiseAbs2().asDiagonal() * axes.transpose();
 }
 
+Eigen::Vector2d PatchUncertainty::displacement(double limit_px) const
+{
+    return axes * (sigma_px.array() <= limit_px).select(ofBrightness_px, 0).matrix();
+}
+
 PatchUncertainty patchUncertainty(
+    const cv::Mat& gray,
     const cv::Mat& derivatives,
     const cv::Point2f& centre,
     int windowPx,
@@ -67,14 +73,17 @@ PatchUncertainty patchUncertainty(
         cv::Rect(0, 0, derivatives.cols, derivatives.rows);
     Eigen::Matrix2d gradients = Eigen::Matrix2d::Zero();
     Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+    Eigen::Vector2d ofBrightness = Eigen::Vector2d::Zero();
     for (int v = patch.y; v < patch.br().y; ++v)
     {
         const auto* row = derivatives.ptr<cv::Vec2s>(v);
+        const auto* grey = gray.ptr<uchar>(v);
         for (int u = patch.x; u < patch.br().x; ++u)
         {
             const Eigen::Vector2d g(row[u][0] / kGain, row[u][1] / kGain);
             gradients += g * g.transpose();
             sum += g;
+            ofBrightness -= grey[u] * g;
         }
     }
     if (brightness == Brightness::Shifted)
@@ -89,6 +98,10 @@ PatchUncertainty patchUncertainty(
         const double structure = es.eigenvalues()[k] - kNoiseGain * noise * noise * patch.area();
         out.sigma_px[k] = structure > 0 ? noise * std::sqrt(2 / structure)
                                         : std::numeric_limits<double>::infinity();
+    }
+    if (brightness == Brightness::Constant)
+    {
+        out.ofBrightness_px = (out.axes.transpose() * ofBrightness).cwiseQuotient(es.eigenvalues());
     }
     if (out.worst() > kEdge * out.best())
     {

@@ -42,6 +42,7 @@ NormalEquations::NormalEquations(
 void NormalEquations::evaluate(const Motion& motion, double widening)
 {
     residuals_.clear();
+    R_base_cur_ = motion.T_base_cur.linear();
     for (size_t i = 0; i < points_.size() + planes_.size(); ++i)
     {
         residuals_.push_back(weighted(i, motion));
@@ -136,6 +137,24 @@ Matrix12d NormalEquations::currentPointNoise() const { return currentNoise(point
 Matrix12d NormalEquations::currentPlaneNoise() const
 {
     return currentNoise(planes_, points_.size());
+}
+
+Vector12d NormalEquations::vignettingInfluence() const
+{
+    Vector12d out = Vector12d::Zero();
+    for (size_t i = 0; i < points_.size(); ++i)
+    {
+        const auto& [residual, W, squaredNorm] = residuals_[i];
+        const double w = robust(squaredNorm, true).first;
+        const Eigen::Vector3d dr = -R_base_cur_ * points_[i].dCur_dVignetting;
+        if (w > 0 && !dr.isZero(0))
+        {
+            Eigen::Matrix<double, 3, 12> J;
+            J << residual.J, residual.J_V;
+            out += gain(i) * w * J.transpose() * (W * dr);
+        }
+    }
+    return out;
 }
 
 NormalEquations::Weighted NormalEquations::weighted(size_t i, const Motion& motion) const

@@ -55,6 +55,9 @@ class NormalEquations
 
     /** Covariance of the sums' gradient g by the current frame's features, as propagated. A feature
      * that is compared with several references errs in all these pairs alike. */
+    /** How the gradient changes with the vignetting. */
+    [[nodiscard]] Vector12d vignettingInfluence() const;
+
     [[nodiscard]] Matrix12d currentPointNoise() const;
     [[nodiscard]] Matrix12d currentPlaneNoise() const;
 
@@ -83,6 +86,7 @@ class NormalEquations
     const std::vector<PlanePair>& planes_;
     NoiseFactors noise_;
     std::vector<Weighted> residuals_;  //!< of the points, then of the planes
+    Eigen::Matrix3d R_base_cur_{Eigen::Matrix3d::Identity()};  //!< that they are for
     double scale_{1};
     FeatureSum pointSum_, planeSum_;
 };

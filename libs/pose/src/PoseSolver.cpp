@@ -214,6 +214,7 @@ PoseEstimate PoseSolver::solve(
     }
     out.sensitivity.points = propagate(H_inverse, equations.currentPointNoise());
     out.sensitivity.planes = propagate(H_inverse, equations.currentPlaneNoise());
+    out.sensitivity.vignetting = -H_inverse * equations.vignettingInfluence();
     out.numPointInliers = p.numInliers;
     return out;
 }

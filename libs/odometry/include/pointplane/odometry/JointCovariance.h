@@ -24,9 +24,10 @@ class JointCovariance
     struct TParams
     {
         std::string model{"joint"};
-        double noise{0.28};
-        double drift{29};
-        double driftSigma{0.00026};
+        double noise{0.235};
+        double drift{13};
+        double driftSigma{0.00027};
+        double vignetting{0.1};
         int history{1};
 
         template <class V>
@@ -51,6 +52,11 @@ class JointCovariance
               "m",
               "standard deviation that it gains besides in every direction, and half as many rad, "
               "if residuals are as the sensor's noise makes them");
+            v("vignetting",
+              vignetting,
+              "-",
+              "standard deviation of what the image's corners are darker than its centre; where "
+              "shading tells the motion, it looks like one");
             v("history", history, "frames", "how far back motions are told with their covariances");
         }
         /** \throws std::invalid_argument naming the key */
@@ -65,6 +71,7 @@ class JointCovariance
         Matrix12d prior{Matrix12d::Zero()};       //!< change with that of the predicted motion
         Matrix12d noise{Matrix12d::Zero()};       //!< of the frame's own features
         Matrix12d priorNoise{Matrix12d::Zero()};  //!< of the predicted motion, without the velocity
+        Vector12d vignetting{Vector12d::Zero()};  //!< change with the lens's vignetting
         Matrix6d drift{Matrix6d::Zero()};         //!< gained by each reference since the base
     };
 
@@ -106,6 +113,7 @@ class JointCovariance
     {
         Pose,
         Velocity,
+        Vignetting,  //!< the first of its rows; it stays what it is
         Reference
     };
     struct Block

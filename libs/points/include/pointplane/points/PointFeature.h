@@ -12,5 +12,8 @@ struct PointFeature
     PointGaussian p_cam;          //!< camera frame, optical axes [m]
     /** The surface around it as a plane through it: theta_m . P + 1 = 0 [1/m]. */
     Eigen::Vector3d theta_m{0, 0, 0};
+    /** Of a track: how far vignetting displaces it, which makes the image's corners darker than its
+     * centre by this part, d p_cam / d vignetting [m]. */
+    Eigen::Vector3d ofVignetting_m{0, 0, 0};
 };
 }  // namespace pointplane

@@ -30,7 +30,10 @@ struct PointReference
     std::shared_ptr<const ReferencePatches> patches;  //!< tracking: what each looks like
     cv::Mat descriptors;                              //!< matching: a row a point
     std::vector<Eigen::Matrix2d> cov_px;  //!< tracking: image noise of where each is found [px^2]
-    std::vector<int> misses;              //!< tracking: frames in a row without each point
+    /** Tracking: how far each is found beside its place when the image is brighter, per relative
+     * change [px]. */
+    std::vector<Eigen::Vector2d> ofBrightness_px;
+    std::vector<int> misses;  //!< tracking: frames in a row without each point
 
     /** Takes in which points a frame has found again. */
     void note(const std::vector<PointTrack>& tracks);

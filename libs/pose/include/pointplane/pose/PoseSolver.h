@@ -38,6 +38,8 @@ struct Sensitivity
     /** Covariance that comes from the current frame's points and planes, as propagated: without
      * the noise factors, and without the references' own errors. */
     Matrix12d points{Matrix12d::Zero()}, planes{Matrix12d::Zero()};
+    /** Change with the lens's vignetting, by which all points err together. */
+    Vector12d vignetting{Vector12d::Zero()};
 };
 
 /** What the solver found. */

@@ -12,11 +12,12 @@ namespace pointplane
  * on its body velocity V [m/s, rad/s], to first order by dCur_dV. */
 struct PointPair
 {
-    PointGaussian base;                    //!< from a reference frame, in the base frame [m]
-    PointGaussian cur;                     //!< in the current camera, were it at rest [m]
-    Matrix36d dCur_dV{Matrix36d::Zero()};  //!< rolling shutter: cur is at cur.mean + dCur_dV V
-    int reference{0};                      //!< which of the frames that cur is compared with
-    int feature{-1};                       //!< pairs of equal ones err together; -1: of its own
+    PointGaussian base;                         //!< from a reference frame, in the base frame [m]
+    PointGaussian cur;                          //!< in the current camera, were it at rest [m]
+    Matrix36d dCur_dV{Matrix36d::Zero()};       //!< rolling shutter: cur is at cur.mean + dCur_dV V
+    Eigen::Vector3d dCur_dVignetting{0, 0, 0};  //!< error of cur with that of the lens [m]
+    int reference{0};                           //!< which of the frames that cur is compared with
+    int feature{-1};  //!< pairs of equal ones err together; -1: of its own
 };
 
 /** The same plane seen twice. */
