@@ -188,21 +188,20 @@ TEST(Odometry, tellsMotionsSinceEarlierFrames)
  * drift of the key frames does, and grows with the motion. */
 TEST(Odometry, errorsAgainstKeyFramesDoNotAddUp)
 {
-    const auto overTenFrames = [](const std::string& model, bool drifts)
+    const auto overTenFrames = [](const std::string& model, double drift)
     {
         OdometryParams params;
         params.covariance.history = 10;
         params.covariance.model = model;
-        if (!drifts)
-        {
-            params.covariance.drift = params.covariance.driftSigma = 0;
-        }
+        params.covariance.drift *= drift;
+        params.covariance.driftSigma *= std::sqrt(drift);
         const OdometryResult r = CheckedOdometry(params).run(0, 20);
         return r.since[9].cov.trace() / r.since[0].cov.trace();
     };
-    const double ofKeyFrames = overTenFrames("joint", false);
-    EXPECT_GT(overTenFrames("joint", true), 2 * ofKeyFrames);
-    EXPECT_GT(overTenFrames("independent", false), 3 * ofKeyFrames);
+    const double ofKeyFrames = overTenFrames("joint", 0), drifting = overTenFrames("joint", 1);
+    EXPECT_GT(drifting, 1.5 * ofKeyFrames);
+    EXPECT_GT(overTenFrames("joint", 3), 1.5 * drifting);
+    EXPECT_GT(overTenFrames("independent", 0), 3 * ofKeyFrames);
 }
 
 /** After a gap the increment leads on from a predicted pose, whose error it has to undo. */
