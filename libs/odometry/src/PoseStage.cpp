@@ -24,7 +24,10 @@ constexpr int kMinMatches = 3;
  * changes with the view rather than from frame to frame: drift grows faster than they do. The power
  * suits Kinects (variance up to 56 times the propagated one), simulated ones (0.5 to 1.6) and exact
  * renderings at once (docs/experiments.md). */
-constexpr double kDriftPower = 1.8;
+constexpr double kDriftPower = 1.7;
+
+/** Drift of a point's variance over that of a plane's, of which many pixels average. */
+constexpr double kPointDrift = 3;
 
 /** Planes with smaller residuals than propagated drift as if they had these: many pixels average
  * noise, but not that a surface is no plane. */
@@ -213,9 +216,9 @@ JointCovariance::Measurement PoseStage::errorsOf(
     out.noise.topLeftCorner<6, 6>() += ofShutter;
     out.priorNoise = propagate(estimate.sensitivity.prior, motion_.processNoise(dt));
     const double ofPlanes = std::max(kLeastPlaneVariance, residuals.planes);
-    const Matrix12d ofFeatures =
-        std::pow(residuals.points, kDriftPower) * noise_.disagreement().points * points +
-        std::pow(ofPlanes, kDriftPower) * planes;
+    const Matrix12d ofFeatures = kPointDrift * std::pow(residuals.points, kDriftPower) *
+                                     noise_.disagreement().points * points +
+                                 std::pow(ofPlanes, kDriftPower) * planes;
     Vector6d common;  // many features do not average what they all err by
     common << Eigen::Vector3d::Constant(covariance_.driftSigma),
         Eigen::Vector3d::Constant(covariance_.driftSigma * kDriftRotation);

@@ -24,9 +24,9 @@ class JointCovariance
     struct TParams
     {
         std::string model{"joint"};
-        double noise{0.235};
-        double drift{13};
-        double driftSigma{0.00027};
+        double noise{0.27};
+        double drift{9};
+        double driftSigma{0.00028};
         double vignetting{0.1};
         int history{1};
 
