@@ -26,7 +26,7 @@ mutants=(
     'libs/points/src/lucas_kanade.cpp|static_cast<short>(g.x - meanX)|static_cast<short>(g.x)|points_lucas_kanade'
     'libs/points/src/patch_uncertainty.cpp|gradients -= sum|gradients += sum|points_patch_uncertainty'
     'libs/points/src/patch_uncertainty.cpp|ofBrightness -= grey|ofBrightness += grey|points_patch_uncertainty'
-    'libs/pose/src/NormalEquations.cpp|dr = -R_base_cur_ *|dr = R_base_cur_ *|pose_Sensitivity'
+    'libs/pose/src/residuals.cpp|ofVignetting = -R *|ofVignetting = R *|pose_Sensitivity'
     'libs/planes/src/PlaneMatcher.cpp|dot(plane.n) >= minCosine|dot(plane.n) <= minCosine|planes_PlaneMatcher'
 )
 readonly tree=build/mutation/tree log=build/mutation/log

@@ -19,20 +19,23 @@ using Eigen::Vector2d;
 
 constexpr double kDepth = 2;  // [m]
 
-/** A textured wall, square to the camera, moved by `shift` pixels. */
+/** A wall, square to the camera. \param grey of a pixel */
+template <class F>
+RgbdFrame wallOf(const F& grey, unsigned noiseSeed)
+{
+    test::GaussianSampler random(noiseSeed);
+    RgbdFrame out;
+    out.gray = test::renderImage(640, 480, grey, 1.5, &random);
+    out.depth = cv::Mat(480, 640, CV_32FC1, cv::Scalar(kDepth));
+    return out;
+}
+
+/** A textured wall, moved by `shift` pixels. */
 RgbdFrame wall(const Vector2d& shift_px, unsigned noiseSeed, double coarsestPx = 80)
 {
     const test::Texture texture(1, 5, coarsestPx);
-    test::GaussianSampler random(noiseSeed);
-    RgbdFrame out;
-    out.gray = test::renderImage(
-        640,
-        480,
-        [&](double u, double v) { return texture(u - shift_px.x(), v - shift_px.y()); },
-        1.5,
-        &random);
-    out.depth = cv::Mat(480, 640, CV_32FC1, cv::Scalar(kDepth));
-    return out;
+    return wallOf(
+        [&](double u, double v) { return texture(u - shift_px.x(), v - shift_px.y()); }, noiseSeed);
 }
 
 /** Motion of the camera that moves the wall's picture by so much. */
@@ -360,16 +363,10 @@ namespace
 /** A bright wall ends at a slanted line, and nothing else is to be seen. */
 RgbdFrame slantedEdge(double shift_px, unsigned noiseSeed)
 {
-    test::GaussianSampler random(noiseSeed);
-    RgbdFrame out = wall({0, 0}, noiseSeed);
-    out.gray = test::renderImage(
-        640,
-        480,
+    return wallOf(
         [&](double u, double v)
         { return 60 + 120 / (1 + std::exp(-(0.8 * (u - shift_px - 320) + 0.6 * (v - 240)))); },
-        1.5,
-        &random);
-    return out;
+        noiseSeed);
 }
 }  // namespace
 
@@ -405,11 +402,7 @@ TEST(PointTracker, VignettingDisplacesShadingAsTold)
     constexpr double kVignetting = 0.2, kShift_px = 16;
     const auto shaded = [&](double shift_px, unsigned noiseSeed)
     {
-        test::GaussianSampler random(noiseSeed);
-        RgbdFrame out = wall({0, 0}, noiseSeed);
-        out.gray = test::renderImage(
-            640,
-            480,
+        return wallOf(
             [&](double u, double v)
             {
                 const double x = u - 319.5, y = v - 239.5;
@@ -417,9 +410,7 @@ TEST(PointTracker, VignettingDisplacesShadingAsTold)
                     1 - kVignetting * (x * x + y * y) / (319.5 * 319.5 + 239.5 * 239.5);
                 return falloff * (60 + 150 / (1 + std::exp(-(u - shift_px - 480) / 10)));
             },
-            1.5,
-            &random);
-        return out;
+            noiseSeed);
     };
     const PointTracker tracker = makeTracker();
     const PointReference reference = tracker.makeReference(shaded(0, 1));

@@ -42,7 +42,6 @@ NormalEquations::NormalEquations(
 void NormalEquations::evaluate(const Motion& motion, double widening)
 {
     residuals_.clear();
-    R_base_cur_ = motion.T_base_cur.linear();
     for (size_t i = 0; i < points_.size() + planes_.size(); ++i)
     {
         residuals_.push_back(weighted(i, motion));
@@ -146,12 +145,11 @@ Vector12d NormalEquations::vignettingInfluence() const
     {
         const auto& [residual, W, squaredNorm] = residuals_[i];
         const double w = robust(squaredNorm, true).first;
-        const Eigen::Vector3d dr = -R_base_cur_ * points_[i].dCur_dVignetting;
-        if (w > 0 && !dr.isZero(0))
+        if (w > 0 && !residual.ofVignetting.isZero(0))
         {
             Eigen::Matrix<double, 3, 12> J;
             J << residual.J, residual.J_V;
-            out += gain(i) * w * J.transpose() * (W * dr);
+            out += gain(i) * w * J.transpose() * (W * residual.ofVignetting);
         }
     }
     return out;

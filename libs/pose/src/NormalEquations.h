@@ -86,7 +86,6 @@ class NormalEquations
     const std::vector<PlanePair>& planes_;
     NoiseFactors noise_;
     std::vector<Weighted> residuals_;  //!< of the points, then of the planes
-    Eigen::Matrix3d R_base_cur_{Eigen::Matrix3d::Identity()};  //!< that they are for
     double scale_{1};
     FeatureSum pointSum_, planeSum_;
 };

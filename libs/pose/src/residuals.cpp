@@ -55,6 +55,7 @@ Residual pointResidual(const PointPair& pair, const Motion& motion)
     out.cov = pair.base.cov + out.curCov;
     out.J << -Eigen::Matrix3d::Identity(), hat(p_base);
     out.J_V = -R * pair.dCur_dV;
+    out.ofVignetting = -R * pair.dCur_dVignetting;
     return out;
 }
 

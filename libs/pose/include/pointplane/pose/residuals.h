@@ -16,6 +16,7 @@ struct Residual
     Eigen::Matrix3d curCov;  //!< the current feature's share of it
     Matrix36d J;             //!< dr / dxi
     Matrix36d J_V;           //!< dr / dV
+    Eigen::Vector3d ofVignetting{0, 0, 0};  //!< dr / dk of the lens's vignetting k
 };
 
 /** r = P' - (R P + t) [P17 Eq. 8]: P' in base, P in the current camera [m]. */
