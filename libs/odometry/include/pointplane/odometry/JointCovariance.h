@@ -24,9 +24,9 @@ class JointCovariance
     struct TParams
     {
         std::string model{"joint"};
-        double noise{0.27};
-        double drift{9};
-        double driftSigma{0.00028};
+        double noise{0.25};
+        double drift{3};
+        double driftSigma{0.00016};
         double vignetting{0.1};
         int history{1};
 
@@ -41,16 +41,19 @@ class JointCovariance
             v("noise",
               noise,
               "-",
-              "variance of one frame's own error, over what the residuals tell of its features");
+              "variance of one frame's own error, over what the sensor's noise makes of its planes "
+              "(a "
+              "tenth of that for points, times what the residuals tell)");
             v("drift",
               drift,
               "-",
-              "variance that what a reference says gains until another view (0.15 m or 10 deg), "
-              "over that");
+              "variance that what planes say of a reference gains until another view (0.15 m or 10 "
+              "deg), over that; 54 times as much for points, times what the residuals tell");
             v("driftSigma",
               driftSigma,
               "m",
-              "standard deviation that it gains besides in every direction, and half as many rad, "
+              "standard deviation that it gains besides in every direction, and a quarter as many "
+              "rad, "
               "if residuals are as the sensor's noise makes them");
             v("vignetting",
               vignetting,
