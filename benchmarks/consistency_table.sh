@@ -77,7 +77,7 @@ real() { # folder
     echo "| $1 | ${noise//,/ / } | $config | $plain |"
 }
 
-readonly scenes=(corner desk notexture cabinet corridor)
+readonly scenes=(corner desk room notexture cabinet corridor corridor_floor)
 export bin work
 export -f quietly estimate nees simulated_run
 for scene in "${scenes[@]}"; do

@@ -27,6 +27,7 @@ mutants=(
     'libs/points/src/patch_uncertainty.cpp|gradients -= sum|gradients += sum|points_patch_uncertainty'
     'libs/points/src/patch_uncertainty.cpp|ofBrightness -= grey|ofBrightness += grey|points_patch_uncertainty'
     'libs/pose/src/residuals.cpp|ofVignetting = -R *|ofVignetting = R *|pose_Sensitivity'
+    'libs/odometry/src/frame_errors.cpp|std::max(1.0, variance)|std::min(1.0, variance)|odometry_frame_errors'
     'libs/planes/src/PlaneMatcher.cpp|dot(plane.n) >= minCosine|dot(plane.n) <= minCosine|planes_PlaneMatcher'
 )
 readonly tree=build/mutation/tree log=build/mutation/log

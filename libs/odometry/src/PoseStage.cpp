@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "Stopwatch.h"
+#include "frame_errors.h"
 
 namespace pointplane
 {
@@ -20,47 +21,12 @@ namespace
 /** Fewer matches than this in total cannot fix a pose [P17, section Pose estimation]. */
 constexpr int kMinMatches = 3;
 
-/** White noise of points over what their covariances say: tracks of neighbouring frames err alike.
- */
-constexpr double kPointNoise = 0.1;
-
-/** Drift of what points say over that of planes, of which many pixels average. */
-constexpr double kPointDrift = 54;
-
-/** Residuals larger than propagated noise come from what is wrong with depth and calibration, which
- * changes with the view rather than from frame to frame: drift grows faster than they do. The
- * powers suit Kinects (variance up to 56 times the propagated one), simulated ones (0.5 to 1.6) and
- * exact renderings at once (docs/experiments.md). */
-constexpr double kPointPower = 1.9, kCommonPointPower = 2.5, kCommonPlanePower = 0.5;
-
-/** A common error turns the pose by as much as it moves what is seen 4 m away [rad/m]. */
-constexpr double kDriftRotation = 0.25;
-
 /** How many directions the measurements know better than the motion model does. */
 int observableDirections(const Matrix6d& information, const Matrix6d& priorCovariance)
 {
     const Matrix6d L = priorCovariance.llt().matrixL();
     const Eigen::SelfAdjointEigenSolver<Matrix6d> es(L.transpose() * information * L);
     return static_cast<int>((es.eigenvalues().array() > 1).count());
-}
-
-/** How far a motion within dt changes what is seen: 1 for another view of the scene, more if it is
- * fast, which blurs images and shears depth. */
-double numViews(const Eigen::Isometry3d& motion, double dt)
-{
-    constexpr double kDistance = 0.15;          // [m]
-    constexpr double kAngle = 10 * M_PI / 180;  // [rad]
-    constexpr double kRate = 3, kPower = 0.25;  // [1/s], by hand
-    const double views =
-        motion.translation().norm() / kDistance + so3Log(motion.linear()).norm() / kAngle;
-    return views * std::pow(views / dt / kRate, kPower);
-}
-
-/** What residuals say of errors in common: smaller ones than propagated say nothing against them,
- * and those of features that a frame does not have say nothing at all. */
-double excessOf(double variance, const Matrix12d& sensitivity)
-{
-    return sensitivity.isZero() ? 1 : std::max(1.0, variance);
 }
 
 double maxSigma(const Matrix6d& cov)
@@ -201,42 +167,29 @@ PoseStage::Measured PoseStage::accept(
     return out;
 }
 
-/** Noise of the frame itself and drift of the references, on one scale for all cameras by what the
- * residuals and the references' disagreement say of them. */
 JointCovariance::Measurement PoseStage::errorsOf(
     const PoseEstimate& estimate, const Matrix6d& ofShutter, double dt) const
 {
-    JointCovariance::Measurement out;
     if (covariance_.model == "independent")
     {
+        JointCovariance::Measurement out;
         out.prior.topLeftCorner<6, 6>().setIdentity();
         out.noise.topLeftCorner<6, 6>() = estimate.motion.pose().cov + ofShutter;
         return out;
     }
-    const Matrix12d& points = estimate.sensitivity.points;
-    const Matrix12d& planes = estimate.sensitivity.planes;
-    const NoiseFactors residuals = noise_.residuals();
-    out.references = estimate.sensitivity.references;
-    out.prior = estimate.sensitivity.prior;
+    JointCovariance::Measurement out = frameErrors(
+        estimate.sensitivity,
+        noise_.residuals(),
+        noise_.disagreement(),
+        estimate.motion.mean.T_base_cur,
+        dt,
+        covariance_);
     if (!fuses())
     {
         out.prior.rightCols<6>().setZero();  // the velocity is a new one for each frame
     }
-    out.vignetting = estimate.sensitivity.vignetting;
-    out.noise = covariance_.noise * (kPointNoise * residuals.points * points + planes);
     out.noise.topLeftCorner<6, 6>() += ofShutter;
     out.priorNoise = propagate(estimate.sensitivity.prior, motion_.processNoise(dt));
-    const Matrix12d ofFeatures = kPointDrift * std::pow(residuals.points, kPointPower) *
-                                     noise_.disagreement().points * points +
-                                 planes;
-    Vector6d common;  // many features do not average what they all err by
-    common << Eigen::Vector3d::Constant(covariance_.driftSigma),
-        Eigen::Vector3d::Constant(covariance_.driftSigma * kDriftRotation);
-    out.drift = covariance_.drift * covariance_.noise * ofFeatures.topLeftCorner<6, 6>();
-    out.drift.diagonal() += std::pow(excessOf(residuals.points, points), kCommonPointPower) *
-                            std::pow(excessOf(residuals.planes, planes), kCommonPlanePower) *
-                            common.cwiseAbs2();
-    out.drift *= numViews(estimate.motion.mean.T_base_cur, dt);
     return out;
 }
 
