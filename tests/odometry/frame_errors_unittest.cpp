@@ -91,5 +91,6 @@ TEST(frameErrors, driftGrowsWithTheMotionAndMoreIfItIsFast)
     EXPECT_EQ(drift(0, 0.1), 0);
     EXPECT_NEAR(drift(0.02, 0.2), 2 * slow, 1e-12);
     EXPECT_NEAR(drift(0.01, 0.01), std::pow(10, 0.25) * slow, 1e-12);
+    EXPECT_EQ(drift(0.01, 1e-320), drift(0.01, 1e-3));  // stamps that cannot be true
 }
 }  // namespace pointplane

@@ -33,9 +33,10 @@ double numViews(const Eigen::Isometry3d& motion, double dt)
     constexpr double kDistance = 0.15;          // [m]
     constexpr double kAngle = 10 * M_PI / 180;  // [rad]
     constexpr double kRate = 3, kPower = 0.25;  // [1/s], by hand
+    constexpr double kShortest = 1e-3;          // [s], stamps may be odd
     const double views =
         motion.translation().norm() / kDistance + so3Log(motion.linear()).norm() / kAngle;
-    return views * std::pow(views / dt / kRate, kPower);
+    return views * std::pow(views / std::max(dt, kShortest) / kRate, kPower);
 }
 
 /** What residuals say of errors in common: smaller ones than propagated say nothing against them,
