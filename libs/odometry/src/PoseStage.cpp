@@ -2,7 +2,6 @@
 #include "PoseStage.h"
 
 #include <pointplane/core/covariance.h>
-#include <pointplane/core/se3.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
