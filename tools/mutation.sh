@@ -26,8 +26,10 @@ mutants=(
     'libs/points/src/lucas_kanade.cpp|static_cast<short>(g.x - meanX)|static_cast<short>(g.x)|points_lucas_kanade'
     'libs/points/src/patch_uncertainty.cpp|gradients -= sum|gradients += sum|points_patch_uncertainty'
     'libs/points/src/patch_uncertainty.cpp|ofBrightness -= grey|ofBrightness += grey|points_patch_uncertainty'
-    'libs/pose/src/residuals.cpp|ofVignetting = -R *|ofVignetting = R *|pose_Sensitivity'
-    'libs/odometry/src/frame_errors.cpp|std::max(1.0, variance)|std::min(1.0, variance)|odometry_frame_errors'
+    'libs/pose/src/residuals.cpp|dBase_dCamera - R * pair|dBase_dCamera + R * pair|pose_Sensitivity'
+    'libs/pose/src/NormalEquations.cpp|1 - 2.0 / 3 * J|1 - 1.0 / 3 * J|pose_Sensitivity'
+    'libs/odometry/src/ResidualVariogram.cpp|*far - *step|*far|odometry_ResidualVariogram'
+    'libs/odometry/src/frame_errors.cpp|distance * distance;|distance;|odometry_frame_errors'
     'libs/planes/src/PlaneMatcher.cpp|dot(plane.n) >= minCosine|dot(plane.n) <= minCosine|planes_PlaneMatcher'
 )
 readonly tree=build/mutation/tree log=build/mutation/log

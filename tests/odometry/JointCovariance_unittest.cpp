@@ -119,20 +119,22 @@ TEST(JointCovariance, anUnobservedVelocityKeepsItsError)
     EXPECT_THAT(joint.relative(17, kAtRest), isTimesIdentity(1));
 }
 
-/** A lens does not change: what it does to all frames alike cancels between them, and what grows
- * with the way from the reference goes on growing in one direction. */
-TEST(JointCovariance, vignettingIsTheSameInAllFrames)
+/** A camera does not change: what its errors do to all frames alike cancels between them, and what
+ * grows with the way from the reference goes on growing in one direction. */
+TEST(JointCovariance, errorsOfTheCameraAreTheSameInAllFrames)
 {
     JointCovariance::TParams params;
     params.history = 30;
     params.vignetting = 0.5;
+    params.principalPoint = 2;
+    params.focalLength = 3;
     JointCovariance joint(params);
     joint.start(1, Matrix6d::Zero());
     const auto seen = [](double metres)
     {
         JointCovariance::Measurement out = against(1);
         out.noise.setZero();
-        out.vignetting[0] = metres;
+        out.camera.topLeftCorner<4, 4>() = metres * Eigen::Matrix4d::Identity();
         return out;
     };
     for (int frame = 2; frame <= 12; ++frame)
@@ -141,10 +143,14 @@ TEST(JointCovariance, vignettingIsTheSameInAllFrames)
         joint.keep({1});
     }
     joint.measure(13, kAtRest, kFrame, seen(0.11));
-    const auto sigma = [&](int from) { return std::sqrt(joint.relative(from, kAtRest)(0, 0)); };
-    EXPECT_NEAR(sigma(1), 0.5 * 0.11, 1e-12);
-    EXPECT_NEAR(sigma(2), 0.5 * 0.10, 1e-12);
-    EXPECT_NEAR(sigma(12), 0, 1e-9) << "alike";
+    const auto sigma = [&](int from, int axis)
+    { return std::sqrt(joint.relative(from, kAtRest)(axis, axis)); };
+    EXPECT_NEAR(sigma(1, 0), 0.5 * 0.11, 1e-12);
+    EXPECT_NEAR(sigma(2, 0), 0.5 * 0.10, 1e-12);
+    EXPECT_NEAR(sigma(2, 1), 2 * 0.10, 1e-12);
+    EXPECT_NEAR(sigma(2, 2), 2 * 0.10, 1e-12);
+    EXPECT_NEAR(sigma(2, 3), 3 * 0.10, 1e-12);
+    EXPECT_NEAR(sigma(12, 0), 0, 1e-9) << "alike";
 }
 
 TEST(JointCovariance, predictedFramesAndANewWindow)
@@ -202,6 +208,8 @@ TEST(JointCovariance, monteCarlo)
     JointCovariance::TParams params;
     params.history = kFrames;
     params.vignetting = 0.7;
+    params.principalPoint = 0.5;
+    params.focalLength = 0.3;
     joint = JointCovariance(params);
     const Matrix6d startCov = setup.covariance<6>(0.1, 1);
     joint.start(0, startCov);
@@ -218,7 +226,8 @@ TEST(JointCovariance, monteCarlo)
         m.noise = setup.covariance<12>(0.1, 1);
         m.priorNoise = setup.covariance<12>(0.1, 1);
         m.drift = setup.covariance<6>(0.1, 0.5);
-        m.vignetting = setup.vector<12>();
+        m.camera = setup.vector<12>() * Eigen::RowVector4d(1, -0.5, 0.3, 0.2);
+        m.camera.bottomRightCorner<6, 3>().setConstant(0.4);
         joint.measure(k, poses.back(), 0.5, m);
         joint.keep({0, k - 1, k});
         measurements.push_back(m);
@@ -232,7 +241,9 @@ TEST(JointCovariance, monteCarlo)
         std::vector<Vector6d> pose{sampler.sample(startCov)};
         std::map<int, Vector6d> reference{{0, pose[0]}};
         Vector6d velocity = Vector6d::Zero();
-        const double vignetting = params.vignetting * sampler.normal();
+        Eigen::Vector4d camera = sampler.vector<4>();
+        camera.array() *=
+            Eigen::Array4d(params.vignetting, params.principalPoint, params.principalPoint, 0.3);
         for (int k = 1; k < kFrames; ++k)
         {
             const JointCovariance::Measurement& m = measurements[static_cast<size_t>(k - 1)];
@@ -246,7 +257,7 @@ TEST(JointCovariance, monteCarlo)
             Vector12d predicted;
             predicted << before + 0.5 * velocity, velocity;
             Vector12d shared = m.prior * predicted + sampler.sample(m.priorNoise);
-            shared += m.vignetting * vignetting;
+            shared += m.camera * camera;
             for (const auto& [frame, change] : m.references)
             {
                 shared += change * (toBase * reference.at(frame));
@@ -280,6 +291,8 @@ TEST(JointCovariance, refusesParametersNamingTheKey)
     refused([](auto& p) { p.noise = 0; });
     refused([](auto& p) { p.drift = -1; });
     refused([](auto& p) { p.vignetting = -0.1; });
+    refused([](auto& p) { p.principalPoint = -0.1; });
+    refused([](auto& p) { p.focalLength = -0.1; });
     refused([](auto& p) { p.history = 0; });
 }
 }  // namespace pointplane

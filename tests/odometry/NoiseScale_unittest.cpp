@@ -54,7 +54,6 @@ TEST(NoiseScale, residualsAreAveragedFromTheStart)
     }
     EXPECT_NEAR(noise.residuals().points, (3 * 3 + 12 * 0.5) / 15, 1e-12);
     EXPECT_GT(noise.factors().points, 2);
-    EXPECT_EQ(noise.disagreement().points, 1);
 }
 
 TEST(NoiseScale, aFrameWithoutFeaturesTellsNothing)

@@ -3,25 +3,21 @@
 
 #include <cmath>
 
+#include "views.h"
 #include <gtest/gtest.h>
 
 namespace pointplane
 {
 namespace
 {
-constexpr double kFrame = 1.0 / 20;  // [s]
-
-/** One view in a third of a second: the rate at which drift is what its parameters say. */
-Eigen::Isometry3d motion(double distance = 0.15 * 3 * kFrame)
+/** Features of the given variances, all at the distance. */
+PoseEstimate estimate(double points, double planes, double distance = 1)
 {
-    return Eigen::Isometry3d(Eigen::Translation3d(0, distance, 0));
-}
-
-Sensitivity sensitivity(double points, double planes)
-{
-    Sensitivity out;
-    out.points = points * Matrix12d::Identity();
-    out.planes = planes * Matrix12d::Identity();
+    PoseEstimate out;
+    out.sensitivity.points = points * Matrix12d::Identity();
+    out.sensitivity.planes = planes * Matrix12d::Identity();
+    out.infoPoints.setIdentity();
+    out.infoPoints.bottomRightCorner<3, 3>() *= 2 * distance * distance;
     return out;
 }
 
@@ -35,62 +31,64 @@ JointCovariance::TParams params()
 }
 
 JointCovariance::Measurement errors(
-    const Sensitivity& s, NoiseFactors residuals = {}, NoiseFactors disagreement = {})
+    const PoseEstimate& e, NoiseFactors white = {}, NoiseFactors drift = {}, double views = 0.15)
 {
-    return frameErrors(s, residuals, disagreement, motion(), kFrame, params());
+    return frameErrors(e, {white, drift}, views, params());
 }
 }  // namespace
 
 TEST(frameErrors, byHand)
 {
-    // 0.15 of a view. Planes: noise 0.5 and 0.5 * 4 * 0.15; points: 0.1 and 54 times that.
-    const JointCovariance::Measurement e = errors(sensitivity(1e-3, 2e-3));
-    EXPECT_NEAR(e.noise(0, 0), 0.5 * (0.1 * 1e-3 + 2e-3), 1e-12);
+    // 0.15 of a view. Noise 0.5 of both; drift 4 times the planes', 12 times that of points.
+    const JointCovariance::Measurement e = errors(estimate(1e-3, 2e-3));
+    EXPECT_NEAR(e.noise(0, 0), 0.5 * 3e-3, 1e-12);
     EXPECT_NEAR(e.noise(11, 11), e.noise(0, 0), 1e-12);
-    EXPECT_NEAR(e.drift(0, 0), 0.15 * (2 * (54 * 1e-3 + 2e-3) + 1e-4), 1e-12);
-    EXPECT_NEAR(e.drift(5, 5), 0.15 * (2 * (54 * 1e-3 + 2e-3) + 1e-4 / 16), 1e-12);
+    EXPECT_NEAR(e.drift(0, 0), 0.15 * (4 * (12 * 1e-3 + 2e-3) + 1e-4), 1e-12);
+    EXPECT_NEAR(e.drift(5, 5), 0.15 * (4 * (12 * 1e-3 + 2e-3) + 1e-4 / 4), 1e-12);
 }
 
-TEST(frameErrors, residualsAndDisagreementOfPointsTellTheirs)
+TEST(frameErrors, eachKindHasItsLevels)
 {
-    const Sensitivity s = sensitivity(1e-3, 0);
-    const JointCovariance::Measurement one = errors(s), four = errors(s, {4, 1}, {3, 1});
-    EXPECT_NEAR(four.noise(0, 0), 4 * one.noise(0, 0), 1e-12);
-    const double common = 0.15 * 1e-4;
+    const PoseEstimate e = estimate(1e-3, 2e-3);
+    EXPECT_NEAR(errors(e, {3, 5}).noise(0, 0), 0.5 * (3 * 1e-3 + 5 * 2e-3), 1e-12);
     EXPECT_NEAR(
-        four.drift(0, 0) - std::pow(4, 2.5) * common,
-        3 * std::pow(4, 1.9) * (one.drift(0, 0) - common),
+        errors(e, {}, {3, 5}).drift(0, 0),
+        0.15 * (4 * (3 * 12 * 1e-3 + 5 * 2e-3) + std::pow(15, 1.4) * 1e-4),
         1e-12);
 }
 
-/** Many pixels average noise, but not that a surface is no plane. */
-TEST(frameErrors, smallResidualsSayNothingAgainstErrorsInCommon)
+/** Depth errs with the square of the distance, and what a rotation does grows with it. */
+TEST(frameErrors, whatIsInCommonGrowsWithTheDistance)
 {
-    const Sensitivity s = sensitivity(1e-3, 2e-3);
-    const Matrix6d small = errors(s, {1, 0.1}).drift;
-    EXPECT_TRUE(small.isApprox(errors(s).drift, 1e-12));
-    EXPECT_NEAR(
-        errors(s, {1, 9}).drift(0, 0) - small(0, 0), 0.15 * 1e-4 * (std::sqrt(9.0) - 1), 1e-12);
+    const auto common = [](double distance) { return errors(estimate(0, 0, distance)).drift; };
+    EXPECT_NEAR(common(3)(0, 0), 81 * common(1)(0, 0), 1e-12);
+    EXPECT_NEAR(common(3)(5, 5), 9 * common(1)(5, 5), 1e-12);
+    PoseEstimate nothing = estimate(0, 0);
+    nothing.infoPoints.setZero();
+    EXPECT_TRUE(errors(nothing).drift.isApprox(common(1)));
 }
 
 /** What is assumed of planes before the first one is no measurement. */
 TEST(frameErrors, featuresThatAFrameLacksSayNothing)
 {
-    EXPECT_EQ(errors(sensitivity(1e-3, 0), {1, 3}).drift, errors(sensitivity(1e-3, 0)).drift);
-    EXPECT_EQ(errors(sensitivity(0, 1e-3), {3, 1}).drift, errors(sensitivity(0, 1e-3)).drift);
+    EXPECT_EQ(errors(estimate(1e-3, 0), {}, {1, 3}).drift, errors(estimate(1e-3, 0)).drift);
+    EXPECT_EQ(errors(estimate(0, 1e-3), {}, {3, 1}).drift, errors(estimate(0, 1e-3)).drift);
 }
 
-TEST(frameErrors, driftGrowsWithTheMotionAndMoreIfItIsFast)
+TEST(frameErrors, driftGrowsWithTheMotion)
 {
-    const auto drift = [](double distance, double dt)
-    {
-        return frameErrors(sensitivity(1e-3, 2e-3), {}, {}, motion(distance), dt, params())
-            .drift(0, 0);
-    };
-    const double slow = drift(0.01, 0.1);
-    EXPECT_EQ(drift(0, 0.1), 0);
-    EXPECT_NEAR(drift(0.02, 0.2), 2 * slow, 1e-12);
-    EXPECT_NEAR(drift(0.01, 0.01), std::pow(10, 0.25) * slow, 1e-12);
-    EXPECT_EQ(drift(0.01, 1e-320), drift(0.01, 1e-3));  // stamps that cannot be true
+    const PoseEstimate e = estimate(1e-3, 2e-3);
+    EXPECT_EQ(errors(e, {}, {}, 0).drift.norm(), 0);
+    EXPECT_TRUE(errors(e, {}, {}, 0.3).drift.isApprox(2 * errors(e).drift));
+    EXPECT_EQ(errors(e, {}, {}, 0.3).noise, errors(e).noise);
+}
+
+TEST(numViews, isOneForAnotherViewOfTheScene)
+{
+    const Eigen::AngleAxisd turn(10 * M_PI / 180, Eigen::Vector3d::UnitY());
+    EXPECT_NEAR(numViews(Eigen::Isometry3d(Eigen::Translation3d(0, 0.15, 0))), 1, 1e-12);
+    EXPECT_NEAR(numViews(Eigen::Isometry3d(turn)), 1, 1e-12);
+    EXPECT_NEAR(numViews(Eigen::Translation3d(0.15, 0, 0) * Eigen::Isometry3d(turn)), 2, 1e-12);
+    EXPECT_EQ(numViews(Eigen::Isometry3d::Identity()), 0);
 }
 }  // namespace pointplane

@@ -50,6 +50,40 @@ Problem makeProblem(unsigned seed)
     return out;
 }
 
+/** Squared change of residuals over the features' covariance, for each pair. */
+class Leftover
+{
+ public:
+    explicit Leftover(const std::vector<FeatureResidual>& before)
+        : before_(before), sums_(before.size())
+    {
+    }
+
+    void add(const std::vector<FeatureResidual>& after)
+    {
+        for (size_t i = 0; i < sums_.size(); ++i)
+        {
+            const Eigen::Vector3d d = after[i].r - before_[i].r;
+            sums_[i] += d.dot(before_[i].curCov.inverse() * d) / 3;
+        }
+    }
+
+    /** Were the noise of points and planes as many times their covariances. */
+    void expectAsPredicted(int runs, double ofPoints, double ofPlanes) const
+    {
+        for (size_t i = 0; i < sums_.size(); ++i)
+        {
+            const FeatureResidual& f = before_[i];
+            const double predicted = f.own + ofPoints * f.ofPoints + ofPlanes * f.ofPlanes;
+            EXPECT_NEAR(sums_[i] / runs, predicted, 0.1 * predicted + 0.02) << i;
+        }
+    }
+
+ private:
+    std::vector<FeatureResidual> before_;
+    std::vector<double> sums_;
+};
+
 /** Where the estimate goes when the problem changes. */
 Vector12d change(const PoseEstimate& before, const PoseEstimate& after)
 {
@@ -100,24 +134,40 @@ TEST(Sensitivity, toThePrior)
     }
 }
 
-TEST(Sensitivity, toTheVignetting)
+TEST(Sensitivity, toErrorsOfTheCamera)
 {
     Problem problem = makeProblem(85);
     test::GaussianSampler sampler(86);
+    const auto by = [&](double scale) {
+        return ByCamera(
+            scale * sampler.vector<3>() * sampler.vector<kNumCameraErrors>().transpose());
+    };
     for (size_t i = 0; i < problem.points.size(); i += 3)
     {
-        problem.points[i].dCur_dVignetting = 0.1 * sampler.vector<3>();
+        problem.points[i].dBase_dCamera = by(0.1);
+        problem.points[i].dCur_dCamera = by(0.1);
     }
+    problem.planes[1].dBase_dCamera = by(0.02);
+    problem.planes[2].dCur_dCamera = by(0.02);
     const PoseEstimate estimate = problem.solve();
-    constexpr double kVignetting = 0.01;
-    Problem displaced = problem;
-    for (PointPair& pair : displaced.points)
+    for (int k = 0; k < kNumCameraErrors; ++k)
     {
-        pair.cur.mean += kVignetting * pair.dCur_dVignetting;
+        const Eigen::Vector4d camera = 0.01 * Eigen::Vector4d::Unit(k);
+        Problem displaced = problem;
+        for (PointPair& pair : displaced.points)
+        {
+            pair.base.mean += pair.dBase_dCamera * camera;
+            pair.cur.mean += pair.dCur_dCamera * camera;
+        }
+        for (PlanePair& pair : displaced.planes)
+        {
+            pair.base.theta_m += pair.dBase_dCamera * camera;
+            pair.cur.theta_m += pair.dCur_dCamera * camera;
+        }
+        const Vector12d expected = estimate.sensitivity.camera * camera;
+        EXPECT_THAT(change(estimate, displaced.solve()), test::IsMatrixNear(expected, 2e-5)) << k;
+        EXPECT_GT(expected.head<6>().norm(), 1e-4);
     }
-    const Vector12d expected = kVignetting * estimate.sensitivity.vignetting;
-    EXPECT_THAT(change(estimate, displaced.solve()), test::IsMatrixNear(expected, 2e-5));
-    EXPECT_GT(expected.head<6>().norm(), 1e-4);
 }
 
 /** All that the estimate depends on moves: so does the estimate. */
@@ -132,7 +182,8 @@ TEST(Sensitivity, toAllTogetherIsOne)
     EXPECT_THAT(sum, test::IsMatrixNear(Matrix6d(Matrix6d::Identity()), 1e-6));
 }
 
-/** Noise of the current frame alone, of which each feature is in one pair or in two. */
+/** Noise of the current frame alone, of which each feature is in one pair or in two: what it does
+ * to the estimate, and what of it is left in the residuals. */
 TEST(Sensitivity, noiseOfTheCurrentFrame)
 {
     constexpr int kRuns = 2000;
@@ -156,6 +207,7 @@ TEST(Sensitivity, noiseOfTheCurrentFrame)
 
     test::GaussianSampler sampler(85);
     std::vector<Vector6d> errors;
+    Leftover points(estimate.pointResiduals), planes(estimate.planeResiduals);
     for (int run = 0; run < kRuns; ++run)
     {
         Problem noisy = problem;
@@ -177,7 +229,10 @@ TEST(Sensitivity, noiseOfTheCurrentFrame)
         {
             pair.cur.theta_m += noise[static_cast<size_t>(pair.feature)];
         }
-        errors.push_back(change(estimate, noisy.solve()).head<6>());
+        const PoseEstimate solved = noisy.solve();
+        errors.push_back(change(estimate, solved).head<6>());
+        points.add(solved.pointResiduals);
+        planes.add(solved.planeResiduals);
     }
     const Matrix12d expected = estimate.sensitivity.points + estimate.sensitivity.planes;
     // sqrt(42 / 2000) = 0.14 for a right covariance.
@@ -185,5 +240,8 @@ TEST(Sensitivity, noiseOfTheCurrentFrame)
         test::whitenedDifference(
             test::sampleCovariance(errors), Matrix6d(expected.topLeftCorner<6, 6>())),
         0.25);
+    points.expectAsPredicted(kRuns, 1, 1);
+    planes.expectAsPredicted(kRuns, 1, 1);
+    EXPECT_LT(estimate.planeResiduals[0].own, 0.9) << "the estimate follows it";
 }
 }  // namespace pointplane

@@ -26,6 +26,8 @@ void JointCovariance::TParams::check() const
     POINTPLANE_CHECK(drift >= 0, "drift = " << drift << " is negative");
     POINTPLANE_CHECK(driftSigma >= 0, "driftSigma = " << driftSigma << " is negative");
     POINTPLANE_CHECK(vignetting >= 0, "vignetting = " << vignetting << " is negative");
+    POINTPLANE_CHECK(principalPoint >= 0, "principalPoint = " << principalPoint << " is negative");
+    POINTPLANE_CHECK(focalLength >= 0, "focalLength = " << focalLength << " is negative");
     POINTPLANE_CHECK(
         history >= 1 && history <= 300, "history = " << history << " is not in 1..300");
 }
@@ -34,11 +36,12 @@ JointCovariance::JointCovariance(const TParams& params) : params_(params) { para
 
 void JointCovariance::start(int frame, const Matrix6d& cov)
 {
-    blocks_ = {{Kind::Pose, frame}, {Kind::Velocity, 0}, {Kind::Vignetting, 0}};
+    blocks_ = {{Kind::Pose, frame}, {Kind::Velocity, 0}, {Kind::Camera, 0}};
     cov_ = Eigen::MatrixXd::Zero(3 * kSize, 3 * kSize);
     cov_.topLeftCorner<kSize, kSize>() = cov;
-    const auto k = find(Kind::Vignetting, 0);
-    cov_(k, k) = params_.vignetting * params_.vignetting;
+    const Eigen::Matrix<double, kNumCameraErrors, 1> camera{
+        params_.vignetting, params_.principalPoint, params_.principalPoint, params_.focalLength};
+    cov_.diagonal().segment<kNumCameraErrors>(find(Kind::Camera, 0)) = camera.cwiseAbs2();
     restart(frame);
 }
 
@@ -74,7 +77,7 @@ Eigen::MatrixXd JointCovariance::dependence(
     {
         A.middleCols<kSize>(find(Kind::Reference, frame)) += change * Ad_inverse;
     }
-    A.col(find(Kind::Vignetting, 0)) += measurement.vignetting;
+    A.middleCols<kNumCameraErrors>(find(Kind::Camera, 0)) += measurement.camera;
     A.topRows<kSize>() = (Ad * A.topRows<kSize>()).eval();
     return A;
 }

@@ -149,7 +149,7 @@ bool Odometry::Impl::track(const RgbdFrame& frame, OdometryResult& result)
     // 2. Predicted motion since the latest measured frame, and matches with the references.
     const double dt = frame.stamp - window.previous().stamp;
     const PoseStage::Prediction predicted = poseStage.predict(dt);
-    const PairBuilder pairs(window.previous(), current, frame.camera.height);
+    const PairBuilder pairs(window.previous(), current, frame.camera);
     const Stopwatch matching;
     std::vector<Association> associations = associate(frame, predicted.pose.mean, 1);
     if (overlapWithNewest(associations) < params.reference.keyframeMinOverlap)

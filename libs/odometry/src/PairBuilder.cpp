@@ -2,6 +2,7 @@
 #include <pointplane/core/covariance.h>
 #include <pointplane/odometry/PairBuilder.h>
 #include <pointplane/odometry/ShutterCalibrator.h>
+#include <pointplane/odometry/camera_errors.h>
 #include <pointplane/pose/residuals.h>
 
 #include <cmath>
@@ -30,11 +31,11 @@ void PairBuilder::build(
 {
     points.clear();
     planes.clear();
-    const ShutterCorrection current(shutter.complete(current_.shutter), imageHeight_);
+    const ShutterCorrection current(shutter.complete(current_.shutter), camera_.height);
     for (const Association& association : associations)
     {
         const Reference& reference = *association.reference;
-        const ShutterCorrection past(shutter.complete(reference.shutter), imageHeight_);
+        const ShutterCorrection past(shutter.complete(reference.shutter), camera_.height);
         const Eigen::Isometry3d T_base_ref =
             previous_.T_world_cam.inverse() * reference.T_world_cam;
         for (const PlaneMatch& match : association.planes)
@@ -47,7 +48,11 @@ void PairBuilder::build(
                 {transformed(T_base_ref, past_ref),
                  cur.plane_cam,
                  current.planeJacobian(cur),
+                 transformJacobian(T_base_ref, past_ref.theta_m) *
+                     planeByCamera(past_ref.theta_m, camera_),
+                 planeByCamera(cur.plane_cam.theta_m, camera_),
                  reference.id,
+                 match.ref,
                  match.cur});
         }
         for (const PointTrack& track : association.points)
@@ -60,8 +65,11 @@ void PairBuilder::build(
             pair.base.cov = propagate(T_base_ref.linear(), ref.p_cam.cov);
             pair.cur = cur.p_cam;
             pair.dCur_dV = current.pointJacobian(cur);
-            pair.dCur_dVignetting = cur.ofVignetting_m;
+            pair.dBase_dCamera = T_base_ref.linear() * pointByCamera(ref.p_cam.mean, camera_);
+            pair.dCur_dCamera = pointByCamera(cur.p_cam.mean, camera_);
+            pair.dCur_dCamera.col(0) = cur.ofVignetting_m;
             pair.reference = reference.id;
+            pair.inReference = track.ref;
             pair.feature = cellOf(cur.uv_px);
             points.push_back(pair);
         }

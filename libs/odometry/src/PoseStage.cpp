@@ -12,6 +12,7 @@
 
 #include "Stopwatch.h"
 #include "frame_errors.h"
+#include "views.h"
 
 namespace pointplane
 {
@@ -151,7 +152,9 @@ PoseStage::Measured PoseStage::accept(
     out.T_prev_cur = estimate.motion.mean.T_base_cur;
     const Matrix6d ofShutter = shutter_.update(
         pairs, associations, estimate.motion.mean, predicted.prior, noise_.factors());
-    out.errors = errorsOf(estimate, ofShutter, dt);
+    const double views = numViews(out.T_prev_cur);
+    variogram_.update(estimate, pairs.R_world_base(), views, dt, noise_.residuals());
+    out.errors = errorsOf(estimate, ofShutter, views, dt);
     if (fuses())
     {
         out.previousVelocity = motion_.update(estimate.motion, dt);
@@ -167,7 +170,7 @@ PoseStage::Measured PoseStage::accept(
 }
 
 JointCovariance::Measurement PoseStage::errorsOf(
-    const PoseEstimate& estimate, const Matrix6d& ofShutter, double dt) const
+    const PoseEstimate& estimate, const Matrix6d& ofShutter, double views, double dt) const
 {
     if (covariance_.model == "independent")
     {
@@ -176,13 +179,8 @@ JointCovariance::Measurement PoseStage::errorsOf(
         out.noise.topLeftCorner<6, 6>() = estimate.motion.pose().cov + ofShutter;
         return out;
     }
-    JointCovariance::Measurement out = frameErrors(
-        estimate.sensitivity,
-        noise_.residuals(),
-        noise_.disagreement(),
-        estimate.motion.mean.T_base_cur,
-        dt,
-        covariance_);
+    JointCovariance::Measurement out =
+        frameErrors(estimate, variogram_.levels(), views, covariance_);
     if (!fuses())
     {
         out.prior.rightCols<6>().setZero();  // the velocity is a new one for each frame

@@ -6,6 +6,7 @@
 #include <pointplane/odometry/OdometryParams.h>
 #include <pointplane/odometry/OdometryResult.h>
 #include <pointplane/odometry/PairBuilder.h>
+#include <pointplane/odometry/ResidualVariogram.h>
 #include <pointplane/odometry/ShutterCalibrator.h>
 
 #include <vector>
@@ -61,7 +62,7 @@ class PoseStage
 
  private:
     [[nodiscard]] JointCovariance::Measurement errorsOf(
-        const PoseEstimate& estimate, const Matrix6d& ofShutter, double dt) const;
+        const PoseEstimate& estimate, const Matrix6d& ofShutter, double views, double dt) const;
     [[nodiscard]] bool fuses() const { return pipeline_.degeneracy == "fuse"; }
     [[nodiscard]] int minMatches() const;
     [[nodiscard]] MotionPrior priorFrom(
@@ -72,6 +73,7 @@ class PoseStage
     PoseSolver solver_;
     MotionModel motion_;
     NoiseScale noise_;
+    ResidualVariogram variogram_;
     ShutterCalibrator shutter_;
 };
 }  // namespace pointplane

@@ -2,20 +2,19 @@
 #pragma once
 
 #include <pointplane/odometry/JointCovariance.h>
+#include <pointplane/odometry/ResidualVariogram.h>
 #include <pointplane/pose/PoseSolver.h>
 
 namespace pointplane
 {
-/** What an estimate's errors come from: noise of the frame itself and drift of the references, on
- * one scale for all cameras by what the residuals and the references' disagreement say. Errors of
- * shutter and prediction are not in it. Derivation in docs/theory.md, Window.
- * \param residuals variance over the propagated one \param disagreement what references add to that
- * \param motion since the previous measured frame, dt [s] before \pre dt > 0 */
+/** What an estimate's errors come from: noise of the frame itself and drift of the references, as
+ * the residuals of the frames so far tell them. Errors of shutter and prediction are not in it.
+ * Derivation in docs/theory.md, Window.
+ * \param levels of noise and drift over the propagated variances
+ * \param views since the previous measured frame (numViews()) */
 [[nodiscard]] JointCovariance::Measurement frameErrors(
-    const Sensitivity& sensitivity,
-    const NoiseFactors& residuals,
-    const NoiseFactors& disagreement,
-    const Eigen::Isometry3d& motion,
-    double dt,
+    const PoseEstimate& estimate,
+    const ResidualVariogram::Levels& levels,
+    double views,
     const JointCovariance::TParams& params);
 }  // namespace pointplane

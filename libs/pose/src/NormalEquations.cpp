@@ -28,6 +28,21 @@ double tukeyCost(double squaredNorm, double limit)
     const double u = std::min(1.0, squaredNorm / (limit * limit));
     return limit * limit / 3 * (1 - (1 - u) * (1 - u) * (1 - u));
 }
+
+/** Feature and index of all pairs, those of the same feature one after the other. */
+template <class Pairs>
+std::vector<std::pair<int, size_t>> sortedByFeature(const Pairs& pairs)
+{
+    std::vector<std::pair<int, size_t>> out;
+    out.reserve(pairs.size());
+    for (size_t i = 0; i < pairs.size(); ++i)
+    {
+        const int own = -1 - static_cast<int>(i);
+        out.emplace_back(pairs[i].feature < 0 ? own : pairs[i].feature, i);
+    }
+    std::sort(out.begin(), out.end());
+    return out;
+}
 }  // namespace
 
 NormalEquations::NormalEquations(
@@ -92,43 +107,94 @@ std::map<int, FeatureSum> NormalEquations::planesByReference() const
     return byReference(planes_, points_.size());
 }
 
+/** How the gradient changes with the residual. */
+Matrix123d NormalEquations::influence(size_t i) const
+{
+    const auto& [residual, W, squaredNorm] = residuals_[i];
+    return gain(i) * robust(squaredNorm, isPoint(i)).first * jacobian(i).transpose() * W;
+}
+
+Matrix312d NormalEquations::jacobian(size_t i) const
+{
+    Matrix312d J;
+    J << residuals_[i].residual.J, residuals_[i].residual.J_V;
+    return J;
+}
+
 /** \param offset of the pairs' first residual */
 template <class Pairs>
 Matrix12d NormalEquations::currentNoise(const Pairs& pairs, size_t offset) const
 {
-    using Influence = Eigen::Matrix<double, 12, 3>;  // of a feature's unit noise on g
-    std::vector<Influence> influences;
-    std::vector<std::pair<int, size_t>> order;  // feature, influence
-    influences.reserve(pairs.size());
-    order.reserve(pairs.size());
-    for (size_t i = 0; i < pairs.size(); ++i)
-    {
-        const auto& [residual, W, squaredNorm] = residuals_[offset + i];
-        const double w = robust(squaredNorm, isPoint(offset + i)).first;
-        const Eigen::LLT<Eigen::Matrix3d> root(residual.curCov);
-        if (w > 0 && root.info() == Eigen::Success)
-        {
-            Eigen::Matrix<double, 3, 12> J;
-            J << residual.J, residual.J_V;
-            const int own = -1 - static_cast<int>(i);
-            order.emplace_back(pairs[i].feature < 0 ? own : pairs[i].feature, influences.size());
-            influences.push_back(
-                gain(offset + i) * w * J.transpose() * (W * Eigen::Matrix3d(root.matrixL())));
-        }
-    }
-    std::sort(order.begin(), order.end());
+    const auto order = sortedByFeature(pairs);
     Matrix12d out = Matrix12d::Zero();
     for (auto it = order.begin(); it != order.end();)
     {
         const int feature = it->first;
-        Influence influence = Influence::Zero();
+        Matrix123d ofUnitNoise = Matrix123d::Zero();
         for (; it != order.end() && it->first == feature; ++it)
         {
-            influence += influences[it->second];
+            const size_t i = offset + it->second;
+            const Eigen::LLT<Eigen::Matrix3d> root(residuals_[i].residual.curCov);
+            if (root.info() == Eigen::Success)
+            {
+                ofUnitNoise += influence(i) * Eigen::Matrix3d(root.matrixL());
+            }
         }
-        out += influence * influence.transpose();
+        out += ofUnitNoise * ofUnitNoise.transpose();
     }
     return out;
+}
+
+/** \param offset of the pairs' first residual */
+template <class Pairs>
+std::vector<FeatureResidual> NormalEquations::featureResiduals(
+    const Pairs& pairs,
+    size_t offset,
+    const Matrix12d& H_inverse,
+    const Matrix12d& ofPoints,
+    const Matrix12d& ofPlanes) const
+{
+    std::vector<FeatureResidual> out(pairs.size());
+    const auto order = sortedByFeature(pairs);
+    for (auto it = order.begin(); it != order.end();)
+    {
+        const auto begin = it;
+        Matrix123d sum = Matrix123d::Zero();
+        for (; it != order.end() && it->first == begin->first; ++it)
+        {
+            sum += influence(offset + it->second);
+        }
+        const Matrix123d follows = H_inverse * sum;  // the estimate, the feature
+        for (auto member = begin; member != it; ++member)
+        {
+            const auto& pair = pairs[member->second];
+            const Residual& residual = residuals_[offset + member->second].residual;
+            const Matrix312d J = jacobian(offset + member->second);
+            const Eigen::Matrix3d information = residual.curCov.inverse();
+            const Eigen::Matrix<double, 12, 3> seen = J.transpose() * information / 3;
+            out[member->second] = {
+                pair.reference,
+                pair.inReference,
+                residual.r,
+                residual.curCov,
+                1 - 2.0 / 3 * J.cwiseProduct(follows.transpose()).sum(),
+                seen.cwiseProduct(ofPoints * J.transpose()).sum(),
+                seen.cwiseProduct(ofPlanes * J.transpose()).sum()};
+        }
+    }
+    return out;
+}
+
+std::vector<FeatureResidual> NormalEquations::pointResiduals(
+    const Matrix12d& H_inverse, const Matrix12d& ofPoints, const Matrix12d& ofPlanes) const
+{
+    return featureResiduals(points_, 0, H_inverse, ofPoints, ofPlanes);
+}
+
+std::vector<FeatureResidual> NormalEquations::planeResiduals(
+    const Matrix12d& H_inverse, const Matrix12d& ofPoints, const Matrix12d& ofPlanes) const
+{
+    return featureResiduals(planes_, points_.size(), H_inverse, ofPoints, ofPlanes);
 }
 
 Matrix12d NormalEquations::currentPointNoise() const { return currentNoise(points_, 0); }
@@ -138,18 +204,18 @@ Matrix12d NormalEquations::currentPlaneNoise() const
     return currentNoise(planes_, points_.size());
 }
 
-Vector12d NormalEquations::vignettingInfluence() const
+Matrix124d NormalEquations::cameraInfluence() const
 {
-    Vector12d out = Vector12d::Zero();
-    for (size_t i = 0; i < points_.size(); ++i)
+    Matrix124d out = Matrix124d::Zero();
+    for (size_t i = 0; i < residuals_.size(); ++i)
     {
         const auto& [residual, W, squaredNorm] = residuals_[i];
-        const double w = robust(squaredNorm, true).first;
-        if (w > 0 && !residual.ofVignetting.isZero(0))
+        const double w = robust(squaredNorm, isPoint(i)).first;
+        if (w > 0)
         {
-            Eigen::Matrix<double, 3, 12> J;
-            J << residual.J, residual.J_V;
-            out += gain(i) * w * J.transpose() * (W * residual.ofVignetting);
+            const ByCamera weighted = gain(i) * w * W * residual.ofCamera;
+            out.topRows<6>() += residual.J.transpose() * weighted;
+            out.bottomRows<6>() += residual.J_V.transpose() * weighted;
         }
     }
     return out;

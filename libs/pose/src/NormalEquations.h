@@ -21,6 +21,9 @@ struct FeatureSum
     int numInliers{0};
 };
 
+using Matrix312d = Eigen::Matrix<double, 3, 12>;
+using Matrix123d = Eigen::Matrix<double, 12, 3>;
+
 /** All residuals of a set of pairs at a motion. */
 class NormalEquations
 {
@@ -53,11 +56,19 @@ class NormalEquations
     [[nodiscard]] std::map<int, FeatureSum> pointsByReference() const;
     [[nodiscard]] std::map<int, FeatureSum> planesByReference() const;
 
+    /** How the gradient changes with errors of the camera. */
+    [[nodiscard]] Matrix124d cameraInfluence() const;
+
+    /** Residuals at the latest evaluate() with what noise of the current frame does to them.
+     * \param ofPoints covariance of the solution that comes from currentPointNoise()
+     * \param ofPlanes from currentPlaneNoise() */
+    [[nodiscard]] std::vector<FeatureResidual> pointResiduals(
+        const Matrix12d& H_inverse, const Matrix12d& ofPoints, const Matrix12d& ofPlanes) const;
+    [[nodiscard]] std::vector<FeatureResidual> planeResiduals(
+        const Matrix12d& H_inverse, const Matrix12d& ofPoints, const Matrix12d& ofPlanes) const;
+
     /** Covariance of the sums' gradient g by the current frame's features, as propagated. A feature
      * that is compared with several references errs in all these pairs alike. */
-    /** How the gradient changes with the vignetting. */
-    [[nodiscard]] Vector12d vignettingInfluence() const;
-
     [[nodiscard]] Matrix12d currentPointNoise() const;
     [[nodiscard]] Matrix12d currentPlaneNoise() const;
 
@@ -78,6 +89,15 @@ class NormalEquations
     [[nodiscard]] std::map<int, FeatureSum> byReference(const Pairs& pairs, size_t offset) const;
     template <class Pairs>
     [[nodiscard]] Matrix12d currentNoise(const Pairs& pairs, size_t offset) const;
+    template <class Pairs>
+    [[nodiscard]] std::vector<FeatureResidual> featureResiduals(
+        const Pairs& pairs,
+        size_t offset,
+        const Matrix12d& H_inverse,
+        const Matrix12d& ofPoints,
+        const Matrix12d& ofPlanes) const;
+    [[nodiscard]] Matrix312d jacobian(size_t i) const;
+    [[nodiscard]] Matrix123d influence(size_t i) const;
     [[nodiscard]] std::pair<double, double> robust(double squaredNorm, bool isPoint) const;
     [[nodiscard]] double relativeMedian(size_t begin, size_t end) const;
 

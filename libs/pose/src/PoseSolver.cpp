@@ -214,7 +214,11 @@ PoseEstimate PoseSolver::solve(
     }
     out.sensitivity.points = propagate(H_inverse, equations.currentPointNoise());
     out.sensitivity.planes = propagate(H_inverse, equations.currentPlaneNoise());
-    out.sensitivity.vignetting = -H_inverse * equations.vignettingInfluence();
+    out.pointResiduals =
+        equations.pointResiduals(H_inverse, out.sensitivity.points, out.sensitivity.planes);
+    out.planeResiduals =
+        equations.planeResiduals(H_inverse, out.sensitivity.points, out.sensitivity.planes);
+    out.sensitivity.camera = -H_inverse * equations.cameraInfluence();
     out.numPointInliers = p.numInliers;
     return out;
 }

@@ -55,7 +55,7 @@ Residual pointResidual(const PointPair& pair, const Motion& motion)
     out.cov = pair.base.cov + out.curCov;
     out.J << -Eigen::Matrix3d::Identity(), hat(p_base);
     out.J_V = -R * pair.dCur_dV;
-    out.ofVignetting = -R * pair.dCur_dVignetting;
+    out.ofCamera = pair.dBase_dCamera - R * pair.dCur_dCamera;
     return out;
 }
 
@@ -63,6 +63,11 @@ PlaneGaussian transformed(const Eigen::Isometry3d& T_a_b, const PlaneGaussian& p
 {
     const PlaneTransform plane_a(T_a_b, plane_b.theta_m);
     return {plane_a.theta, propagate(plane_a.J, plane_b.cov_m)};
+}
+
+Eigen::Matrix3d transformJacobian(const Eigen::Isometry3d& T_a_b, const Eigen::Vector3d& theta_b)
+{
+    return PlaneTransform(T_a_b, theta_b).J;
 }
 
 Residual planeResidualMinimal(const PlanePair& pair, const Motion& motion)
@@ -74,6 +79,7 @@ Residual planeResidualMinimal(const PlanePair& pair, const Motion& motion)
     out.cov = pair.base.cov_m + out.curCov;
     out.J = -jacobianOfTransform(cur.theta);
     out.J_V = -cur.J * pair.dCur_dV;
+    out.ofCamera = pair.dBase_dCamera - cur.J * pair.dCur_dCamera;
     return out;
 }
 
@@ -88,6 +94,8 @@ Residual planeResidualClosestPoint(const PlanePair& pair, const Motion& motion)
     out.cov = propagate(reference.J, pair.base.cov_m) + out.curCov;
     out.J = measured.J * minimal.J;
     out.J_V = measured.J * minimal.J_V;
+    out.ofCamera =
+        reference.J * pair.dBase_dCamera + measured.J * (minimal.ofCamera - pair.dBase_dCamera);
     return out;
 }
 }  // namespace pointplane

@@ -3,6 +3,7 @@
 
 #include <pointplane/core/Parameters.h>
 #include <pointplane/core/types.h>
+#include <pointplane/pose/PoseSolver.h>
 
 #include <map>
 #include <optional>
@@ -24,10 +25,12 @@ class JointCovariance
     struct TParams
     {
         std::string model{"joint"};
-        double noise{0.25};
-        double drift{3};
-        double driftSigma{0.00016};
-        double vignetting{0.1};
+        double noise{0.6};
+        double drift{1.85};
+        double driftSigma{0.00022};
+        double vignetting{0.15};
+        double principalPoint{0.4};
+        double focalLength{0.0006};
         int history{1};
 
         template <class V>
@@ -41,25 +44,32 @@ class JointCovariance
             v("noise",
               noise,
               "-",
-              "variance of one frame's own error, over what the sensor's noise makes of its planes "
-              "(a "
-              "tenth of that for points, times what the residuals tell)");
+              "variance of one frame's own error, over what the change of the residuals from frame "
+              "to frame makes of its points and planes");
             v("drift",
               drift,
               "-",
               "variance that what planes say of a reference gains until another view (0.15 m or 10 "
-              "deg), over that; 54 times as much for points, times what the residuals tell");
+              "deg), over what the residuals gain; 12 times as much for points");
             v("driftSigma",
               driftSigma,
               "m",
-              "standard deviation that it gains besides in every direction, and a quarter as many "
-              "rad, "
-              "if residuals are as the sensor's noise makes them");
+              "standard deviation that it gains besides in every direction (and half as many rad), "
+              "for features 1 m away whose residuals gain as much as was propagated; with the "
+              "square of their distance");
             v("vignetting",
               vignetting,
               "-",
               "standard deviation of what the image's corners are darker than its centre; where "
               "shading tells the motion, it looks like one");
+            v("principalPoint",
+              principalPoint,
+              "px",
+              "standard deviation of the camera's cx and cy: how well it is calibrated");
+            v("focalLength",
+              focalLength,
+              "-",
+              "standard deviation of the camera's fx and fy together, over them");
             v("history", history, "frames", "how far back motions are told with their covariances");
         }
         /** \throws std::invalid_argument naming the key */
@@ -74,7 +84,7 @@ class JointCovariance
         Matrix12d prior{Matrix12d::Zero()};       //!< change with that of the predicted motion
         Matrix12d noise{Matrix12d::Zero()};       //!< of the frame's own features
         Matrix12d priorNoise{Matrix12d::Zero()};  //!< of the predicted motion, without the velocity
-        Vector12d vignetting{Vector12d::Zero()};  //!< change with the lens's vignetting
+        Matrix124d camera{Matrix124d::Zero()};    //!< change with errors of the camera
         Matrix6d drift{Matrix6d::Zero()};         //!< gained by each reference since the base
     };
 
@@ -116,7 +126,7 @@ class JointCovariance
     {
         Pose,
         Velocity,
-        Vignetting,  //!< the first of its rows; it stays what it is
+        Camera,  //!< the first of its rows; they stay what they are
         Reference
     };
     struct Block

@@ -59,12 +59,6 @@ class NoiseScale
         return {pointResiduals_.quick, planeResiduals_.quick};
     }
 
-    /** What the disagreement of the references adds, over that. */
-    [[nodiscard]] NoiseFactors disagreement() const
-    {
-        return {pointCommon_.quick, planeCommon_.quick};
-    }
-
  private:
     /** What single frames say, averaged. */
     struct Average

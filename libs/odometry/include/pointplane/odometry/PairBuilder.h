@@ -25,8 +25,8 @@ struct Association
 class PairBuilder
 {
  public:
-    PairBuilder(const Reference& previous, const Reference& current, int imageHeight)
-        : previous_(previous), current_(current), imageHeight_(imageHeight)
+    PairBuilder(const Reference& previous, const Reference& current, const PinholeCamera& camera)
+        : previous_(previous), current_(current), camera_(camera)
     {
     }
 
@@ -36,9 +36,12 @@ class PairBuilder
         std::vector<PointPair>& points,
         std::vector<PlanePair>& planes) const;
 
+    /** Orientation of the base frame. */
+    [[nodiscard]] Eigen::Matrix3d R_world_base() const { return previous_.T_world_cam.linear(); }
+
  private:
     const Reference& previous_;
     const Reference& current_;
-    int imageHeight_;
+    const PinholeCamera& camera_;
 };
 }  // namespace pointplane

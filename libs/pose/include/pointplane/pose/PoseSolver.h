@@ -19,6 +19,9 @@ struct NoiseFactors
     double planes{1};
 };
 
+/** By errors of the camera, of pose and velocity. */
+using Matrix124d = Eigen::Matrix<double, 12, kNumCameraErrors>;
+
 /** How far groups of features, those of each reference frame, draw the pose away from where all
  * together put it. */
 struct Disagreement
@@ -38,8 +41,22 @@ struct Sensitivity
     /** Covariance that comes from the current frame's points and planes, as propagated: without
      * the noise factors, and without the references' own errors. */
     Matrix12d points{Matrix12d::Zero()}, planes{Matrix12d::Zero()};
-    /** Change with the lens's vignetting, by which all points err together. */
-    Vector12d vignetting{Vector12d::Zero()};
+    /** Change with errors of the camera, by which all features err together. */
+    Matrix124d camera{Matrix124d::Zero()};
+};
+
+/** How far a feature is from where the estimate puts it, and how far noise of the current frame
+ * puts it there: own * w + ofPoints * w_points + ofPlanes * w_planes times curCov on average over
+ * the directions, if the variance of features is w (of its kind), w_points, w_planes over curCov.
+ */
+struct FeatureResidual
+{
+    int reference{0}, inReference{-1};                //!< as in the pair
+    Eigen::Vector3d r{0, 0, 0};                       //!< in the base frame [m] or [1/m]
+    Eigen::Matrix3d curCov{Eigen::Matrix3d::Zero()};  //!< of the current feature, in r
+    double own{1};       //!< of the feature itself, less what the estimate follows it
+    double ofPoints{0};  //!< of all points, by the estimate
+    double ofPlanes{0};  //!< of all planes, by the estimate
 };
 
 /** What the solver found. */
@@ -57,6 +74,7 @@ struct PoseEstimate
     Disagreement pointDisagreement;  //!< of the references' points, with all other features
     Disagreement planeDisagreement;  //!< of their planes, likewise
     Sensitivity sensitivity;
+    std::vector<FeatureResidual> pointResiduals, planeResiduals;  //!< of the pairs
     int numPointInliers{0};  //!< points with a Tukey weight above 1/2
     int iterations{0};
     bool converged{false};

@@ -12,11 +12,11 @@ namespace pointplane
 struct Residual
 {
     Eigen::Vector3d r;
-    Eigen::Matrix3d cov;     //!< first-order propagation of both features' covariances
-    Eigen::Matrix3d curCov;  //!< the current feature's share of it
-    Matrix36d J;             //!< dr / dxi
-    Matrix36d J_V;           //!< dr / dV
-    Eigen::Vector3d ofVignetting{0, 0, 0};  //!< dr / dk of the lens's vignetting k
+    Eigen::Matrix3d cov;                  //!< first-order propagation of both features' covariances
+    Eigen::Matrix3d curCov;               //!< the current feature's share of it
+    Matrix36d J;                          //!< dr / dxi
+    Matrix36d J_V;                        //!< dr / dV
+    ByCamera ofCamera{ByCamera::Zero()};  //!< change with errors of the camera
 };
 
 /** r = P' - (R P + t) [P17 Eq. 8]: P' in base, P in the current camera [m]. */
@@ -25,6 +25,10 @@ struct Residual
 /** Transforms the minimal form: theta_a = R theta_b / (1 - (R theta_b) . t), and its covariance. */
 [[nodiscard]] PlaneGaussian transformed(
     const Eigen::Isometry3d& T_a_b, const PlaneGaussian& plane_b);
+
+/** d theta_a / d theta_b of that. */
+[[nodiscard]] Eigen::Matrix3d transformJacobian(
+    const Eigen::Isometry3d& T_a_b, const Eigen::Vector3d& theta_b);
 
 /** r = theta_m' - theta_m(T): difference of the minimal forms in base [1/m]. */
 [[nodiscard]] Residual planeResidualMinimal(const PlanePair& pair, const Motion& motion);

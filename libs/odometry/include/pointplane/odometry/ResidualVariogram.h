@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pointplane/core/types.h>
+#include <pointplane/pose/PoseSolver.h>
+
+#include <deque>
+#include <optional>
+#include <vector>
+
+namespace pointplane
+{
+/** What the residuals of the same features say when they are compared from frame to frame: what
+ * changes at once is noise, what changes as the view does is drift.
+ *
+ * Half of the mean squared difference of two residuals over their distance is their variogram
+ * (Matheron 1963); it is a line, w + g times the views between them, for white noise of variance w
+ * beside a random walk. Both are over the propagated variance. Residuals alone cannot tell these
+ * two apart, and cameras and scenes differ in each by more than a factor of ten. */
+class ResidualVariogram
+{
+ public:
+    struct Levels
+    {
+        NoiseFactors white;  //!< w
+        NoiseFactors drift;  //!< g, per view (numViews())
+    };
+
+    /** Takes in a measured frame.
+     * \param R_world_base orientation of the base frame of its residuals
+     * \param views since the measured frame before, `dt` [s] earlier
+     * \param residuals variance of all residuals; the levels are guessed from it at first */
+    void update(
+        const PoseEstimate& estimate,
+        const Eigen::Matrix3d& R_world_base,
+        double views,
+        double dt,
+        const NoiseFactors& residuals);
+
+    [[nodiscard]] Levels levels() const
+    {
+        return {{points_.white, planes_.white}, {points_.drift, planes_.drift}};
+    }
+
+ private:
+    struct Entry
+    {
+        std::pair<int, int> key;  //!< reference, feature in it
+        Eigen::Vector3d r;        //!< in the world's axes
+        Eigen::Matrix3d cov;      //!< of the current feature
+        double share;             //!< variance of r over that, by white noise
+    };
+    using Snapshot = std::vector<Entry>;  //!< by key
+
+    /** Of points, or of planes. */
+    struct Kind
+    {
+        std::deque<Snapshot> past;            //!< the latest first
+        double weight{0}, step{0}, views{0};  //!< sums over frames: variogram of neighbours
+        double growth{0}, farther{0};         //!< of its slope: way times growth, way squared
+        double white{0.1}, drift{0.2};
+    };
+
+    [[nodiscard]] Snapshot snapshot(
+        const std::vector<FeatureResidual>& residuals,
+        const Eigen::Matrix3d& R_world_base,
+        double ownWhite) const;
+    [[nodiscard]] static std::optional<double> variogram(
+        const Snapshot& now, const Snapshot& then, size_t least);
+    void update(Kind& kind, Snapshot now, size_t least, double kept, double residuals) const;
+
+    Kind points_, planes_;
+    std::deque<double> views_;  //!< between neighbouring frames, the latest first
+};
+}  // namespace pointplane

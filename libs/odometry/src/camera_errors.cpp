@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/odometry/camera_errors.h>
+
+namespace pointplane
+{
+ByCamera pointByCamera(const Eigen::Vector3d& p_cam, const PinholeCamera& camera)
+{
+    ByCamera out;
+    out << Eigen::Vector3d::Zero(), Eigen::Vector3d(-p_cam.z() / camera.fx, 0, 0),
+        Eigen::Vector3d(0, -p_cam.z() / camera.fy, 0), Eigen::Vector3d(-p_cam.x(), -p_cam.y(), 0);
+    return out;
+}
+
+ByCamera planeByCamera(const Eigen::Vector3d& theta_m, const PinholeCamera& camera)
+{
+    ByCamera out;
+    out << Eigen::Vector3d::Zero(), Eigen::Vector3d(0, 0, theta_m.x() / camera.fx),
+        Eigen::Vector3d(0, 0, theta_m.y() / camera.fy),
+        Eigen::Vector3d(theta_m.x(), theta_m.y(), 0);
+    return out;
+}
+}  // namespace pointplane

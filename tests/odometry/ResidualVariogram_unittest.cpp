@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/se3.h>
+#include <pointplane/odometry/ResidualVariogram.h>
+
+#include <vector>
+
+#include "monte_carlo.h"
+#include <gtest/gtest.h>
+
+namespace pointplane
+{
+namespace
+{
+constexpr double kFrame = 1.0 / 30;
+constexpr int kReference = 7;
+
+/** Features whose residuals have white noise beside a random walk, both over a covariance. */
+class Features
+{
+ public:
+    Features(unsigned seed, int n, double white, double drift)
+        : sampler_(seed), white_(white), drift_(drift)
+    {
+        for (int i = 0; i < n; ++i)
+        {
+            covs_.push_back(sampler_.covariance<3>(1e-6, 1e-4));
+            walks_.push_back(3 * sampler_.sample(covs_.back()));  // of the reference: stays
+        }
+    }
+
+    /** The next frame. */
+    std::vector<FeatureResidual> next(double views, const Eigen::Matrix3d& R_world_base)
+    {
+        std::vector<FeatureResidual> out;
+        for (size_t i = 0; i < covs_.size(); ++i)
+        {
+            walks_[i] += std::sqrt(2 * drift_ * views) * sampler_.sample(covs_[i]);
+            const Eigen::Vector3d r = walks_[i] + std::sqrt(white_) * sampler_.sample(covs_[i]);
+            FeatureResidual f;
+            f.reference = kReference;
+            f.inReference = static_cast<int>(i);
+            f.r = R_world_base.transpose() * r;
+            f.curCov = R_world_base.transpose() * covs_[i] * R_world_base;
+            out.push_back(f);
+        }
+        return out;
+    }
+
+    test::GaussianSampler& sampler() { return sampler_; }
+
+ private:
+    test::GaussianSampler sampler_;
+    double white_, drift_;
+    std::vector<Eigen::Matrix3d> covs_;
+    std::vector<Eigen::Vector3d> walks_;
+};
+
+const Eigen::Matrix3d kLevel = Eigen::Matrix3d::Identity();
+
+/** Of points; planes likewise, of other features. */
+ResidualVariogram::Levels levelsOf(Features points, Features planes, double views, int frames = 90)
+{
+    ResidualVariogram out;
+    for (int k = 0; k < frames; ++k)
+    {
+        PoseEstimate estimate;
+        estimate.pointResiduals = points.next(views, kLevel);
+        estimate.planeResiduals = planes.next(views, kLevel);
+        out.update(estimate, kLevel, views, kFrame, {1, 1});
+    }
+    return out.levels();
+}
+}  // namespace
+
+/** 2 g per view: the variogram is half of the mean squared difference. */
+TEST(ResidualVariogram, tellsNoiseFromDriftForEachKind)
+{
+    const auto levels = levelsOf({1, 150, 0.5, 0.8}, {2, 30, 3, 20}, 0.1);
+    EXPECT_NEAR(levels.white.points, 0.5, 0.08);
+    EXPECT_NEAR(levels.drift.points, 0.8, 0.12);
+    EXPECT_NEAR(levels.white.planes, 3, 0.8);
+    EXPECT_NEAR(levels.drift.planes, 20, 5);
+}
+
+TEST(ResidualVariogram, noiseAloneHasNoDrift)
+{
+    const auto levels = levelsOf({3, 150, 0.5, 0}, {4, 30, 3, 0}, 0.1);
+    EXPECT_NEAR(levels.white.points, 0.5, 0.08);
+    EXPECT_LT(levels.drift.points, 0.1);
+}
+
+/** A camera at rest says nothing of what another view would bring. */
+TEST(ResidualVariogram, atRestTheFirstGuessOfDriftStays)
+{
+    const auto levels = levelsOf({5, 150, 0.5, 0.8}, {6, 30, 3, 20}, 0);
+    EXPECT_NEAR(levels.white.points, 0.5, 0.08);
+    EXPECT_NEAR(levels.drift.points, 0.4, 1e-9);
+}
+
+TEST(ResidualVariogram, wrongMatchesDoNotMatter)
+{
+    Features points(7, 150, 0.5, 0.8);
+    ResidualVariogram variogram;
+    for (int k = 0; k < 90; ++k)
+    {
+        PoseEstimate estimate;
+        estimate.pointResiduals = points.next(0.1, kLevel);
+        for (size_t i = 0; i < estimate.pointResiduals.size(); i += 10)
+        {
+            estimate.pointResiduals[i].r += 0.1 * points.sampler().vector<3>();
+        }
+        variogram.update(estimate, kLevel, 0.1, kFrame, {1, 1});
+    }
+    EXPECT_NEAR(variogram.levels().white.points, 0.5, 0.2);
+    EXPECT_NEAR(variogram.levels().drift.points, 0.8, 0.25);
+}
+
+/** The base frame turns with the camera; features and their errors do not. */
+TEST(ResidualVariogram, axesAreThoseOfTheWorld)
+{
+    Features points(8, 150, 0.5, 0.8);
+    ResidualVariogram variogram;
+    for (int k = 0; k < 90; ++k)
+    {
+        const Eigen::Matrix3d R = so3Exp(Eigen::Vector3d(0.1 * k, 0.2 * k, 0));
+        PoseEstimate estimate;
+        estimate.pointResiduals = points.next(0.1, R);
+        variogram.update(estimate, R, 0.1, kFrame, {1, 1});
+    }
+    EXPECT_NEAR(variogram.levels().white.points, 0.5, 0.08);
+    EXPECT_NEAR(variogram.levels().drift.points, 0.8, 0.12);
+}
+
+/** Of four planes the pose follows half of the noise: half of it is left in the residuals. */
+TEST(ResidualVariogram, noiseThatTheEstimateFollowsIsCountedToo)
+{
+    const auto white = [](double own, double ofPlanes)
+    {
+        Features planes(9, 40, 1, 0);
+        ResidualVariogram variogram;
+        for (int k = 0; k < 90; ++k)
+        {
+            PoseEstimate estimate;
+            estimate.planeResiduals = planes.next(0.1, kLevel);
+            for (FeatureResidual& f : estimate.planeResiduals)
+            {
+                f.own = own;
+                f.ofPlanes = ofPlanes;
+            }
+            variogram.update(estimate, kLevel, 0.1, kFrame, {1, 1});
+        }
+        return variogram.levels().white.planes;
+    };
+    EXPECT_NEAR(white(1, 0), 1, 0.2);
+    EXPECT_NEAR(white(0, 0.5), 2 * white(1, 0), 0.3);
+    EXPECT_NEAR(white(0.05, 0.05), 0.2, 1e-9) << "says nothing: the first guess";
+}
+
+/** The same frame again and again, or features that jump by metres. */
+TEST(ResidualVariogram, staysWithinReason)
+{
+    const auto same = levelsOf({11, 150, 0, 0}, {12, 30, 0, 0}, 0.1, 900);
+    EXPECT_GT(same.white.points, 1e-4);
+    EXPECT_GT(same.drift.planes, 0.01);
+    const auto odd = levelsOf({13, 150, 1e9, 0}, {14, 30, 1e9, 1e9}, 0.1, 900);
+    EXPECT_LE(odd.white.points, 1000);
+    EXPECT_LE(odd.drift.planes, 10000);
+}
+
+TEST(ResidualVariogram, otherFeaturesAreNotCompared)
+{
+    Features points(10, 150, 0.5, 0.8);
+    ResidualVariogram variogram;
+    for (int k = 0; k < 30; ++k)
+    {
+        PoseEstimate estimate;
+        estimate.pointResiduals = points.next(0.1, kLevel);
+        for (FeatureResidual& f : estimate.pointResiduals)
+        {
+            f.reference = k;
+        }
+        variogram.update(estimate, kLevel, 0.1, kFrame, {1, 2});
+    }
+    EXPECT_NEAR(variogram.levels().white.points, 0.2, 1e-9);
+    EXPECT_NEAR(variogram.levels().drift.points, 0.4, 1e-9);
+    EXPECT_NEAR(variogram.levels().white.planes, 0.4, 1e-9) << "a part of the residuals' variance";
+}
+}  // namespace pointplane

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/odometry/camera_errors.h>
+
+#include <Eigen/QR>
+
+#include <vector>
+
+#include "matchers.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace pointplane
+{
+namespace
+{
+PinholeCamera camera(double fy = 480)
+{
+    PinholeCamera out;
+    out.fx = 500;
+    out.fy = fy;
+    out.cx = 310;
+    out.cy = 250;
+    return out;
+}
+
+/** The k-th error as it changes a calibration. */
+PinholeCamera changed(PinholeCamera c, int k, double by)
+{
+    c.cx += k == 1 ? by : 0;
+    c.cy += k == 2 ? by : 0;
+    c.fx *= k == 3 ? 1 + by : 1;
+    c.fy *= k == 3 ? 1 + by : 1;
+    return c;
+}
+
+Eigen::Vector3d lifted(const PinholeCamera& c, const Eigen::Vector2d& uv_px, double z)
+{
+    return z * c.normalised(uv_px).homogeneous();
+}
+
+/** Fitted to the inverse depths of some pixels, which do not change with the calibration. */
+Eigen::Vector3d fitted(
+    const PinholeCamera& c, const PinholeCamera& truth, const Eigen::Vector3d& theta_m)
+{
+    Eigen::MatrixX3d A(9, 3);
+    Eigen::VectorXd q(9);
+    for (int i = 0; i < 9; ++i)
+    {
+        const Eigen::Vector2d uv_px(100 + 200 * (i % 3), 50 + 180 * (i / 3));
+        A.row(i) = c.normalised(uv_px).homogeneous();
+        q[i] = truth.normalised(uv_px).homogeneous().dot(theta_m);
+    }
+    return A.colPivHouseholderQr().solve(q);
+}
+
+/** Numerical, by central differences. */
+template <class F>
+ByCamera differences(F&& of)
+{
+    constexpr double kStep = 1e-4;
+    ByCamera out = ByCamera::Zero();
+    for (int k = 1; k < kNumCameraErrors; ++k)
+    {
+        out.col(k) = (of(k, kStep) - of(k, -kStep)) / (2 * kStep);
+    }
+    return out;
+}
+}  // namespace
+
+TEST(cameraErrors, ofAPointByHand)
+{
+    const ByCamera J = pointByCamera({0.5, -0.25, 2}, camera());
+    EXPECT_EQ(J.col(0).norm(), 0);
+    EXPECT_NEAR(J(0, 1), -2.0 / 500, 1e-12);  // a centre farther right: the point is farther left
+    EXPECT_NEAR(J(1, 2), -2.0 / 480, 1e-12);
+    EXPECT_NEAR(J(0, 3), -0.5, 1e-12);
+    EXPECT_NEAR(J(1, 3), 0.25, 1e-12);
+}
+
+TEST(cameraErrors, asCalibrationsChange)
+{
+    for (const double fy : {480.0, -480.0})  // negative: the image's y axis points up
+    {
+        const PinholeCamera c = camera(fy);
+        const Eigen::Vector2d uv_px(512, 77);
+        const ByCamera point =
+            differences([&](int k, double by) { return lifted(changed(c, k, by), uv_px, 1.7); });
+        EXPECT_THAT(pointByCamera(lifted(c, uv_px, 1.7), c), test::IsMatrixNear(point, 1e-6));
+
+        const Eigen::Vector3d theta_m(0.2, -0.4, 0.6);
+        const ByCamera plane =
+            differences([&](int k, double by) { return fitted(changed(c, k, by), c, theta_m); });
+        EXPECT_THAT(planeByCamera(theta_m, c), test::IsMatrixNear(plane, 1e-6));
+    }
+}
+}  // namespace pointplane
