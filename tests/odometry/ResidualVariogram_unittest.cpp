@@ -177,12 +177,31 @@ TEST(ResidualVariogram, otherFeaturesAreNotCompared)
         estimate.pointResiduals = points.next(0.1, kLevel);
         for (FeatureResidual& f : estimate.pointResiduals)
         {
-            f.reference = k;
+            f.inReference += 1000 * k;
         }
         variogram.update(estimate, kLevel, 0.1, kFrame, {1, 2});
     }
     EXPECT_NEAR(variogram.levels().white.points, 0.2, 1e-9);
     EXPECT_NEAR(variogram.levels().drift.points, 0.4, 1e-9);
     EXPECT_NEAR(variogram.levels().white.planes, 0.4, 1e-9) << "a part of the residuals' variance";
+}
+
+/** Frame to frame, each feature is compared once: what changes is its residual. */
+TEST(ResidualVariogram, ofNewReferencesTheResidualsAreTheChange)
+{
+    Features points(15, 150, 0.5, 0.8);
+    ResidualVariogram variogram;
+    for (int k = 0; k < 300; ++k)
+    {
+        PoseEstimate estimate;
+        estimate.pointResiduals = points.next(0.1, kLevel);
+        for (FeatureResidual& f : estimate.pointResiduals)
+        {
+            f.reference = k;
+        }
+        variogram.update(estimate, kLevel, 0.1, kFrame, {3, 1});
+    }
+    EXPECT_NEAR(variogram.levels().white.points, 3, 0.3);
+    EXPECT_NEAR(variogram.levels().white.planes, 0.2, 1e-9) << "there are none";
 }
 }  // namespace pointplane

@@ -111,11 +111,31 @@ std::optional<double> ResidualVariogram::variogram(
     return std::clamp(*middle / kMedianChi2Of3, kMinVariogram, kMaxVariogram);
 }
 
+bool ResidualVariogram::shareReference(const Snapshot& now, const Snapshot& then)
+{
+    return std::any_of(
+        now.begin(),
+        now.end(),
+        [&](const Entry& entry)
+        {
+            const auto it = std::lower_bound(
+                then.begin(),
+                then.end(),
+                entry.key.first,
+                [](const Entry& e, int reference) { return e.key.first < reference; });
+            return it != then.end() && it->key.first == entry.key.first;
+        });
+}
+
 void ResidualVariogram::update(
     Kind& kind, Snapshot now, size_t least, double kept, double residuals) const
 {
     const size_t lag = std::min(kind.past.size(), kLag);
-    const auto step = lag > 0 ? variogram(now, kind.past.front(), least) : std::optional<double>();
+    auto step = lag > 0 ? variogram(now, kind.past.front(), least) : std::optional<double>();
+    if (lag > 0 && now.size() >= least && !shareReference(now, kind.past.front()))
+    {
+        step = residuals;  // of references that are new, residuals are what has changed since
+    }
     if (step)
     {
         kind.weight = kept * kind.weight + 1;

@@ -67,6 +67,7 @@ class ResidualVariogram
         double ownWhite) const;
     [[nodiscard]] static std::optional<double> variogram(
         const Snapshot& now, const Snapshot& then, size_t least);
+    [[nodiscard]] static bool shareReference(const Snapshot& now, const Snapshot& then);
     void update(Kind& kind, Snapshot now, size_t least, double kept, double residuals) const;
 
     Kind points_, planes_;
