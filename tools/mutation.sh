@@ -20,7 +20,7 @@ mutants=(
     'libs/planes/src/PlaneFitter.cpp|b -= w * P|b += w * P|planes_PlaneFitter'
     'libs/odometry/src/JointCovariance.cpp|at(0, 0) - at(0, k) - at(k, 0)|at(0, 0) + at(0, k) - at(k, 0)|odometry_JointCovariance'
     'libs/odometry/src/JointCovariance.cpp|dt * prior + measurement|prior + measurement|odometry_JointCovariance'
-    'libs/pose/src/NormalEquations.cpp|influence += influences[it->second]|influence = influences[it->second]|pose_Sensitivity'
+    'libs/pose/src/NormalEquations.cpp|ofUnitNoise += influence(i)|ofUnitNoise = influence(i)|pose_Sensitivity'
     'libs/pose/src/PoseSolver.cpp|kStartWidening = 4|kStartWidening = 1|pose_PoseSolver'
     'libs/odometry/src/ShutterCorrection.cpp|(sColour - sDepth) * P|(sDepth - sColour) * P|odometry_ShutterCorrection'
     'libs/points/src/lucas_kanade.cpp|static_cast<short>(g.x - meanX)|static_cast<short>(g.x)|points_lucas_kanade'
