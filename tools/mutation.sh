@@ -39,6 +39,8 @@ rm -rf "$tree"
 mkdir -p "$tree"
 # shellcheck disable=SC2046  # no name in this tree has a space
 cp -p --parents $(git ls-files CMakeLists.txt cmake libs tests benchmarks) "$tree"
+# What an earlier run built last of these files may be a mutant.
+for mutant in "${mutants[@]}"; do touch "$tree/${mutant%%|*}"; done
 
 source_dir=$tree
 configure_instrumented -DPOINTPLANE_BUILD_APPS=OFF -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O1
