@@ -2,6 +2,7 @@
 #include <pointplane/core/se3.h>
 #include <pointplane/odometry/ResidualVariogram.h>
 
+#include <functional>
 #include <vector>
 
 #include "monte_carlo.h"
@@ -46,8 +47,6 @@ class Features
         return out;
     }
 
-    test::GaussianSampler& sampler() { return sampler_; }
-
  private:
     test::GaussianSampler sampler_;
     double white_, drift_;
@@ -55,27 +54,45 @@ class Features
     std::vector<Eigen::Vector3d> walks_;
 };
 
-const Eigen::Matrix3d kLevel = Eigen::Matrix3d::Identity();
+struct Scenario
+{
+    double views{0.1};  //!< between neighbouring frames
+    int frames{90};
+    NoiseFactors residuals{};
+    std::function<void(int frame, FeatureResidual&)> change{[](int, FeatureResidual&) {}};
+    std::function<Eigen::Matrix3d(int frame)> R_world_base{
+        [](int) { return Eigen::Matrix3d(Eigen::Matrix3d::Identity()); }};
+};
 
-/** Of points; planes likewise, of other features. */
-ResidualVariogram::Levels levelsOf(Features points, Features planes, double views, int frames = 90)
+/** Of points and planes that are other features, all of which are changed likewise. */
+ResidualVariogram::Levels levelsOf(Features points, Features planes, const Scenario& run = {})
 {
     ResidualVariogram out;
-    for (int k = 0; k < frames; ++k)
+    for (int k = 0; k < run.frames; ++k)
     {
+        const Eigen::Matrix3d R = run.R_world_base(k);
         PoseEstimate estimate;
-        estimate.pointResiduals = points.next(views, kLevel);
-        estimate.planeResiduals = planes.next(views, kLevel);
-        out.update(estimate, kLevel, views, kFrame, {1, 1});
+        estimate.pointResiduals = points.next(run.views, R);
+        estimate.planeResiduals = planes.next(run.views, R);
+        for (auto* residuals : {&estimate.pointResiduals, &estimate.planeResiduals})
+        {
+            for (FeatureResidual& f : *residuals)
+            {
+                run.change(k, f);
+            }
+        }
+        out.update(estimate, R, run.views, kFrame, run.residuals);
     }
     return out.levels();
 }
+
+const Features kNone(0, 0, 0, 0);
 }  // namespace
 
 /** 2 g per view: the variogram is half of the mean squared difference. */
 TEST(ResidualVariogram, tellsNoiseFromDriftForEachKind)
 {
-    const auto levels = levelsOf({1, 150, 0.5, 0.8}, {2, 30, 3, 20}, 0.1);
+    const auto levels = levelsOf({1, 150, 0.5, 0.8}, {2, 30, 3, 20});
     EXPECT_NEAR(levels.white.points, 0.5, 0.08);
     EXPECT_NEAR(levels.drift.points, 0.8, 0.12);
     EXPECT_NEAR(levels.white.planes, 3, 0.8);
@@ -84,7 +101,7 @@ TEST(ResidualVariogram, tellsNoiseFromDriftForEachKind)
 
 TEST(ResidualVariogram, noiseAloneHasNoDrift)
 {
-    const auto levels = levelsOf({3, 150, 0.5, 0}, {4, 30, 3, 0}, 0.1);
+    const auto levels = levelsOf({3, 150, 0.5, 0}, {4, 30, 3, 0});
     EXPECT_NEAR(levels.white.points, 0.5, 0.08);
     EXPECT_LT(levels.drift.points, 0.1);
 }
@@ -92,43 +109,30 @@ TEST(ResidualVariogram, noiseAloneHasNoDrift)
 /** A camera at rest says nothing of what another view would bring. */
 TEST(ResidualVariogram, atRestTheFirstGuessOfDriftStays)
 {
-    const auto levels = levelsOf({5, 150, 0.5, 0.8}, {6, 30, 3, 20}, 0);
+    const auto levels = levelsOf({5, 150, 0.5, 0.8}, {6, 30, 3, 20}, {0});
     EXPECT_NEAR(levels.white.points, 0.5, 0.08);
     EXPECT_NEAR(levels.drift.points, 0.4, 1e-9);
 }
 
 TEST(ResidualVariogram, wrongMatchesDoNotMatter)
 {
-    Features points(7, 150, 0.5, 0.8);
-    ResidualVariogram variogram;
-    for (int k = 0; k < 90; ++k)
-    {
-        PoseEstimate estimate;
-        estimate.pointResiduals = points.next(0.1, kLevel);
-        for (size_t i = 0; i < estimate.pointResiduals.size(); i += 10)
-        {
-            estimate.pointResiduals[i].r += 0.1 * points.sampler().vector<3>();
-        }
-        variogram.update(estimate, kLevel, 0.1, kFrame, {1, 1});
-    }
-    EXPECT_NEAR(variogram.levels().white.points, 0.5, 0.2);
-    EXPECT_NEAR(variogram.levels().drift.points, 0.8, 0.25);
+    test::GaussianSampler sampler(70);
+    Scenario run;
+    run.change = [&](int, FeatureResidual& f)
+    { f.r += (f.inReference % 10 == 0 ? 0.1 : 0) * sampler.vector<3>(); };
+    const auto levels = levelsOf({7, 150, 0.5, 0.8}, kNone, run);
+    EXPECT_NEAR(levels.white.points, 0.5, 0.2);
+    EXPECT_NEAR(levels.drift.points, 0.8, 0.25);
 }
 
 /** The base frame turns with the camera; features and their errors do not. */
 TEST(ResidualVariogram, axesAreThoseOfTheWorld)
 {
-    Features points(8, 150, 0.5, 0.8);
-    ResidualVariogram variogram;
-    for (int k = 0; k < 90; ++k)
-    {
-        const Eigen::Matrix3d R = so3Exp(Eigen::Vector3d(0.1 * k, 0.2 * k, 0));
-        PoseEstimate estimate;
-        estimate.pointResiduals = points.next(0.1, R);
-        variogram.update(estimate, R, 0.1, kFrame, {1, 1});
-    }
-    EXPECT_NEAR(variogram.levels().white.points, 0.5, 0.08);
-    EXPECT_NEAR(variogram.levels().drift.points, 0.8, 0.12);
+    Scenario run;
+    run.R_world_base = [](int k) { return so3Exp(Eigen::Vector3d(0.1 * k, 0.2 * k, 0)); };
+    const auto levels = levelsOf({8, 150, 0.5, 0.8}, kNone, run);
+    EXPECT_NEAR(levels.white.points, 0.5, 0.08);
+    EXPECT_NEAR(levels.drift.points, 0.8, 0.12);
 }
 
 /** Of four planes the pose follows half of the noise: half of it is left in the residuals. */
@@ -136,20 +140,13 @@ TEST(ResidualVariogram, noiseThatTheEstimateFollowsIsCountedToo)
 {
     const auto white = [](double own, double ofPlanes)
     {
-        Features planes(9, 40, 1, 0);
-        ResidualVariogram variogram;
-        for (int k = 0; k < 90; ++k)
+        Scenario run;
+        run.change = [=](int, FeatureResidual& f)
         {
-            PoseEstimate estimate;
-            estimate.planeResiduals = planes.next(0.1, kLevel);
-            for (FeatureResidual& f : estimate.planeResiduals)
-            {
-                f.own = own;
-                f.ofPlanes = ofPlanes;
-            }
-            variogram.update(estimate, kLevel, 0.1, kFrame, {1, 1});
-        }
-        return variogram.levels().white.planes;
+            f.own = own;
+            f.ofPlanes = ofPlanes;
+        };
+        return levelsOf(kNone, {9, 40, 1, 0}, run).white.planes;
     };
     EXPECT_NEAR(white(1, 0), 1, 0.2);
     EXPECT_NEAR(white(0, 0.5), 2 * white(1, 0), 0.3);
@@ -159,49 +156,31 @@ TEST(ResidualVariogram, noiseThatTheEstimateFollowsIsCountedToo)
 /** The same frame again and again, or features that jump by metres. */
 TEST(ResidualVariogram, staysWithinReason)
 {
-    const auto same = levelsOf({11, 150, 0, 0}, {12, 30, 0, 0}, 0.1, 900);
+    const auto same = levelsOf({11, 150, 0, 0}, {12, 30, 0, 0}, {0.1, 900});
     EXPECT_GT(same.white.points, 1e-4);
     EXPECT_GT(same.drift.planes, 0.01);
-    const auto odd = levelsOf({13, 150, 1e9, 0}, {14, 30, 1e9, 1e9}, 0.1, 900);
+    const auto odd = levelsOf({13, 150, 1e9, 0}, {14, 30, 1e9, 1e9}, {0.1, 900});
     EXPECT_LE(odd.white.points, 1000);
     EXPECT_LE(odd.drift.planes, 10000);
 }
 
 TEST(ResidualVariogram, otherFeaturesAreNotCompared)
 {
-    Features points(10, 150, 0.5, 0.8);
-    ResidualVariogram variogram;
-    for (int k = 0; k < 30; ++k)
-    {
-        PoseEstimate estimate;
-        estimate.pointResiduals = points.next(0.1, kLevel);
-        for (FeatureResidual& f : estimate.pointResiduals)
-        {
-            f.inReference += 1000 * k;
-        }
-        variogram.update(estimate, kLevel, 0.1, kFrame, {1, 2});
-    }
-    EXPECT_NEAR(variogram.levels().white.points, 0.2, 1e-9);
-    EXPECT_NEAR(variogram.levels().drift.points, 0.4, 1e-9);
-    EXPECT_NEAR(variogram.levels().white.planes, 0.4, 1e-9) << "a part of the residuals' variance";
+    Scenario run{0.1, 30, {1, 2}};
+    run.change = [](int k, FeatureResidual& f) { f.inReference += 1000 * k; };
+    const auto levels = levelsOf({10, 150, 0.5, 0.8}, kNone, run);
+    EXPECT_NEAR(levels.white.points, 0.2, 1e-9);
+    EXPECT_NEAR(levels.drift.points, 0.4, 1e-9);
+    EXPECT_NEAR(levels.white.planes, 0.4, 1e-9) << "a part of the residuals' variance";
 }
 
 /** Frame to frame, each feature is compared once: what changes is its residual. */
 TEST(ResidualVariogram, ofNewReferencesTheResidualsAreTheChange)
 {
-    Features points(15, 150, 0.5, 0.8);
-    ResidualVariogram variogram;
-    for (int k = 0; k < 300; ++k)
-    {
-        PoseEstimate estimate;
-        estimate.pointResiduals = points.next(0.1, kLevel);
-        for (FeatureResidual& f : estimate.pointResiduals)
-        {
-            f.reference = k;
-        }
-        variogram.update(estimate, kLevel, 0.1, kFrame, {3, 1});
-    }
-    EXPECT_NEAR(variogram.levels().white.points, 3, 0.3);
-    EXPECT_NEAR(variogram.levels().white.planes, 0.2, 1e-9) << "there are none";
+    Scenario run{0.1, 300, {3, 1}};
+    run.change = [](int k, FeatureResidual& f) { f.reference = k; };
+    const auto levels = levelsOf({15, 150, 0.5, 0.8}, kNone, run);
+    EXPECT_NEAR(levels.white.points, 3, 0.3);
+    EXPECT_NEAR(levels.white.planes, 0.2, 1e-9) << "there are none";
 }
 }  // namespace pointplane

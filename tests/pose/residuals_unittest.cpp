@@ -151,6 +151,38 @@ TEST(Residuals, jacobiansAreThoseOfTheLeftPerturbationAndOfTheVelocity)
     }
 }
 
+/** Both features move with errors of the camera. */
+TEST(Residuals, changeWithTheCamera)
+{
+    test::GaussianSampler sampler(5);
+    const Motion motion = randomMotion(sampler);
+    const auto check = [&](auto pair, auto residual, auto&& meanOf)
+    {
+        constexpr double kStep = 1e-5;
+        pair.dBase_dCamera = sampler.vector<3>() * sampler.vector<4>().transpose();
+        pair.dCur_dCamera = sampler.vector<3>() * sampler.vector<4>().transpose();
+        const auto with = [&](const Eigen::Vector4d& camera)
+        {
+            auto moved = pair;
+            meanOf(moved.base) += pair.dBase_dCamera * camera;
+            meanOf(moved.cur) += pair.dCur_dCamera * camera;
+            return residual(moved, motion).r;
+        };
+        ByCamera expected;
+        for (int k = 0; k < kNumCameraErrors; ++k)
+        {
+            const Eigen::Vector4d step = kStep * Eigen::Vector4d::Unit(k);
+            expected.col(k) = (with(step) - with(-step)) / (2 * kStep);
+        }
+        EXPECT_THAT(residual(pair, motion).ofCamera, test::IsMatrixNear(expected, 1e-5));
+    };
+    const auto point = [](auto& g) -> Eigen::Vector3d& { return g.mean; };
+    const auto plane = [](auto& g) -> Eigen::Vector3d& { return g.theta_m; };
+    check(randomPointPair(sampler), pointResidual, point);
+    check(randomPlanePair(sampler), planeResidualMinimal, plane);
+    check(randomPlanePair(sampler), planeResidualClosestPoint, plane);
+}
+
 TEST(Residuals, covariancesAreThoseOfMonteCarlo)
 {
     test::GaussianSampler sampler(4);

@@ -152,9 +152,7 @@ PoseStage::Measured PoseStage::accept(
     out.T_prev_cur = estimate.motion.mean.T_base_cur;
     const Matrix6d ofShutter = shutter_.update(
         pairs, associations, estimate.motion.mean, predicted.prior, noise_.factors());
-    const double views = numViews(out.T_prev_cur);
-    variogram_.update(estimate, pairs.R_world_base(), views, dt, noise_.residuals());
-    out.errors = errorsOf(estimate, ofShutter, views, dt);
+    out.errors = errorsOf(estimate, pairs, ofShutter, dt);
     if (fuses())
     {
         out.previousVelocity = motion_.update(estimate.motion, dt);
@@ -170,7 +168,7 @@ PoseStage::Measured PoseStage::accept(
 }
 
 JointCovariance::Measurement PoseStage::errorsOf(
-    const PoseEstimate& estimate, const Matrix6d& ofShutter, double views, double dt) const
+    const PoseEstimate& estimate, const PairBuilder& pairs, const Matrix6d& ofShutter, double dt)
 {
     if (covariance_.model == "independent")
     {
@@ -179,6 +177,8 @@ JointCovariance::Measurement PoseStage::errorsOf(
         out.noise.topLeftCorner<6, 6>() = estimate.motion.pose().cov + ofShutter;
         return out;
     }
+    const double views = numViews(estimate.motion.mean.T_base_cur);
+    variogram_.update(estimate, pairs.R_world_base(), views, dt, noise_.residuals());
     JointCovariance::Measurement out =
         frameErrors(estimate, variogram_.levels(), views, covariance_);
     if (!fuses())

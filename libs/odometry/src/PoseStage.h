@@ -62,7 +62,10 @@ class PoseStage
 
  private:
     [[nodiscard]] JointCovariance::Measurement errorsOf(
-        const PoseEstimate& estimate, const Matrix6d& ofShutter, double views, double dt) const;
+        const PoseEstimate& estimate,
+        const PairBuilder& pairs,
+        const Matrix6d& ofShutter,
+        double dt);
     [[nodiscard]] bool fuses() const { return pipeline_.degeneracy == "fuse"; }
     [[nodiscard]] int minMatches() const;
     [[nodiscard]] MotionPrior priorFrom(

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/odometry/ResidualVariogram.h>
+#include <pointplane/pose/median_variance.h>
 
 #include <Eigen/LU>
 
@@ -35,8 +36,6 @@ constexpr double kLeastWhite = 0.1, kLeastDrift = 0.05;
 /** A few odd frames must neither make features certain nor worthless. */
 constexpr double kMinVariogram = 0.003, kMaxVariogram = 1000;
 
-/** The median of chi-square with 3 degrees of freedom. */
-constexpr double kMedianChi2Of3 = 2.366;
 }  // namespace
 
 void ResidualVariogram::update(
@@ -106,9 +105,7 @@ std::optional<double> ResidualVariogram::variogram(
     {
         return {};
     }
-    const auto middle = squared.begin() + static_cast<std::ptrdiff_t>(squared.size() / 2);
-    std::nth_element(squared.begin(), middle, squared.end());
-    return std::clamp(*middle / kMedianChi2Of3, kMinVariogram, kMaxVariogram);
+    return std::clamp(medianVariance(squared), kMinVariogram, kMaxVariogram);
 }
 
 bool ResidualVariogram::shareReference(const Snapshot& now, const Snapshot& then)

@@ -31,7 +31,7 @@ double distanceOf(const Matrix6d& information)
  * them. */
 double commonOf(double drift, const Matrix12d& sensitivity)
 {
-    return sensitivity.isZero() ? 1 : std::pow(drift, kCommonPower);
+    return sensitivity.isZero(0) ? 1 : std::pow(drift, kCommonPower);
 }
 }  // namespace
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "NormalEquations.h"
 
+#include <pointplane/pose/median_variance.h>
+
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
@@ -13,9 +15,6 @@ namespace
 {
 /** Sigma of unweighted residuals; sets only the balance with the prior. */
 constexpr double kUnweightedSigma = 0.01;
-
-/** The median of chi-square with 3 degrees of freedom. */
-constexpr double kMedianChi2Of3 = 2.366;
 
 double tukeyWeight(double squaredNorm, double limit)
 {
@@ -171,7 +170,7 @@ std::vector<FeatureResidual> NormalEquations::featureResiduals(
             const Residual& residual = residuals_[offset + member->second].residual;
             const Matrix312d J = jacobian(offset + member->second);
             const Eigen::Matrix3d information = residual.curCov.inverse();
-            const Eigen::Matrix<double, 12, 3> seen = J.transpose() * information / 3;
+            const Matrix123d seen = J.transpose() * information / 3;
             out[member->second] = {
                 pair.reference,
                 pair.inReference,
@@ -284,9 +283,8 @@ void NormalEquations::add(FeatureSum& sum, size_t i) const
     sum.numInliers += w > 0.5 ? 1 : 0;
     if (w > 0)
     {
-        Eigen::Matrix<double, 3, 12> J;
-        J << residual.J, residual.J_V;
-        const Eigen::Matrix<double, 12, 3> JtW = J.transpose() * W;
+        const Matrix312d J = jacobian(i);
+        const Matrix123d JtW = J.transpose() * W;
         // A general matrix product would pack its operands.
         const Matrix12d JtWJ = JtW.lazyProduct(J);
         sum.H += g * w * JtWJ;
@@ -305,18 +303,12 @@ void NormalEquations::add(FeatureSum& sum, size_t i) const
 
 double NormalEquations::relativeMedian(size_t begin, size_t end) const
 {
-    if (begin == end)
-    {
-        return 0;
-    }
     std::vector<double> norms;
     for (size_t i = begin; i < end; ++i)
     {
         norms.push_back(residuals_[i].squaredNorm);
     }
-    const auto middle = norms.begin() + static_cast<std::ptrdiff_t>(norms.size() / 2);
-    std::nth_element(norms.begin(), middle, norms.end());
-    return *middle / kMedianChi2Of3;
+    return medianVariance(norms);
 }
 
 double NormalEquations::pointVariance() const { return relativeMedian(0, points_.size()); }

@@ -3,7 +3,7 @@
 
 #include <pointplane/core/Parameters.h>
 #include <pointplane/core/types.h>
-#include <pointplane/pose/PoseSolver.h>
+#include <pointplane/pose/pairs.h>
 
 #include <map>
 #include <optional>

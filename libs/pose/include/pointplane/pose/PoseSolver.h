@@ -19,9 +19,6 @@ struct NoiseFactors
     double planes{1};
 };
 
-/** By errors of the camera, of pose and velocity. */
-using Matrix124d = Eigen::Matrix<double, 12, kNumCameraErrors>;
-
 /** How far groups of features, those of each reference frame, draw the pose away from where all
  * together put it. */
 struct Disagreement

@@ -9,7 +9,8 @@ namespace pointplane
 /** Of errors of the camera, the same in all frames: its vignetting [-], the principal point's x and
  * y [px], and the focal length [relative]. */
 constexpr int kNumCameraErrors = 4;
-using ByCamera = Eigen::Matrix<double, 3, kNumCameraErrors>;
+using ByCamera = Eigen::Matrix<double, 3, kNumCameraErrors>;     //!< a feature or residual
+using Matrix124d = Eigen::Matrix<double, 12, kNumCameraErrors>;  //!< pose and velocity
 
 /** The same point seen twice.
  *
