@@ -14,6 +14,7 @@
 #include "local_surface.h"
 #include "lucas_kanade.h"
 #include "patch_uncertainty.h"
+#include "warped_patches.h"
 
 namespace pointplane
 {
@@ -118,24 +119,25 @@ struct Candidate
 struct ReferencePatches
 {
     PatchTemplates searched;
+    WarpedPatches refined;
     std::vector<ComparedPatch> compared;
 
-    /** \param numCorners the first so many points are corners, which can do without the constancy
-     * of brightness; along edges it may be all that tells anything */
-    ReferencePatches(
+    explicit ReferencePatches(int windowPx) : searched(windowPx) {}
+
+    /** \param pyramid with derivatives \param halfPx half of the window \param brightness constant
+     * for edges, along which it may be all that tells anything */
+    void add(
         const std::vector<cv::Mat>& pyramid,
-        const std::vector<PointFeature>& points,
-        int windowPx,
-        size_t numCorners)
-        : searched(windowPx)
+        const cv::Point2f& centre,
+        int halfPx,
+        Brightness brightness,
+        const Directions& measured)
     {
-        for (const PointFeature& point : points)
-        {
-            const cv::Point2f centre = cv::Point2d(point.uv_px.x(), point.uv_px.y());
-            const bool isCorner = compared.size() < numCorners;
-            searched.add(pyramid, centre, isCorner ? Brightness::Shifted : Brightness::Constant);
-            compared.emplace_back(pyramid[0], centre);
-        }
+        // Corners have structure enough nearer to their centre, where the surface is flatter.
+        const int refinedPx = brightness == Brightness::Shifted ? 3 * halfPx / 4 : halfPx;
+        searched.add(pyramid, centre, brightness);
+        refined.add(pyramid[0], pyramid[1], centre, refinedPx, brightness, measured);
+        compared.emplace_back(pyramid[0], centre);
     }
 };
 
@@ -249,8 +251,13 @@ PointReference PointTracker::makeReference(const RgbdFrame& frame) const
         PatchUncertainty uncertainty;
     };
     std::vector<Edge> edges;
-    const auto add = [&](const PointFeature& point, const PatchUncertainty& uncertainty)
+    const auto patches = std::make_shared<ReferencePatches>(params_.windowPx);
+    const auto add =
+        [&](const PointFeature& point, const PatchUncertainty& uncertainty, Brightness brightness)
     {
+        const cv::Point2f centre = cv::Point2d(point.uv_px.x(), point.uv_px.y());
+        const Directions measured = uncertainty.measured(params_.maxNoisePx);
+        patches->add(pyramid, centre, params_.windowPx / 2, brightness, measured);
         out.points.push_back(point);
         out.cov_px.push_back(uncertainty.covariance(params_.maxNoisePx));
         out.ofBrightness_px.push_back(uncertainty.displacement(params_.maxNoisePx));
@@ -280,22 +287,20 @@ PointReference PointTracker::makeReference(const RgbdFrame& frame) const
         const auto feature = lifter_.lift(frame, Eigen::Vector2f(pixel.x, pixel.y).cast<double>());
         if (feature && isCorner)
         {
-            add(*feature, uncertainty);
+            add(*feature, uncertainty, Brightness::Shifted);
         }
         else if (feature && !isNearDepthJump(frame, *feature))
         {
             edges.push_back({*feature, uncertainty});
         }
     }
-    const size_t numCorners = out.points.size();
     for (size_t i = 0;
          i < edges.size() && out.points.size() < static_cast<size_t>(params_.minPoints);
          ++i)
     {
-        add(edges[i].point, edges[i].uncertainty);
+        add(edges[i].point, edges[i].uncertainty, Brightness::Constant);
     }
-    out.patches =
-        std::make_shared<ReferencePatches>(pyramid, out.points, params_.windowPx, numCorners);
+    out.patches = patches;
     return out;
 }
 
@@ -375,14 +380,22 @@ std::vector<PointTrack> PointTracker::track(
         {
             continue;
         }
+        const PointFeature& ref = reference.points[c.ref];
+        cv::Point2f position = c.position;
+        if (!isWide && !reference.patches->refined.refine(
+                           c.ref, pyramid[0], surfaceWarp(frame.camera, ref, T_cur_ref), position))
+        {
+            continue;
+        }
         if (auto feature =
-                lifter_.lift(frame, Eigen::Vector2f(c.position.x, c.position.y).cast<double>()))
+                lifter_.lift(frame, Eigen::Vector2f(position.x, position.y).cast<double>()))
         {
             // Along an edge, a track slides on the surface.
-            const auto J = surfaceJacobian(frame.camera, *feature);
+            const Eigen::Matrix<double, 3, 2> J =
+                T_cur_ref.linear() * surfaceJacobian(frame.camera, ref);
             feature->p_cam.cov += propagate(J, reference.cov_px[c.ref]);
             feature->ofVignetting_m =
-                J * (vignettingBetween(frame.gray, reference.points[c.ref].uv_px, feature->uv_px) *
+                J * (vignettingBetween(frame.gray, ref.uv_px, feature->uv_px) *
                      reference.ofBrightness_px[c.ref]);
             tracks.push_back({static_cast<int>(c.ref), *feature});
         }

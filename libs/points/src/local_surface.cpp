@@ -75,6 +75,16 @@ Eigen::Matrix<double, 3, 2> surfaceJacobian(const PinholeCamera& camera, const P
     return ray + p * (point.theta_m.transpose() * ray);
 }
 
+Eigen::Matrix2d surfaceWarp(
+    const PinholeCamera& camera, const PointFeature& reference, const Eigen::Isometry3d& T_cur_ref)
+{
+    const Eigen::Vector3d p = T_cur_ref * reference.p_cam.mean;
+    Eigen::Matrix<double, 2, 3> projection;
+    projection << camera.fx, 0, -camera.fx * p.x() / p.z(), 0, camera.fy,
+        -camera.fy * p.y() / p.z();
+    return projection / p.z() * T_cur_ref.linear() * surfaceJacobian(camera, reference);
+}
+
 bool isNearDepthJump(const RgbdFrame& frame, const PointFeature& point)
 {
     constexpr double kJump = 0.1;  // relative

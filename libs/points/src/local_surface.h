@@ -15,6 +15,11 @@ namespace pointplane
 [[nodiscard]] Eigen::Matrix<double, 3, 2> surfaceJacobian(
     const PinholeCamera& camera, const PointFeature& point);
 
+/** How the image of a point's surface moves with the reference's: d uv_cur / d uv_ref, without lens
+ * distortion. \pre the point is before both cameras */
+[[nodiscard]] Eigen::Matrix2d surfaceWarp(
+    const PinholeCamera& camera, const PointFeature& reference, const Eigen::Isometry3d& T_cur_ref);
+
 /** The depth jumps by more than a tenth somewhere within 9 pixels: a patch there shows two surfaces
  * that move against each other. Pixels without depth are no jump. */
 [[nodiscard]] bool isNearDepthJump(const RgbdFrame& frame, const PointFeature& point);

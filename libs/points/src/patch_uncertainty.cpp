@@ -51,6 +51,15 @@ Eigen::Matrix2d PatchUncertainty::covariance(double limit_px) const
     return axes * sigma.cwiseAbs2().asDiagonal() * axes.transpose();
 }
 
+Directions PatchUncertainty::measured(double limit_px) const
+{
+    if (worst() <= limit_px)
+    {
+        return axes;
+    }
+    return best() <= limit_px ? Directions(axes.col(1)) : Directions(2, 0);
+}
+
 Eigen::Vector2d PatchUncertainty::displacement(double limit_px) const
 {
     return axes * (sigma_px.array() <= limit_px).select(ofBrightness_px, 0).matrix();

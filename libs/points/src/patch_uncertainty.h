@@ -5,6 +5,7 @@
 #include <opencv2/core/mat.hpp>
 
 #include "brightness.h"
+#include "warped_patches.h"
 
 namespace pointplane
 {
@@ -28,6 +29,9 @@ struct PatchUncertainty
     /** Directions with a larger sigma than the limit count as not measured at all: there a search
      * stays where it began, which is no noise that would average out. \return [px^2] */
     [[nodiscard]] Eigen::Matrix2d covariance(double limit_px) const;
+
+    /** Those with at most the limit's sigma. */
+    [[nodiscard]] Directions measured(double limit_px) const;
 
     /** ofBrightness_px in the image, in the directions that count as measured. */
     [[nodiscard]] Eigen::Vector2d displacement(double limit_px) const;

@@ -34,7 +34,7 @@ class ReferenceWindow
         int maxKeyframes{4};
         double keyframeDistance{0.15};
         double keyframeAngleDeg{10.0};
-        double keyframeMinOverlap{0.5};
+        double keyframeMinOverlap{0.35};
 
         template <class V>
         void visit(V&& v)

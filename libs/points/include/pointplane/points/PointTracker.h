@@ -52,7 +52,7 @@ class PointTracker
  public:
     struct TParams
     {
-        int maxPoints{200};
+        int maxPoints{300};
         int minPoints{50};
         double minSpacingFraction{0.016};
         double cornerQuality{0.001};
@@ -61,7 +61,7 @@ class PointTracker
         int numLevels{4};
         double searchRadiusFraction{0.02};
         double minZncc{0.8};
-        double sigmaPx{0.2};
+        double sigmaPx{0.15};
         double depthVarianceFactor{3.0};
 
         template <class V>
