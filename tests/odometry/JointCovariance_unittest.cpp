@@ -291,6 +291,7 @@ TEST(JointCovariance, refusesParametersNamingTheKey)
     refused([](auto& p) { p.noise = 0; });
     refused([](auto& p) { p.drift = -1; });
     refused([](auto& p) { p.vignetting = -0.1; });
+    refused([](auto& p) { p.motion = -0.1; });
     refused([](auto& p) { p.principalPoint = -0.1; });
     refused([](auto& p) { p.focalLength = -0.1; });
     refused([](auto& p) { p.history = 0; });

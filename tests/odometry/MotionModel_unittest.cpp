@@ -109,10 +109,32 @@ TEST(MotionModel, uncertaintyIsThatOfAWhiteAcceleration)
     EXPECT_TRUE(isPositiveDefinite(p.cov));
 }
 
+/** Where poses are known well, the velocity between two increments is theirs: of constant
+ * acceleration, whatever rows of the shutter say. */
+TEST(MotionModel, theVelocityBeforeLiesBetweenTheIncrements)
+{
+    MotionModel model = moving();
+    MotionGaussian measured = measuredMotion();
+    measured.mean.T_base_cur = se3Exp(2 * velocity() * kFrame / 2);  // half the time, twice as fast
+    measured.mean.velocity.setConstant(7);
+    measured.cov.topLeftCorner<6, 6>() = 1e-14 * Matrix6d::Identity();
+    MotionModel surprised = model;
+    // (dt1 v2 + dt2 v1) / (dt1 + dt2) of v1 over dt1 = 1 and v2 = 2 v1 over dt2 = 1/2.
+    const Vector6d between = model.update(measured, kFrame / 2);
+    EXPECT_TRUE(between.isApprox(5.0 / 3 * velocity(), 0.15)) << between.transpose();
+    // Where they are not, it is the smoother's.
+    measured.cov.topLeftCorner<6, 6>() = Matrix6d::Identity();
+    const Vector6d smoothed = surprised.update(measured, kFrame / 2);
+    EXPECT_GT((smoothed - between).norm(), 0.4);
+}
+
 /** Rauch-Tung-Striebel against the joint Gaussian of the velocity before and the motion. */
 TEST(MotionModel, theVelocityBeforeIsSmoothed)
 {
-    MotionModel model = moving();
+    MotionModel model({});
+    MotionGaussian uncertain = measuredMotion();  // its increment tells nothing of the velocity
+    uncertain.cov.topLeftCorner<6, 6>() = Matrix6d::Identity();
+    model.update(uncertain, kFrame);
     const MotionGaussian predicted = model.predict(kFrame);
     MotionGaussian measured = predicted;
     measured.mean.velocity[0] += 0.03;

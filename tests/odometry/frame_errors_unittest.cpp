@@ -39,12 +39,12 @@ JointCovariance::Measurement errors(
 
 TEST(frameErrors, byHand)
 {
-    // 0.15 of a view. Noise 0.5 of both; drift 4 times the planes', 12 times that of points.
+    // 0.15 of a view. Noise 0.5 of both; drift 4 times the planes', 33 times that of points.
     const JointCovariance::Measurement e = errors(estimate(1e-3, 2e-3));
     EXPECT_NEAR(e.noise(0, 0), 0.5 * 3e-3, 1e-12);
     EXPECT_NEAR(e.noise(11, 11), e.noise(0, 0), 1e-12);
-    EXPECT_NEAR(e.drift(0, 0), 0.15 * (4 * (12 * 1e-3 + 2e-3) + 1e-4), 1e-12);
-    EXPECT_NEAR(e.drift(5, 5), 0.15 * (4 * (12 * 1e-3 + 2e-3) + 1e-4 / 4), 1e-12);
+    EXPECT_NEAR(e.drift(0, 0), 0.15 * (4 * (33 * 1e-3 + 2e-3) + 1e-4), 1e-12);
+    EXPECT_NEAR(e.drift(5, 5), 0.15 * (4 * (33 * 1e-3 + 2e-3) + 1e-4 / 4), 1e-12);
 }
 
 TEST(frameErrors, eachKindHasItsLevels)
@@ -53,15 +53,16 @@ TEST(frameErrors, eachKindHasItsLevels)
     EXPECT_NEAR(errors(e, {3, 5}).noise(0, 0), 0.5 * (3 * 1e-3 + 5 * 2e-3), 1e-12);
     EXPECT_NEAR(
         errors(e, {}, {3, 5}).drift(0, 0),
-        0.15 * (4 * (3 * 12 * 1e-3 + 5 * 2e-3) + std::pow(15, 1.4) * 1e-4),
+        0.15 * (4 * (3 * 33 * 1e-3 + 5 * 2e-3) + std::pow(3, 1.25) * std::pow(5, 0.85) * 1e-4),
         1e-12);
 }
 
-/** Depth errs with the square of the distance, and what a rotation does grows with it. */
+/** Depth errs with the square of the distance, pixels with the distance; so does what a rotation
+ * does. */
 TEST(frameErrors, whatIsInCommonGrowsWithTheDistance)
 {
     const auto common = [](double distance) { return errors(estimate(0, 0, distance)).drift; };
-    EXPECT_NEAR(common(3)(0, 0), 81 * common(1)(0, 0), 1e-12);
+    EXPECT_NEAR(common(3)(0, 0), 27 * common(1)(0, 0), 1e-12);
     EXPECT_NEAR(common(3)(5, 5), 9 * common(1)(5, 5), 1e-12);
     PoseEstimate nothing = estimate(0, 0);
     nothing.infoPoints.setZero();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/points/PointTracker.h>
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -77,7 +78,7 @@ TEST(PointTracker, FindsCornersSpreadOverTheImage)
 {
     const RgbdFrame frame = wall({0, 0}, 1);
     const PointReference reference = makeTracker().makeReference(frame);
-    EXPECT_EQ(reference.points.size(), 200U);
+    EXPECT_EQ(reference.points.size(), 300U);
     std::set<int> ninths;
     for (size_t i = 0; i < reference.points.size(); ++i)
     {
@@ -188,7 +189,7 @@ TEST(PointTracker, RejectsWhatIsHidden)
     const auto numHidden =
         std::count_if(reference.points.begin(), reference.points.end(), isHidden);
     ASSERT_GT(numHidden, 15);
-    constexpr unsigned kNumTextures = 8;
+    constexpr unsigned kNumTextures = 16;
     std::ptrdiff_t numWrong = 0;
     for (unsigned k = 0; k < kNumTextures; ++k)
     {
@@ -368,6 +369,20 @@ RgbdFrame slantedEdge(double shift_px, unsigned noiseSeed)
         { return 60 + 120 / (1 + std::exp(-(0.8 * (u - shift_px - 320) + 0.6 * (v - 240)))); },
         noiseSeed);
 }
+
+/** Motion of a camera that rolls by eight degrees. */
+Eigen::Isometry3d roll()
+{
+    return Eigen::Isometry3d(Eigen::AngleAxisd(0.14, Eigen::Vector3d::UnitZ()));
+}
+
+/** Where a pixel was before that. */
+Vector2d rolledBack(const Vector2d& uv_px)
+{
+    const PinholeCamera camera;
+    const Eigen::Vector3d ray = camera.normalised(uv_px).homogeneous();
+    return camera.project(roll().inverse() * ray);
+}
 }  // namespace
 
 TEST(PointTracker, EdgesTellTheDirectionAcrossThem)
@@ -394,6 +409,53 @@ TEST(PointTracker, EdgesTellTheDirectionAcrossThem)
         EXPECT_GT(across.dot(information * across), 1 / (0.4 * 0.4));
         EXPECT_LT(along.dot(information * along), 1 / (10.0 * 10.0));
     }
+}
+
+/** The camera has rolled: the direction that an edge does not tell has turned with its image. */
+TEST(PointTracker, EdgesTurnWithTheCamera)
+{
+    const PointTracker tracker = makeTracker();
+    const PointReference reference = tracker.makeReference(slantedEdge(0, 1));
+    const RgbdFrame frame = wallOf(
+        [](double u, double v)
+        {
+            const Vector2d from = rolledBack({u, v});
+            return 60 + 120 / (1 + std::exp(-(0.8 * (from.x() - 320) + 0.6 * (from.y() - 240))));
+        },
+        2);
+    const auto tracks = tracker.track(reference, frame, tracker.pyramid(frame.gray), roll());
+    ASSERT_GT(tracks.size(), 5U);
+    const Eigen::Vector3d along = roll() * Eigen::Vector3d(-0.6, 0.8, 0);
+    for (const PointTrack& t : tracks)
+    {
+        const double metrePerPixel = kDepth / frame.camera.fx;
+        const Eigen::Matrix3d information =
+            metrePerPixel * metrePerPixel * t.cur.p_cam.cov.inverse();
+        EXPECT_LT(along.dot(information * along), 1 / (10.0 * 10.0));
+    }
+}
+
+TEST(PointTracker, FindsCornersOfAnImageThatHasTurned)
+{
+    const test::Texture texture(1, 5, 80);
+    const PointTracker tracker = makeTracker();
+    const PointReference reference = tracker.makeReference(wall({0, 0}, 1));
+    const RgbdFrame frame = wallOf(
+        [&](double u, double v)
+        {
+            const Vector2d from = rolledBack({u, v});
+            return texture(from.x(), from.y());
+        },
+        2);
+    const auto tracks = tracker.track(reference, frame, tracker.pyramid(frame.gray), roll());
+    ASSERT_GT(tracks.size(), 100U);
+    double sum = 0;
+    for (const PointTrack& t : tracks)
+    {
+        const Vector2d from = rolledBack(t.cur.uv_px);
+        sum += (from - reference.points[static_cast<size_t>(t.ref)].uv_px).squaredNorm();
+    }
+    EXPECT_LT(std::sqrt(sum / static_cast<double>(tracks.size())), 0.12);
 }
 
 /** A wall that becomes bright gradually from left to right, by a lens that darkens corners. */

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "local_surface.h"
 
+#include <Eigen/Geometry>
+
 #include <gtest/gtest.h>
 
 namespace pointplane
@@ -60,6 +62,26 @@ TEST(LocalSurface, JacobianIsThatOfTheWall)
                                             2;
             EXPECT_NEAR((J.col(k) - numeric).norm(), 0, 0.02 * numeric.norm()) << u << ' ' << k;
         }
+    }
+}
+
+/** Against the wall's neighbouring pixels, seen from a camera that has turned and moved. */
+TEST(LocalSurface, WarpIsThatOfTheWall)
+{
+    const RgbdFrame frame = slantedWall(Eigen::Vector3d(0.5, -0.3, 1).normalized(), 2);
+    Eigen::Isometry3d T_cur_ref = Eigen::Isometry3d::Identity();
+    T_cur_ref.linear() =
+        Eigen::AngleAxisd(0.2, Eigen::Vector3d(0.3, -0.5, 0.8).normalized()).toRotationMatrix();
+    T_cur_ref.translation() << 0.1, -0.2, 0.3;
+    for (const auto& [u, v] : {std::pair{100, 80}, std::pair{320, 240}, std::pair{600, 400}})
+    {
+        const auto seen = [&, x = u, y = v](int du, int dv)
+        { return frame.camera.project(T_cur_ref * pointAt(frame, x + du, y + dv).p_cam.mean); };
+        Eigen::Matrix2d numeric;
+        numeric << (seen(1, 0) - seen(-1, 0)) / 2, (seen(0, 1) - seen(0, -1)) / 2;
+        const Eigen::Matrix2d A = surfaceWarp(frame.camera, pointAt(frame, u, v), T_cur_ref);
+        EXPECT_NEAR((A - numeric).norm(), 0, 0.01) << u;
+        EXPECT_GT((A - Eigen::Matrix2d::Identity()).norm(), 0.2) << u;
     }
 }
 

@@ -25,6 +25,7 @@ void JointCovariance::TParams::check() const
     POINTPLANE_CHECK(noise > 0, "noise = " << noise << " is not positive");
     POINTPLANE_CHECK(drift >= 0, "drift = " << drift << " is negative");
     POINTPLANE_CHECK(driftSigma >= 0, "driftSigma = " << driftSigma << " is negative");
+    POINTPLANE_CHECK(motion >= 0, "motion = " << motion << " is negative");
     POINTPLANE_CHECK(vignetting >= 0, "vignetting = " << vignetting << " is negative");
     POINTPLANE_CHECK(principalPoint >= 0, "principalPoint = " << principalPoint << " is negative");
     POINTPLANE_CHECK(focalLength >= 0, "focalLength = " << focalLength << " is negative");

@@ -24,6 +24,11 @@ constexpr double kLongestStep = 24 * 3600.0;
 /** Random walk to start with, over the least one. */
 constexpr double kInitialWalk = 10;
 
+/** Standard deviation by which smoothed velocities wander. Hands make it a few times as large; but
+ * where they shake, what lies between two increments errs, too. */
+constexpr double kWander = 0.01;         // [m/s]
+constexpr double kAngularWander = 0.01;  // [rad/s]
+
 /** Of a velocity that decays, all that can become unknown of it in the end. */
 constexpr double kLongestCoasting = 1.0;
 
@@ -123,7 +128,36 @@ Vector6d MotionModel::update(const MotionGaussian& measured, double dt)
     velocity_ = measured.mean.velocity;
     cov_ = measuredCov_ = measured.cov.bottomRightCorner<6, 6>();
     coasting_ = 0;
-    return smoothed;
+    const Increment increment{
+        se3Log(measured.mean.T_base_cur) / t, t, measured.cov.diagonal().head<6>()};
+    const Vector6d out = betweenIncrements(increment, smoothed);
+    increment_ = increment;
+    return out;
+}
+
+/** Velocity between the latest increment and this one, by constant acceleration. Weighed with the
+ * smoothed one by their variances, unless the increments are too long for that or the camera
+ * has jerked. */
+Vector6d MotionModel::betweenIncrements(const Increment& next, const Vector6d& smoothed) const
+{
+    constexpr double kLongest = 0.2;  // [s]
+    constexpr double kJerk = 0.5;     // [m/s, rad/s]
+    if (!increment_ || increment_->dt + next.dt > kLongest)
+    {
+        return smoothed;
+    }
+    const Increment& last = *increment_;
+    const double dt = last.dt + next.dt;
+    const Vector6d between = (next.dt * last.velocity + last.dt * next.velocity) / dt;
+    const Vector6d apart = between - smoothed;
+    if (apart.head<3>().norm() > kJerk || apart.tail<3>().norm() > kJerk)
+    {
+        return smoothed;
+    }
+    const Vector6d variances = (last.variance + next.variance) / (dt * dt);
+    const Vector6d wander = perAxis(kWander, kAngularWander).cwiseAbs2();
+    const Vector6d noise = perAxis(variances.head<3>().mean(), variances.tail<3>().mean());
+    return smoothed + wander.cwiseQuotient(wander + noise).cwiseProduct(apart);
 }
 
 /** One step of expectation maximisation, averaged over time. */
@@ -141,6 +175,7 @@ Vector6d MotionModel::smallestDensity() const
 
 void MotionModel::coast(double dt)
 {
+    increment_.reset();
     // What decays is uncertain by as much as it decays; the rest is white acceleration.
     const Vector6d decayed = (1 - std::pow(params_.decay, dt / kFramePeriod)) * velocity_;
     velocity_ -= decayed;
@@ -152,6 +187,7 @@ void MotionModel::coast(double dt)
 void MotionModel::reset()
 {
     velocity_.setZero();
+    increment_.reset();
     coasting_ = 0;
     density_ = kInitialWalk * kInitialWalk * smallestDensity();
     cov_ = perAxis(kUnknownVelocity, kUnknownAngularVelocity).cwiseAbs2().asDiagonal();

@@ -29,6 +29,19 @@ int observableDirections(const Matrix6d& information, const Matrix6d& priorCovar
     return static_cast<int>((es.eigenvalues().array() > 1).count());
 }
 
+/** So few matches cannot contradict each other when they are wrong. */
+constexpr int kFewMatches = 6;
+
+/** Standard deviations from the predicted pose that they are not believed then. */
+constexpr double kMostSurprise = 5;
+
+/** Root mean square deviation from the predicted pose, in its standard deviations. */
+double surprise(const PoseEstimate& estimate, const PoseGaussian& predicted)
+{
+    const Vector6d e = leftError(estimate.motion.mean.T_base_cur, predicted.mean);
+    return std::sqrt(e.dot(predicted.cov.ldlt().solve(e)) / 6);
+}
+
 double maxSigma(const Matrix6d& cov)
 {
     const Eigen::SelfAdjointEigenSolver<Matrix6d> es(cov);
@@ -126,6 +139,10 @@ void PoseStage::judge(
         reason << "the points contradict their covariances (chi-square per degree of freedom "
                << d.pointChi2PerDof << ")";
     }
+    else if (fuses() && matches < kFewMatches && surprise(estimate, predicted.pose) > kMostSurprise)
+    {
+        reason << "only " << matches << " point and plane matches, far from the predicted motion";
+    }
     else if (d.observableDirections == 0)
     {
         reason << "no direction is measured better than it is predicted";
@@ -186,7 +203,8 @@ JointCovariance::Measurement PoseStage::errorsOf(
         out.prior.rightCols<6>().setZero();  // the velocity is a new one for each frame
     }
     out.noise.topLeftCorner<6, 6>() += ofShutter;
-    out.priorNoise = propagate(estimate.sensitivity.prior, motion_.processNoise(dt));
+    out.priorNoise =
+        covariance_.motion * propagate(estimate.sensitivity.prior, motion_.processNoise(dt));
     return out;
 }
 

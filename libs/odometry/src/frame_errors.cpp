@@ -9,10 +9,11 @@ namespace
 {
 /** Drift of what points say over what it were if each drifted for itself, relative to that of
  * planes: neighbouring points drift together, and there are many. */
-constexpr double kPointDrift = 12;
+constexpr double kPointDrift = 33;
 
-/** Errors in common grow faster than those that features have for themselves. */
-constexpr double kCommonPower = 1.4;
+/** Errors in common grow otherwise than those that features have for themselves: faster with those
+ * of points, slower with those of planes. */
+constexpr double kCommonPowerOfPoints = 1.25, kCommonPowerOfPlanes = 0.85;
 
 /** A common error turns the pose by this part of what would move the scene as far as its
  * translation does. */
@@ -29,9 +30,9 @@ double distanceOf(const Matrix6d& information)
 
 /** Level of a kind of features in what all have in common; a frame without them is told nothing by
  * them. */
-double commonOf(double drift, const Matrix12d& sensitivity)
+double commonOf(double drift, double power, const Matrix12d& sensitivity)
 {
-    return sensitivity.isZero(0) ? 1 : std::pow(drift, kCommonPower);
+    return sensitivity.isZero(0) ? 1 : std::pow(drift, power);
 }
 }  // namespace
 
@@ -51,13 +52,15 @@ JointCovariance::Measurement frameErrors(
 
     const Matrix12d ofFeatures = kPointDrift * drift.points * of.points + drift.planes * of.planes;
     const double distance = distanceOf(estimate.infoPoints + estimate.infoPlanes);
-    const double sigma = params.driftSigma * distance * distance;  // depth errs with its square
+    // Depth errs with the square of the distance, pixels with the distance.
+    const double sigma = params.driftSigma * std::pow(distance, 1.5);
     Vector6d common;  // many features do not average what they all err by
     common << Eigen::Vector3d::Constant(sigma),
         Eigen::Vector3d::Constant(kCommonRotation * params.driftSigma * distance);
     out.drift = params.drift * ofFeatures.topLeftCorner<6, 6>();
-    out.drift.diagonal() +=
-        commonOf(drift.points, of.points) * commonOf(drift.planes, of.planes) * common.cwiseAbs2();
+    out.drift.diagonal() += commonOf(drift.points, kCommonPowerOfPoints, of.points) *
+                            commonOf(drift.planes, kCommonPowerOfPlanes, of.planes) *
+                            common.cwiseAbs2();
     out.drift *= views;
     return out;
 }

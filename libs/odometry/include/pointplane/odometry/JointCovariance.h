@@ -25,12 +25,13 @@ class JointCovariance
     struct TParams
     {
         std::string model{"joint"};
-        double noise{0.6};
-        double drift{1.85};
-        double driftSigma{0.00022};
+        double noise{0.92};
+        double drift{0.21};
+        double driftSigma{0.0005};
+        double motion{0.07};
         double vignetting{0.15};
-        double principalPoint{0.4};
-        double focalLength{0.0006};
+        double principalPoint{0.2};
+        double focalLength{0.0004};
         int history{1};
 
         template <class V>
@@ -50,13 +51,18 @@ class JointCovariance
               drift,
               "-",
               "variance that what planes say of a reference gains until another view (0.15 m or 10 "
-              "deg), over what the residuals gain; 12 times as much for points");
+              "deg), over what the residuals gain; 33 times as much for points");
             v("driftSigma",
               driftSigma,
               "m",
               "standard deviation that it gains besides in every direction (and half as many rad), "
-              "for features 1 m away whose residuals gain as much as was propagated; with the "
-              "square of their distance");
+              "for features 1 m away whose residuals gain as much as was propagated; with their "
+              "distance to the power of 1.5");
+            v("motion",
+              motion,
+              "-",
+              "variance of how the motion changes, over what the solver is told of it, which is to "
+              "believe a jerk");
             v("vignetting",
               vignetting,
               "-",

@@ -4,6 +4,8 @@
 #include <pointplane/core/Parameters.h>
 #include <pointplane/pose/MotionGaussian.h>
 
+#include <optional>
+
 namespace pointplane
 {
 /** What is known of the next frame's motion: constant velocity with white acceleration (the Wiener
@@ -57,8 +59,11 @@ class MotionModel
      * paper. */
     void follow(const Eigen::Isometry3d& T_prev_cur, double dt);
 
-    /** A measured motion over `dt`. \return the velocity at its start, now that its end is known
-     * (Rauch-Tung-Striebel) */
+    /** A measured motion over `dt`. \return the velocity at its start, now that its end is known:
+     * the mean of two estimates that err for different reasons. The smoother's
+     * (Rauch-Tung-Striebel) goes by the shutter's rows, which tell only how velocities differ from
+     * those of the references, and wanders with these; that of the increments before and after
+     * misses jerks. */
     Vector6d update(const MotionGaussian& measured, double dt);
 
     /** No measurement over `dt`: the velocity decays, its uncertainty grows. */
@@ -76,6 +81,14 @@ class MotionModel
     [[nodiscard]] Matrix12d covarianceAfter(double t, const Matrix6d& cov) const;
     void adapt(const Vector6d& meanSquare, double dt);
     [[nodiscard]] Vector6d smallestDensity() const;
+    /** What moved the camera from frame to frame. */
+    struct Increment
+    {
+        Vector6d velocity;  //!< its mean
+        double dt;          //!< [s]
+        Vector6d variance;  //!< of the pose at its end
+    };
+    [[nodiscard]] Vector6d betweenIncrements(const Increment& next, const Vector6d& smoothed) const;
 
     TParams params_;
     Vector6d velocity_;
@@ -83,5 +96,6 @@ class MotionModel
     Matrix6d measuredCov_;  //!< of the velocity at the latest measured frame
     Vector6d density_;
     double coasting_;  //!< time since the latest measurement, counted up to a limit [s]
+    std::optional<Increment> increment_;  //!< the latest
 };
 }  // namespace pointplane

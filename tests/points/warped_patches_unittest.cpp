@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "warped_patches.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <opencv2/video/tracking.hpp>
+
+#include <cmath>
+
+#include "texture.h"
+#include <gtest/gtest.h>
+
+namespace pointplane
+{
+namespace
+{
+using Eigen::Matrix2d;
+using Eigen::Vector2d;
+
+constexpr int kHalfPx = 7;
+const Vector2d kPlace(80.3, 61.6);  //!< of the patch in the warped image
+const Directions kBoth = Matrix2d::Identity();
+
+cv::Mat textured(unsigned seed) { return test::renderImage(160, 120, test::Texture(seed, 7, 40)); }
+
+/** The same, its pixels moved by a map around (70, 55), which comes to kPlace. */
+cv::Mat warped(unsigned seed, const Matrix2d& A, double brighter = 0)
+{
+    const test::Texture texture(seed, 7, 40);
+    const Matrix2d inverse = A.inverse();
+    return test::renderImage(
+        160,
+        120,
+        [&](double u, double v)
+        {
+            const Vector2d from = Vector2d(70, 55) + inverse * (Vector2d(u, v) - kPlace);
+            return brighter + texture(from.x(), from.y());
+        });
+}
+
+WarpedPatches patchAt(
+    const cv::Mat& gray,
+    const cv::Point2f& centre,
+    const Directions& measured,
+    Brightness brightness = Brightness::Shifted)
+{
+    std::vector<cv::Mat> pyramid;
+    cv::buildOpticalFlowPyramid(gray, pyramid, {15, 15}, 0, true);
+    WarpedPatches out;
+    out.add(pyramid[0], pyramid[1], centre, kHalfPx, brightness, measured);
+    return out;
+}
+
+/** How far beside its place a patch is found, from a start nearby; rms over textures [px]. */
+double errorWith(const Matrix2d& told, const Matrix2d& A, double brighter = 0)
+{
+    double sum = 0;
+    constexpr int kTextures = 20;
+    for (unsigned seed = 1; seed <= kTextures; ++seed)
+    {
+        const WarpedPatches patches = patchAt(textured(seed), {70, 55}, kBoth);
+        cv::Point2f position(80.8F, 61.2F);
+        EXPECT_TRUE(patches.refine(0, warped(seed, A, brighter), told, position));
+        sum += (Vector2d(position.x, position.y) - kPlace).squaredNorm();
+    }
+    return std::sqrt(sum / kTextures);
+}
+}  // namespace
+
+TEST(WarpedPatches, findsWhatIsTurnedLargerOrSlanted)
+{
+    const Matrix2d turned = Eigen::Rotation2Dd(0.14).toRotationMatrix();
+    const Matrix2d larger = 1.15 * Matrix2d::Identity();
+    Matrix2d slanted;
+    slanted << 0.85, 0.1, 0, 1;
+    for (const Matrix2d& A : {turned, larger, slanted})
+    {
+        EXPECT_LT(errorWith(A, A), 0.05) << A;
+        EXPECT_GT(errorWith(Matrix2d::Identity(), A), 0.2) << "found as if it were only shifted";
+    }
+}
+
+TEST(WarpedPatches, aShiftOfBrightnessDoesNotMatter)
+{
+    const Matrix2d A = Eigen::Rotation2Dd(0.05).toRotationMatrix();
+    EXPECT_NEAR(errorWith(A, A, 25), errorWith(A, A), 0.02);
+}
+
+/** The step by hand: a slope of 8 grey levels per pixel, 4 levels brighter. */
+TEST(WarpedPatches, constantBrightnessFollowsASlope)
+{
+    const auto slope = [](double brighter)
+    {
+        return test::renderImage(
+            40, 40, [=](double u, double) { return 8 * (u - 20) + 100 + brighter; });
+    };
+    const Directions across = Vector2d(1, 0);
+    cv::Point2f position(20, 20);
+    EXPECT_TRUE(patchAt(slope(0), position, across, Brightness::Constant)
+                    .refine(0, slope(4), Matrix2d::Identity(), position));
+    EXPECT_NEAR(position.x, 19.5, 1e-4);
+    EXPECT_EQ(position.y, 20);
+}
+
+TEST(WarpedPatches, moveAlongMeasuredDirectionsOnly)
+{
+    const Vector2d direction = Vector2d(3, 4) / 5;
+    const cv::Mat image = textured(3);
+    cv::Point2f position(70.4F, 55.1F);
+    EXPECT_TRUE(
+        patchAt(image, {70, 55}, direction).refine(0, image, Matrix2d::Identity(), position));
+    const Vector2d moved(position.x - 70.4F, position.y - 55.1F);
+    EXPECT_GT(moved.norm(), 0.05);
+    EXPECT_NEAR(std::abs(direction.dot(moved)), moved.norm(), 1e-4);
+
+    cv::Point2f still(70.4F, 55.1F);
+    EXPECT_TRUE(
+        patchAt(image, {70, 55}, Directions(2, 0)).refine(0, image, Matrix2d::Identity(), still));
+    EXPECT_EQ(still, cv::Point2f(70.4F, 55.1F));
+}
+
+TEST(WarpedPatches, refuseToLeaveTheImageOrTheirStart)
+{
+    const cv::Mat image = textured(1);
+    const WarpedPatches patches = patchAt(image, {70, 55}, kBoth);
+    cv::Point2f position(7.5F, 60);
+    EXPECT_FALSE(patches.refine(0, image, 1.2 * Matrix2d::Identity(), position));
+    position = {70, 112.5F};
+    EXPECT_FALSE(patches.refine(0, image, Matrix2d::Identity(), position));
+    position = {70, 55};
+    EXPECT_FALSE(patches.refine(0, image, Matrix2d::Constant(std::nan("")), position));
+
+    // A slope that is 30 levels brighter is 3.75 px away.
+    const auto slope = [](double brighter)
+    {
+        return test::renderImage(
+            40, 40, [=](double u, double) { return 8 * (u - 20) + 100 + brighter; });
+    };
+    position = {20, 20};
+    EXPECT_FALSE(patchAt(slope(0), position, Directions(Vector2d(1, 0)), Brightness::Constant)
+                     .refine(0, slope(30), Matrix2d::Identity(), position));
+    EXPECT_EQ(position, cv::Point2f(20, 20)) << "as it was";
+}
+
+TEST(WarpedPatches, patchesAtTheImagesBorderAreCut)
+{
+    const cv::Mat image = textured(2);
+    const WarpedPatches patches = patchAt(image, {3.2F, 60.7F}, kBoth);
+    cv::Point2f position(3.6F, 60.5F);
+    EXPECT_TRUE(patches.refine(0, image, Matrix2d::Identity(), position));
+    EXPECT_NEAR(position.x, 3.2, 0.05);
+    EXPECT_NEAR(position.y, 60.7, 0.05);
+}
+}  // namespace pointplane
