@@ -29,7 +29,11 @@ mutants=(
     'libs/pose/src/residuals.cpp|dBase_dCamera - R * pair|dBase_dCamera + R * pair|pose_Sensitivity'
     'libs/pose/src/NormalEquations.cpp|1 - 2.0 / 3 * J|1 - 1.0 / 3 * J|pose_Sensitivity'
     'libs/odometry/src/ResidualVariogram.cpp|*far - *step|*far|odometry_ResidualVariogram'
-    'libs/odometry/src/frame_errors.cpp|distance * distance;|distance;|odometry_frame_errors'
+    'libs/odometry/src/frame_errors.cpp|std::pow(distance, 1.5)|distance|odometry_frame_errors'
+    'libs/points/src/warped_patches.cpp|(-ofGradient|(ofGradient|points_warped_patches'
+    'libs/points/src/local_surface.cpp|0, -camera.fx * p.x()|0, camera.fx * p.x()|points_local_surface'
+    'libs/points/src/PointTracker.cpp|T_cur_ref.linear() * surfaceJacobian|surfaceJacobian|points_PointTracker'
+    'libs/odometry/src/MotionModel.cpp|next.dt * last.velocity + last.dt|last.dt * last.velocity + next.dt|odometry_MotionModel'
     'libs/planes/src/PlaneMatcher.cpp|dot(plane.n) >= minCosine|dot(plane.n) <= minCosine|planes_PlaneMatcher'
 )
 readonly tree=build/mutation/tree log=build/mutation/log

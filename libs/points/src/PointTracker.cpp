@@ -105,14 +105,6 @@ double vignettingBetween(
     return ((from_px - centre).squaredNorm() - (to_px - centre).squaredNorm()) /
            centre.squaredNorm();
 }
-
-/** A point of the reference that is looked for. */
-struct Candidate
-{
-    size_t ref;
-    cv::Point2f predicted, position;
-    bool found{false};
-};
 }  // namespace
 
 /** What the points of a reference look like. */
@@ -144,7 +136,16 @@ struct ReferencePatches
 struct PointTracker::Search
 {
     PatchSearch ofPatch;
+    double radius_px;
+    bool isWide;
     size_t step{1};  //!< every step-th point
+};
+
+struct PointTracker::Sought
+{
+    size_t ref;
+    cv::Point2f predicted, position;
+    bool found{false};
 };
 
 void PointReference::note(const std::vector<PointTrack>& tracks)
@@ -310,7 +311,7 @@ PointReference PointTracker::makeReference(const RgbdFrame& frame) const
 PointTracker::Search PointTracker::searchFor(double radius_px, bool isWide, size_t numPoints) const
 {
     constexpr size_t kWidePoints = 60;
-    Search out;
+    Search out{{}, radius_px, isWide};
     int& numLevels = out.ofPatch.numLevels;
     while (numLevels < params_.numLevels &&
            (params_.windowPx / 4.0) * (1 << (numLevels - 1)) < radius_px)
@@ -325,6 +326,78 @@ PointTracker::Search PointTracker::searchFor(double radius_px, bool isWide, size
     return out;
 }
 
+/** Points of the reference that are due and should be seen, where the motion puts them. */
+std::vector<PointTracker::Sought> PointTracker::inView(
+    const PointReference& reference,
+    const RgbdFrame& frame,
+    const Eigen::Isometry3d& T_cur_ref,
+    const Search& search)
+{
+    std::vector<Sought> out;
+    out.reserve(reference.points.size() / search.step + 1);
+    for (size_t i = 0; i < reference.points.size(); i += search.step)
+    {
+        const Eigen::Vector3d p_cur = T_cur_ref * reference.points[i].p_cam.mean;
+        if (!(p_cur.z() > 0.1) || !(search.isWide || reference.isDue(i)))
+        {
+            continue;
+        }
+        const Eigen::Vector2d uv_px = frame.camera.project(p_cur);
+        const cv::Point2f predicted = cv::Point2d(uv_px.x(), uv_px.y());
+        if (isInside(predicted, frame.gray))
+        {
+            out.push_back({i, predicted, predicted});
+        }
+    }
+    return out;
+}
+
+/** The search ended nearby, on what looks like the point. */
+bool PointTracker::isFound(
+    const Sought& point,
+    const PointReference& reference,
+    const cv::Mat& gray,
+    const Search& search) const
+{
+    if (!point.found || cv::norm(point.position - point.predicted) > search.radius_px ||
+        !isInside(point.position, gray))
+    {
+        return false;
+    }
+    const ComparedPatch& looked = reference.patches->compared[point.ref];
+    const ComparedPatch found(gray, point.position);
+    return isAsBright(looked, found) && zncc(looked, found) >= params_.minZncc;
+}
+
+/** Exactly where it is, and in space, with what is not known of it. */
+std::optional<PointTrack> PointTracker::trackOf(
+    const Sought& point,
+    const PointReference& reference,
+    const RgbdFrame& frame,
+    const Eigen::Isometry3d& T_cur_ref,
+    const Search& search) const
+{
+    const PointFeature& ref = reference.points[point.ref];
+    cv::Point2f position = point.position;
+    if (!search.isWide &&
+        !reference.patches->refined.refine(
+            point.ref, frame.gray, surfaceWarp(frame.camera, ref, T_cur_ref), position))
+    {
+        return {};
+    }
+    auto feature = lifter_.lift(frame, Eigen::Vector2f(position.x, position.y).cast<double>());
+    if (!feature)
+    {
+        return {};
+    }
+    // Along an edge, a track slides on the surface.
+    const Eigen::Matrix<double, 3, 2> J = T_cur_ref.linear() * surfaceJacobian(frame.camera, ref);
+    feature->p_cam.cov += propagate(J, reference.cov_px[point.ref]);
+    feature->ofVignetting_m = J * (vignettingBetween(frame.gray, ref.uv_px, feature->uv_px) *
+                                   reference.ofBrightness_px[point.ref]);
+    return PointTrack{static_cast<int>(point.ref), *feature};
+}
+
 std::vector<PointTrack> PointTracker::track(
     const PointReference& reference,
     const RgbdFrame& frame,
@@ -337,67 +410,30 @@ std::vector<PointTrack> PointTracker::track(
     {
         return tracks;
     }
-    const double radius = radiusFactor * params_.searchRadiusFraction * frame.gray.cols;
-    const bool isWide = radiusFactor > 1;
-    const Search search = searchFor(radius, isWide, reference.points.size());
-    std::vector<Candidate> candidates;
-    candidates.reserve(reference.points.size() / search.step + 1);
-    for (size_t i = 0; i < reference.points.size(); i += search.step)
-    {
-        const Eigen::Vector3d p_cur = T_cur_ref * reference.points[i].p_cam.mean;
-        if (!(p_cur.z() > 0.1) || !(isWide || reference.isDue(i)))
-        {
-            continue;
-        }
-        const Eigen::Vector2d uv_px = frame.camera.project(p_cur);
-        const cv::Point2f predicted = cv::Point2d(uv_px.x(), uv_px.y());
-        if (isInside(predicted, frame.gray))
-        {
-            candidates.push_back({i, predicted, predicted});
-        }
-    }
+    const Search search = searchFor(
+        radiusFactor * params_.searchRadiusFraction * frame.gray.cols,
+        radiusFactor > 1,
+        reference.points.size());
+    std::vector<Sought> sought = inView(reference, frame, T_cur_ref, search);
     cv::parallel_for_(
-        cv::Range(0, static_cast<int>(candidates.size())),
+        cv::Range(0, static_cast<int>(sought.size())),
         [&](const cv::Range& range)
         {
             for (int k = range.start; k < range.end; ++k)
             {
-                Candidate& c = candidates[static_cast<size_t>(k)];
-                c.found =
-                    reference.patches->searched.find(c.ref, pyramid, search.ofPatch, c.position);
+                Sought& point = sought[static_cast<size_t>(k)];
+                point.found = reference.patches->searched.find(
+                    point.ref, pyramid, search.ofPatch, point.position);
             }
         });
-    for (const Candidate& c : candidates)
+    for (const Sought& point : sought)
     {
-        if (!c.found || cv::norm(c.position - c.predicted) > radius ||
-            !isInside(c.position, frame.gray))
+        if (isFound(point, reference, frame.gray, search))
         {
-            continue;
-        }
-        const ComparedPatch& looked = reference.patches->compared[c.ref];
-        const ComparedPatch found(pyramid[0], c.position);
-        if (!isAsBright(looked, found) || zncc(looked, found) < params_.minZncc)
-        {
-            continue;
-        }
-        const PointFeature& ref = reference.points[c.ref];
-        cv::Point2f position = c.position;
-        if (!isWide && !reference.patches->refined.refine(
-                           c.ref, pyramid[0], surfaceWarp(frame.camera, ref, T_cur_ref), position))
-        {
-            continue;
-        }
-        if (auto feature =
-                lifter_.lift(frame, Eigen::Vector2f(position.x, position.y).cast<double>()))
-        {
-            // Along an edge, a track slides on the surface.
-            const Eigen::Matrix<double, 3, 2> J =
-                T_cur_ref.linear() * surfaceJacobian(frame.camera, ref);
-            feature->p_cam.cov += propagate(J, reference.cov_px[c.ref]);
-            feature->ofVignetting_m =
-                J * (vignettingBetween(frame.gray, ref.uv_px, feature->uv_px) *
-                     reference.ofBrightness_px[c.ref]);
-            tracks.push_back({static_cast<int>(c.ref), *feature});
+            if (auto track = trackOf(point, reference, frame, T_cur_ref, search))
+            {
+                tracks.push_back(*track);
+            }
         }
     }
     return tracks;

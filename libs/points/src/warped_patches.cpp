@@ -13,7 +13,7 @@ constexpr double kScharrGain = 32;
 constexpr int kIterations = 2;
 constexpr float kFarthest_px = 2;
 
-/** Bilinear. \pre inside the image, its last row and column not included */
+/** Bilinear. \pre canSample(image, pixel), up to rounding */
 float greyAt(const cv::Mat& image, const Eigen::Vector2f& pixel)
 {
     const int u = static_cast<int>(pixel.x()), v = static_cast<int>(pixel.y());
@@ -27,8 +27,10 @@ float greyAt(const cv::Mat& image, const Eigen::Vector2f& pixel)
 
 bool canSample(const cv::Mat& image, const Eigen::Vector2f& pixel)
 {
-    return pixel.x() >= 0 && pixel.y() >= 0 && pixel.x() < static_cast<float>(image.cols - 1) &&
-           pixel.y() < static_cast<float>(image.rows - 1);
+    constexpr float kRounding = 0.01F;  // sums of steps from one corner of a patch to another
+    return pixel.x() >= kRounding && pixel.y() >= kRounding &&
+           pixel.x() < static_cast<float>(image.cols - 1) - kRounding &&
+           pixel.y() < static_cast<float>(image.rows - 1) - kRounding;
 }
 }  // namespace
 

@@ -10,6 +10,7 @@
 #include <opencv2/core/mat.hpp>
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace pointplane
@@ -119,6 +120,24 @@ class PointTracker
     struct Search;
     [[nodiscard]] Search searchFor(double radius_px, bool isWide, size_t numPoints) const;
     [[nodiscard]] std::vector<cv::Point2f> candidates(const std::vector<cv::Mat>& pyramid) const;
+    /** A point of the reference that is looked for. */
+    struct Sought;
+    [[nodiscard]] static std::vector<Sought> inView(
+        const PointReference& reference,
+        const RgbdFrame& frame,
+        const Eigen::Isometry3d& T_cur_ref,
+        const Search& search);
+    [[nodiscard]] bool isFound(
+        const Sought& point,
+        const PointReference& reference,
+        const cv::Mat& gray,
+        const Search& search) const;
+    [[nodiscard]] std::optional<PointTrack> trackOf(
+        const Sought& point,
+        const PointReference& reference,
+        const RgbdFrame& frame,
+        const Eigen::Isometry3d& T_cur_ref,
+        const Search& search) const;
 
     TParams params_;
     PointLifter lifter_;
