@@ -29,8 +29,8 @@ int observableDirections(const Matrix6d& information, const Matrix6d& priorCovar
     return static_cast<int>((es.eigenvalues().array() > 1).count());
 }
 
-/** So few matches cannot contradict each other when they are wrong. */
-constexpr int kFewMatches = 6;
+/** So few points cannot contradict each other when they are wrong; a plane is worth three. */
+constexpr int kFewPoints = 6;
 
 /** Standard deviations from the predicted pose that they are not believed then. */
 constexpr double kMostSurprise = 5;
@@ -139,7 +139,9 @@ void PoseStage::judge(
         reason << "the points contradict their covariances (chi-square per degree of freedom "
                << d.pointChi2PerDof << ")";
     }
-    else if (fuses() && matches < kFewMatches && surprise(estimate, predicted.pose) > kMostSurprise)
+    else if (
+        fuses() && d.numPointPairs + 3 * d.numPlanePairs < kFewPoints &&
+        surprise(estimate, predicted.pose) > kMostSurprise)
     {
         reason << "only " << matches << " point and plane matches, far from the predicted motion";
     }
