@@ -29,6 +29,9 @@ constexpr double kInitialWalk = 10;
 constexpr double kWander = 0.01;         // [m/s]
 constexpr double kAngularWander = 0.01;  // [rad/s]
 
+/** Two increments together, over which acceleration may be taken for constant. */
+constexpr double kLongestIncrements = 0.2;  // [s]
+
 /** Of a velocity that decays, all that can become unknown of it in the end. */
 constexpr double kLongestCoasting = 1.0;
 
@@ -131,8 +134,22 @@ Vector6d MotionModel::update(const MotionGaussian& measured, double dt)
     const Increment increment{
         se3Log(measured.mean.T_base_cur) / t, t, measured.cov.diagonal().head<6>()};
     const Vector6d out = betweenIncrements(increment, smoothed);
+    atIncrementsEnd_.reset();
+    if (increment_ && increment_->dt + t < kLongestIncrements)
+    {
+        atIncrementsEnd_ = increment.velocity +
+                           (increment.velocity - increment_->velocity) * t / (increment_->dt + t);
+    }
     increment_ = increment;
     return out;
+}
+
+void MotionModel::followIncrements()
+{
+    if (atIncrementsEnd_)
+    {
+        velocity_ = 0.5 * (velocity_ + *atIncrementsEnd_);
+    }
 }
 
 /** Velocity between the latest increment and this one, by constant acceleration. Weighed with the
@@ -140,9 +157,8 @@ Vector6d MotionModel::update(const MotionGaussian& measured, double dt)
  * has jerked. */
 Vector6d MotionModel::betweenIncrements(const Increment& next, const Vector6d& smoothed) const
 {
-    constexpr double kLongest = 0.2;  // [s]
-    constexpr double kJerk = 0.5;     // [m/s, rad/s]
-    if (!increment_ || increment_->dt + next.dt > kLongest)
+    constexpr double kJerk = 0.5;  // [m/s, rad/s]
+    if (!increment_ || increment_->dt + next.dt > kLongestIncrements)
     {
         return smoothed;
     }
@@ -176,6 +192,7 @@ Vector6d MotionModel::smallestDensity() const
 void MotionModel::coast(double dt)
 {
     increment_.reset();
+    atIncrementsEnd_.reset();
     // What decays is uncertain by as much as it decays; the rest is white acceleration.
     const Vector6d decayed = (1 - std::pow(params_.decay, dt / kFramePeriod)) * velocity_;
     velocity_ -= decayed;
@@ -188,6 +205,7 @@ void MotionModel::reset()
 {
     velocity_.setZero();
     increment_.reset();
+    atIncrementsEnd_.reset();
     coasting_ = 0;
     density_ = kInitialWalk * kInitialWalk * smallestDensity();
     cov_ = perAxis(kUnknownVelocity, kUnknownAngularVelocity).cwiseAbs2().asDiagonal();

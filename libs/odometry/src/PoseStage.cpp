@@ -55,7 +55,8 @@ PoseStage::PoseStage(const OdometryParams& params)
       solver_(params.poseSolver),
       motion_(params.motionModel),
       noise_(params.noiseScale),
-      shutter_(params.shutter)
+      shutter_(params.shutter),
+      isFrameToFrame_(params.reference.reference == "previous")
 {
 }
 
@@ -175,6 +176,10 @@ PoseStage::Measured PoseStage::accept(
     if (fuses())
     {
         out.previousVelocity = motion_.update(estimate.motion, dt);
+        if (isFrameToFrame_)
+        {
+            motion_.followIncrements();
+        }
     }
     else
     {

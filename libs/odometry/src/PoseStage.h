@@ -78,5 +78,6 @@ class PoseStage
     NoiseScale noise_;
     ResidualVariogram variogram_;
     ShutterCalibrator shutter_;
+    bool isFrameToFrame_;
 };
 }  // namespace pointplane

@@ -66,6 +66,11 @@ class MotionModel
      * misses jerks. */
     Vector6d update(const MotionGaussian& measured, double dt);
 
+    /** Takes half of what the latest two increments say the velocity is at their end, by constant
+     * acceleration. For motion from frame to frame: the next frame's velocity is told by rows of
+     * the shutter against this one's, which no later increment can correct before. */
+    void followIncrements();
+
     /** No measurement over `dt`: the velocity decays, its uncertainty grows. */
     void coast(double dt);
 
@@ -96,6 +101,7 @@ class MotionModel
     Matrix6d measuredCov_;  //!< of the velocity at the latest measured frame
     Vector6d density_;
     double coasting_;  //!< time since the latest measurement, counted up to a limit [s]
-    std::optional<Increment> increment_;  //!< the latest
+    std::optional<Increment> increment_;       //!< the latest
+    std::optional<Vector6d> atIncrementsEnd_;  //!< velocity, by the latest two of them
 };
 }  // namespace pointplane
