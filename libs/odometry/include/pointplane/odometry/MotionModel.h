@@ -60,7 +60,7 @@ class MotionModel
     void follow(const Eigen::Isometry3d& T_prev_cur, double dt);
 
     /** A measured motion over `dt`. \return the velocity at its start, now that its end is known:
-     * the mean of two estimates that err for different reasons. The smoother's
+     * two estimates that err for different reasons, weighed by variance. The smoother's
      * (Rauch-Tung-Striebel) goes by the shutter's rows, which tell only how velocities differ from
      * those of the references, and wanders with these; that of the increments before and after
      * misses jerks. */
