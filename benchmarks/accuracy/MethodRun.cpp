@@ -24,7 +24,7 @@ namespace
 [[nodiscard]] std::optional<double> neesPerDof(
     const BenchmarkSequence& sequence, const Trajectory& estimate, const char* name)
 {
-    if (estimate.covs.empty())
+    if (estimate.covs.empty() || sequence.kind != Truth::Exact)
     {
         return std::nullopt;
     }

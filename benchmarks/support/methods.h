@@ -23,8 +23,9 @@ struct MethodStep
 {
     Outcome outcome{Outcome::Measured};
     Eigen::Isometry3d T_prev_cur{Eigen::Isometry3d::Identity()};  //!< optical frames
-    std::optional<PoseGaussian> pose;  //!< T_first_cur, of methods with covariances
-    std::vector<PoseGaussian> since;   //!< of these, as OdometryResult::since
+    std::optional<Matrix6d> incrementCov{};  //!< of T_prev_cur (left perturbation), if told
+    std::optional<PoseGaussian> pose{};      //!< T_first_cur, of methods with covariances
+    std::vector<PoseGaussian> since{};       //!< of these, as OdometryResult::since
 };
 
 /** An odometry under test, for one sequence. Frames come in order of time. */

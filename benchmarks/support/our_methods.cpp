@@ -38,7 +38,12 @@ class OurMethod : public Method
             seen.shutter = {};
         }
         const OdometryResult result = odometry_.process(seen);
-        return {outcomeOf(result.status), result.increment.mean, result.pose, result.since};
+        return {
+            outcomeOf(result.status),
+            result.increment.mean,
+            result.increment.cov,
+            result.pose,
+            result.since};
     }
 
  private:

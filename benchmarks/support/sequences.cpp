@@ -82,7 +82,13 @@ constexpr double kMotionCaptureSigmaDeg[] = {0.12, 0.06, 0.055};
     out.name = fs::path(folder).filename().string();
     out.numFrames = pairs.size();
     out.frame = [pairs, camera](std::size_t k) { return readFrame(pairs.at(k), camera); };
+    if (!fs::exists(folder + "/groundtruth.txt"))
+    {
+        out.kind = Truth::None;
+        return out;
+    }
     out.truth = readTrajectoryText(folder + "/groundtruth.txt");
+    out.kind = startsWith(out.name, "iphone_") ? Truth::Loose : Truth::Exact;
     if (startsWith(out.name, "tum_") || startsWith(out.name, "rgbd_dataset_"))
     {
         out.nees.truthSigmaTranslation = kMotionCaptureSigma;
@@ -110,9 +116,10 @@ constexpr double kMotionCaptureSigmaDeg[] = {0.12, 0.06, 0.055};
     }
     return out;
 }
-}  // namespace
 
-std::vector<SequenceSource> tumSequences(const std::string& data)
+/** Folders that hold all of the files, in order of name. */
+[[nodiscard]] std::vector<SequenceSource> foldersWith(
+    const std::string& data, const std::vector<std::string>& files)
 {
     if (!fs::is_directory(data))
     {
@@ -121,7 +128,9 @@ std::vector<SequenceSource> tumSequences(const std::string& data)
     std::vector<std::string> folders;
     for (const auto& entry : fs::directory_iterator(data))
     {
-        if (fs::exists(entry.path() / "rgb.txt") && fs::exists(entry.path() / "groundtruth.txt"))
+        const auto holds = [&entry](const std::string& file)
+        { return fs::exists(entry.path() / file); };
+        if (std::all_of(files.begin(), files.end(), holds))
         {
             folders.push_back(entry.path().string());
         }
@@ -134,6 +143,17 @@ std::vector<SequenceSource> tumSequences(const std::string& data)
             {fs::path(folder).filename().string(), [folder] { return tumSequence(folder); }});
     }
     return out;
+}
+}  // namespace
+
+std::vector<SequenceSource> tumSequences(const std::string& data)
+{
+    return foldersWith(data, {"rgb.txt", "groundtruth.txt"});
+}
+
+std::vector<SequenceSource> recordedSequences(const std::string& data)
+{
+    return foldersWith(data, {"rgb.txt", "depth.txt"});
 }
 
 std::vector<SequenceSource> simulatedSequences(double duration)

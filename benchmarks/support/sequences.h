@@ -11,13 +11,22 @@
 
 namespace pointplane
 {
-/** Frames with ground truth; the same for every method. */
+/** What the ground truth of a sequence is good for. */
+enum class Truth
+{
+    Exact,  //!< up to noise that is stated
+    Loose,  //!< another odometry's: drifts and errs in scale
+    None
+};
+
+/** Frames, the same for every method. */
 struct BenchmarkSequence
 {
     std::string name;
+    Truth kind{Truth::Exact};
     std::size_t numFrames{0};
     std::function<RgbdFrame(std::size_t)> frame;  //!< read or rendered anew at every call
-    Trajectory truth;                             //!< T_world_cam, optical axes
+    Trajectory truth;                             //!< T_world_cam, optical axes; may be empty
     NeesOptions nees;                             //!< how noisy the truth itself is
 };
 
@@ -33,6 +42,10 @@ struct SequenceSource
  * tum_... or rgbd_dataset_... is motion capture: 0.1 mm and 0.06 deg of noise per pose and axis;
  * that of others is exact. */
 [[nodiscard]] std::vector<SequenceSource> tumSequences(const std::string& data);
+
+/** The same and folders without a groundtruth.txt. The truth of folders called iphone_... is the
+ * phone's own odometry: loose. */
+[[nodiscard]] std::vector<SequenceSource> recordedSequences(const std::string& data);
 
 /** Simulated scenes through a first generation Kinect, rolling shutter included, which the frames
  * tell. \param duration [s] */

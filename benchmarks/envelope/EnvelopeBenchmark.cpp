@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "EnvelopeBenchmark.h"
+
+#include <pointplane/mrpt_io/errors.h>
+
+#include <opencv2/core/utility.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <future>
+#include <optional>
+#include <ostream>
+#include <regex>
+
+#include "envelope_tables.h"
+#include "frame_changes.h"
+#include "markdown_section.h"
+#include "text_file.h"
+
+namespace pointplane
+{
+namespace
+{
+/** Calls work(0) .. work(n - 1), any of them at the same time as others. */
+void forEachOf(std::size_t n, unsigned int jobs, const std::function<void(std::size_t)>& work)
+{
+    std::atomic<std::size_t> next{0};
+    const auto worker = [&]
+    {
+        for (std::size_t k = next++; k < n; k = next++)
+        {
+            work(k);
+        }
+    };
+    std::vector<std::future<void>> workers;
+    for (unsigned int i = 0; i < jobs; ++i)
+    {
+        workers.push_back(std::async(std::launch::async, worker));
+    }
+    std::for_each(workers.begin(), workers.end(), [](auto& w) { w.get(); });
+}
+
+/** What one method made of one run. */
+struct RunResult
+{
+    std::vector<double> stamps;
+    std::vector<MethodStep> steps;
+    std::string failure;
+};
+
+/** A peer gets no frame that shows nothing: it keeps its motion, and is lost. */
+[[nodiscard]] MethodStep stepOf(
+    Method& method, bool isPeer, const RgbdFrame& frame, const RunResult& soFar)
+{
+    if (isPeer && !showsSomething(frame))
+    {
+        MethodStep out;
+        out.outcome = Outcome::Lost;
+        out.T_prev_cur = soFar.steps.empty() ? out.T_prev_cur : soFar.steps.back().T_prev_cur;
+        return out;
+    }
+    return method.process(frame);
+}
+
+[[nodiscard]] RunResult resultOf(
+    const NamedMethod& named, const EnvelopeRun& run, const std::vector<RgbdFrame>& frames)
+{
+    RunResult out;
+    try
+    {
+        const std::unique_ptr<Method> method = named.create();
+        for (const FrameUse& use : run)
+        {
+            RgbdFrame frame = frames[use.shown];
+            frame.stamp = frames[use.at].stamp;
+            frame = use.change ? use.change(frame) : frame;
+            MethodStep step = stepOf(*method, named.isPeer, frame, out);
+            step.since.clear();
+            out.stamps.push_back(frame.stamp);
+            out.steps.push_back(std::move(step));
+        }
+    }
+    catch (const std::exception& error)
+    {
+        // One method that gives up must not take the others' results with it.
+        out.failure = oneLine(error);
+    }
+    return out;
+}
+
+[[nodiscard]] std::vector<RgbdFrame> allFrames(const BenchmarkSequence& sequence, unsigned int jobs)
+{
+    std::vector<RgbdFrame> out(sequence.numFrames);
+    forEachOf(out.size(), jobs, [&](std::size_t k) { out[k] = sequence.frame(k); });
+    return out;
+}
+
+/** Frames per second. */
+[[nodiscard]] double rateOf(const std::vector<RgbdFrame>& frames)
+{
+    std::vector<double> steps;
+    for (std::size_t k = 1; k < frames.size(); ++k)
+    {
+        steps.push_back(frames[k].stamp - frames[k - 1].stamp);
+    }
+    const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+    std::nth_element(steps.begin(), middle, steps.end());
+    return 1 / *middle;
+}
+
+[[nodiscard]] std::regex regexOf(const std::string& text)
+{
+    try
+    {
+        return std::regex(text);
+    }
+    catch (const std::regex_error&)
+    {
+        throw InputError("--only " + text + ": is not a regular expression");
+    }
+}
+
+[[nodiscard]] std::string cellName(const std::string& sequence, const std::string& condition)
+{
+    return sequence + ", " + condition;
+}
+}  // namespace
+
+EnvelopeBenchmark::EnvelopeBenchmark(CLI::App& app)
+{
+    app.add_option("--data", data_, "folder with TUM sequences; without it only simulated scenes")
+        ->envname("POINTPLANE_DATA");
+    app.add_option("--config-directory", configDirectory_, "with config.ini and its relatives")
+        ->capture_default_str();
+    app.add_option("--configs", configs_, "files in it, the first is the table's")
+        ->delimiter(',')
+        ->capture_default_str();
+    app.add_option("--set", settings_, "Section.key=value for all of them, any number of times")
+        ->expected(1)
+        ->take_all();
+    app.add_option(
+        "--only", only_, "regular expression: only cells with a part of 'SEQUENCE, CONDITION'");
+    app.add_flag("--peers", peers_, "also the odometries in OpenCV and MRPT (slow)");
+    app.add_flag("--quick", quick_, "fewer conditions, places and scenes: two minutes");
+    app.add_option("--places", places_, "of each gap in a sequence, at most")
+        ->capture_default_str()
+        ->check(CLI::PositiveNumber);
+    app.add_option("--duration", duration_, "of simulated scenes [s]")
+        ->capture_default_str()
+        ->check(CLI::Range(2.0, 600.0));
+    app.add_option("--jobs", jobs_, "runs at the same time; the figures do not depend on it")
+        ->capture_default_str()
+        ->check(CLI::Range(1U, 64U));
+    app.add_flag("--details", details_, "print each sequence's table, too");
+    app.add_option("--csv", csvFile_, "write a line per sequence, condition and method");
+    app.add_option("--failures", failuresFile_, "write the tracked steps that are wrong (CSV)");
+    app.add_option("--markdown", markdownFile_, "replace the section `envelope` of this page");
+}
+
+ConditionOptions EnvelopeBenchmark::conditionOptions() const
+{
+    ConditionOptions out;
+    out.places = places_;
+    if (quick_)
+    {
+        out.rates = {30, 15, 10, 6, 3, 2};
+        out.gaps = {6, 15, 50};
+        out.frozen = {15};
+        out.places = std::min(3, places_);
+        out.phases = 2;
+    }
+    return out;
+}
+
+std::vector<SequenceSource> EnvelopeBenchmark::sources() const
+{
+    std::vector<SequenceSource> out =
+        data_.empty() ? std::vector<SequenceSource>() : recordedSequences(data_);
+    for (SequenceSource& scene : simulatedSequences(quick_ ? std::min(duration_, 3.0) : duration_))
+    {
+        const bool isWanted =
+            !quick_ || scene.name == "simulated desk" || scene.name == "simulated notexture";
+        if (isWanted)
+        {
+            out.push_back(std::move(scene));
+        }
+    }
+    return out;
+}
+
+std::vector<NamedMethod> EnvelopeBenchmark::methods() const
+{
+    std::vector<NamedMethod> out;
+    for (const std::string& config : configs_)
+    {
+        std::vector<std::string> settings = settings_;
+        settings.emplace_back("Pipeline.numThreads=1");
+        out.push_back(ourMethod(config, configDirectory_ + "/" + config, settings));
+    }
+    if (peers_)
+    {
+        for (NamedMethod& peer : peerMethods())
+        {
+            out.push_back(std::move(peer));
+        }
+    }
+    return out;
+}
+
+std::vector<Condition> EnvelopeBenchmark::conditionsOf(
+    const BenchmarkSequence& sequence, std::size_t numFrames, double rate) const
+{
+    const std::regex only = regexOf(only_);
+    std::vector<Condition> out;
+    for (Condition& condition : envelopeConditions(numFrames, rate, conditionOptions()))
+    {
+        if (std::regex_search(cellName(sequence.name, condition.name), only))
+        {
+            out.push_back(std::move(condition));
+        }
+    }
+    return out;
+}
+
+std::vector<EnvelopeScore> EnvelopeBenchmark::scoreSequence(
+    const BenchmarkSequence& sequence,
+    const std::vector<NamedMethod>& methods,
+    std::ostream& err) const
+{
+    // The rate is known with the frames; any rate will do to see whether they are wanted.
+    const double someRate = 30;
+    if (!only_.empty() && conditionsOf(sequence, sequence.numFrames, someRate).empty())
+    {
+        return {};
+    }
+    const std::vector<RgbdFrame> frames = allFrames(sequence, jobs_);
+    struct Job
+    {
+        std::size_t score, run;
+    };
+    const std::vector<Condition> conditions = conditionsOf(sequence, frames.size(), rateOf(frames));
+    std::vector<Job> work;
+    for (std::size_t c = 0; c < conditions.size(); ++c)
+    {
+        for (std::size_t m = 0; m < methods.size(); ++m)
+        {
+            for (std::size_t r = 0; r < conditions[c].runs.size(); ++r)
+            {
+                work.push_back({c * methods.size() + m, r});
+            }
+        }
+    }
+    std::vector<RunResult> results(work.size());
+    std::atomic<std::size_t> done{0};
+    forEachOf(
+        work.size(),
+        jobs_,
+        [&](std::size_t k)
+        {
+            const auto [score, run] = work[k];
+            const Condition& condition = conditions[score / methods.size()];
+            results[k] = resultOf(methods[score % methods.size()], condition.runs[run], frames);
+            const std::size_t count = ++done;
+            if (count * 10 / work.size() != (count - 1) * 10 / work.size())
+            {
+                err << sequence.name + ": " + std::to_string(count * 100 / work.size()) + " %\n"
+                    << std::flush;
+            }
+        });
+    std::vector<EnvelopeScore> out;
+    for (std::size_t k = 0; k < work.size();)
+    {
+        const std::size_t index = work[k].score;
+        EnvelopeScore names;
+        names.sequence = sequence.name;
+        names.condition = conditions[index / methods.size()].name;
+        names.method = methods[index % methods.size()].name;
+        names.isPeer = methods[index % methods.size()].isPeer;
+        EnvelopeScorer scorer(sequence);
+        for (; k < work.size() && work[k].score == index; ++k)
+        {
+            names.failure = names.failure.empty() ? results[k].failure : names.failure;
+            if (results[k].failure.empty())
+            {
+                scorer.add(results[k].stamps, results[k].steps);
+            }
+        }
+        out.push_back(scorer.score(std::move(names)));
+    }
+    return out;
+}
+
+void EnvelopeBenchmark::run(std::ostream& out, std::ostream& err) const
+{
+    cv::setNumThreads(1);  // runs are independent: the machine is better used by these
+    const std::vector<NamedMethod> wanted = methods();
+    std::vector<EnvelopeScore> all;
+    for (const SequenceSource& source : sources())
+    {
+        std::vector<EnvelopeScore> scores = scoreSequence(source.open(), wanted, err);
+        if (details_ && !scores.empty())
+        {
+            out << envelopeTables(scores) << std::endl;
+        }
+        std::move(scores.begin(), scores.end(), std::back_inserter(all));
+    }
+    if (all.empty())
+    {
+        throw InputError("--only " + only_ + ": matches no 'SEQUENCE, CONDITION'");
+    }
+    out << envelopeSummary(all);
+    if (!csvFile_.empty())
+    {
+        writeTextFile(csvFile_, envelopeCsv(all));
+    }
+    if (!failuresFile_.empty())
+    {
+        writeTextFile(failuresFile_, failuresCsv(all));
+    }
+    if (!markdownFile_.empty())
+    {
+        const std::string text = "\n" + envelopeSummary(all) + "\n" + envelopeTables(all) + "\n";
+        replaceMarkdownSection(markdownFile_, "envelope", text);
+    }
+}
+}  // namespace pointplane

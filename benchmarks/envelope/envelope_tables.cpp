@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "envelope_tables.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+#include <functional>
+#include <sstream>
+
+namespace pointplane
+{
+namespace
+{
+[[nodiscard]] double mm(double metres) { return 1e3 * metres; }
+[[nodiscard]] double degrees(double radians) { return radians * 180 / M_PI; }
+
+[[nodiscard]] __attribute__((format(printf, 1, 2))) std::string text(const char* format, ...)
+{
+    char out[256];
+    va_list args;
+    va_start(args, format);
+    std::vsnprintf(out, sizeof out, format, args);
+    va_end(args);
+    return out;
+}
+
+/** Millimetres and degrees with as many digits as tell something. */
+[[nodiscard]] std::string errorText(double metres, double radians)
+{
+    return text("%.*f / %.2f", mm(metres) < 9.95 ? 1 : 0, mm(metres), degrees(radians));
+}
+
+[[nodiscard]] std::string rpeText(const EnvelopeScore& s)
+{
+    if (!s.failure.empty())
+    {
+        return "gave up";
+    }
+    return s.numPairs > 0 ? errorText(s.rpeTranslation, s.rpeRotation) : "-";
+}
+
+[[nodiscard]] std::string shareText(const EnvelopeScore& s)
+{
+    const auto all = static_cast<double>(std::max<std::size_t>(s.numSteps, 1));
+    return text("%.0f", std::floor(100 * static_cast<double>(s.numTracked) / all));
+}
+
+/** All methods under one condition on one sequence; ours first. */
+struct Cell
+{
+    const EnvelopeScore* own{nullptr};
+    std::vector<const EnvelopeScore*> others;  //!< ours
+    std::vector<const EnvelopeScore*> peers;
+};
+
+[[nodiscard]] std::vector<Cell> cellsOf(const std::vector<EnvelopeScore>& scores)
+{
+    std::vector<Cell> out;
+    for (const EnvelopeScore& s : scores)
+    {
+        if (out.empty() || out.back().own->sequence != s.sequence ||
+            out.back().own->condition != s.condition)
+        {
+            out.push_back({&s, {}, {}});
+            continue;
+        }
+        (s.isPeer ? out.back().peers : out.back().others).push_back(&s);
+    }
+    return out;
+}
+
+/** The peer with the smallest RPE, or nullptr. */
+[[nodiscard]] const EnvelopeScore* bestPeer(const Cell& cell, double EnvelopeScore::*value)
+{
+    const EnvelopeScore* best = nullptr;
+    for (const EnvelopeScore* s : cell.peers)
+    {
+        if (s->failure.empty() && s->numPairs > 0 && (best == nullptr || s->*value < best->*value))
+        {
+            best = s;
+        }
+    }
+    return best;
+}
+
+[[nodiscard]] std::string header(const Cell& cell)
+{
+    const bool hasTruth = cell.own->truth != Truth::None;
+    std::string out = "| condition | frames | tracked % |";
+    out += hasTruth ? " RPE | worst step |" : " largest step |";
+    out += cell.own->truth == Truth::Exact ? " beyond 5σ | NEES median / 99 % |" : " largest σ |";
+    for (const EnvelopeScore* s : cell.others)
+    {
+        out += " " + s->method + (hasTruth ? " RPE |" : " largest step |");
+    }
+    if (!cell.peers.empty() && hasTruth)
+    {
+        out += " best peer's RPE |";
+    }
+    const auto columns = std::count(out.begin(), out.end(), '|') - 1;
+    out += "\n|";
+    for (long i = 0; i < columns; ++i)
+    {
+        out += "---|";
+    }
+    return out + "\n";
+}
+
+[[nodiscard]] std::string row(const Cell& cell)
+{
+    const EnvelopeScore& s = *cell.own;
+    const bool hasTruth = s.truth != Truth::None;
+    std::string out =
+        "| " + s.condition + " | " + text("%zu", s.numSteps) + " | " + shareText(s) + " |";
+    out += hasTruth ? " " + rpeText(s) + " |" : "";
+    out += " " + errorText(s.worstTranslation, s.worstRotation) + " |";
+    if (s.truth == Truth::Exact)
+    {
+        out += s.beyond.empty() ? " 0 |" : text(" **%zu** |", s.beyond.size());
+        out += s.neesMedian ? text(" %.2f / %.1f |", *s.neesMedian, *s.nees99) : " - |";
+    }
+    else
+    {
+        out += text(" %.0f mm |", mm(s.largestSigma));
+    }
+    for (const EnvelopeScore* other : cell.others)
+    {
+        out += " " +
+               (hasTruth ? rpeText(*other)
+                         : errorText(other->worstTranslation, other->worstRotation)) +
+               " |";
+    }
+    if (!cell.peers.empty() && hasTruth)
+    {
+        const EnvelopeScore* t = bestPeer(cell, &EnvelopeScore::rpeTranslation);
+        const EnvelopeScore* r = bestPeer(cell, &EnvelopeScore::rpeRotation);
+        out += t == nullptr ? " - |"
+               : t == r     ? " " + rpeText(*t) + " " + t->method + " |"
+                            : " " + errorText(t->rpeTranslation, r->rpeRotation) + " " + t->method +
+                              " / " + r->method + " |";
+    }
+    return out + "\n";
+}
+
+/** Sums over cells. */
+struct Sum
+{
+    std::string name;
+    std::size_t cells{0}, cellsBeyond{0}, steps{0}, tracked{0}, beyond{0}, large{0};
+    double worstTranslation{0}, worstRotation{0};
+
+    void add(const EnvelopeScore& s)
+    {
+        ++cells;
+        cellsBeyond += s.beyond.empty() ? 0 : 1;
+        steps += s.numSteps;
+        tracked += s.numTracked;
+        beyond += s.beyond.size();
+        large += s.large.size();
+        worstTranslation = std::max(worstTranslation, s.worstTranslation);
+        worstRotation = std::max(worstRotation, s.worstRotation);
+    }
+};
+
+/** \param key what the sums are told apart by, in order of appearance */
+[[nodiscard]] std::string sumTable(
+    const std::vector<EnvelopeScore>& scores,
+    const std::string& title,
+    const std::function<std::string(const EnvelopeScore&)>& key)
+{
+    std::vector<Sum> sums;
+    for (const EnvelopeScore& s : scores)
+    {
+        const std::string name = s.truth == Truth::Exact && s.failure.empty() ? key(s) : "";
+        if (name.empty())
+        {
+            continue;
+        }
+        auto it = std::find_if(
+            sums.begin(), sums.end(), [&name](const Sum& sum) { return sum.name == name; });
+        if (it == sums.end())
+        {
+            it = sums.insert(sums.end(), Sum());
+            it->name = name;
+        }
+        it->add(s);
+    }
+    std::ostringstream out;
+    out << "| " << title
+        << " | cells | steps | tracked % | beyond 5σ | in cells | off by 50 mm or 5 deg | worst "
+           "tracked step |\n|---|---|---|---|---|---|---|---|\n";
+    for (const Sum& s : sums)
+    {
+        out << "| " << s.name << " | " << s.cells << " | " << s.steps << " | "
+            << (100 * s.tracked) / std::max<std::size_t>(s.steps, 1) << " | " << s.beyond << " | "
+            << s.cellsBeyond << " | " << s.large << " | "
+            << errorText(s.worstTranslation, s.worstRotation) << " |\n";
+    }
+    return out.str();
+}
+
+[[nodiscard]] std::string behindPeers(const std::vector<EnvelopeScore>& scores)
+{
+    std::size_t compared = 0, behind = 0;
+    std::string rows;
+    for (const Cell& cell : cellsOf(scores))
+    {
+        const EnvelopeScore* t = bestPeer(cell, &EnvelopeScore::rpeTranslation);
+        const EnvelopeScore* r = bestPeer(cell, &EnvelopeScore::rpeRotation);
+        if (t == nullptr || r == nullptr || cell.own->numPairs == 0)
+        {
+            continue;
+        }
+        ++compared;
+        if (cell.own->rpeTranslation > t->rpeTranslation || cell.own->rpeRotation > r->rpeRotation)
+        {
+            ++behind;
+            rows += "| " + cell.own->sequence + " | " + cell.own->condition + " | " +
+                    rpeText(*cell.own) + " | " + errorText(t->rpeTranslation, r->rpeRotation) +
+                    " | " + t->method + " / " + r->method + " |\n";
+        }
+    }
+    if (compared == 0)
+    {
+        return "";
+    }
+    return text("\nBehind the best peer in %zu of %zu cells", behind, compared) +
+           (behind == 0 ? ".\n"
+                        : ":\n\n| sequence | condition | RPE | best peer's | translation / "
+                          "rotation |\n|---|---|---|---|---|\n" +
+                              rows);
+}
+}  // namespace
+
+std::string envelopeSummary(const std::vector<EnvelopeScore>& scores)
+{
+    if (scores.empty())
+    {
+        return "";
+    }
+    const std::string own = scores.front().method;
+    const auto method = [](const EnvelopeScore& s) { return s.isPeer ? "" : s.method; };
+    const auto condition = [&own](const EnvelopeScore& s)
+    { return s.method == own ? s.condition : ""; };
+    return sumTable(scores, "all with exact truth", method) + "\n" +
+           sumTable(scores, own + ", by condition", condition) + behindPeers(scores);
+}
+
+std::string envelopeTables(const std::vector<EnvelopeScore>& scores)
+{
+    std::string out, sequence;
+    for (const Cell& cell : cellsOf(scores))
+    {
+        if (cell.own->sequence != sequence)
+        {
+            sequence = cell.own->sequence;
+            out += (out.empty() ? "### " : "\n### ") + sequence + "\n\n" + header(cell);
+        }
+        out += row(cell);
+    }
+    return out;
+}
+
+std::string envelopeCsv(const std::vector<EnvelopeScore>& scores)
+{
+    std::string out =
+        "sequence,condition,method,peer,steps,tracked,beyond_5_sigma,large,rpe_mm,rpe_deg,"
+        "worst_mm,worst_deg,largest_sigma_mm,nees_median,nees_99,failure\n";
+    for (const EnvelopeScore& s : scores)
+    {
+        out += s.sequence + "," + s.condition + "," + s.method + "," + (s.isPeer ? "1" : "0") +
+               text(",%zu,%zu,%zu,%zu,", s.numSteps, s.numTracked, s.beyond.size(), s.large.size());
+        out +=
+            s.numPairs > 0 ? text("%.3f,%.4f", mm(s.rpeTranslation), degrees(s.rpeRotation)) : ",";
+        out += text(
+            ",%.3f,%.4f,%.3f,",
+            mm(s.worstTranslation),
+            degrees(s.worstRotation),
+            mm(s.largestSigma));
+        out += s.neesMedian ? text("%.4f,%.4f", *s.neesMedian, *s.nees99) : ",";
+        out += "," + s.failure + "\n";
+    }
+    return out;
+}
+
+std::string failuresCsv(const std::vector<EnvelopeScore>& scores)
+{
+    std::string out =
+        "sequence,condition,method,run,frame,stamp,error_mm,error_deg,sigma_mm,sigma_deg,nees,"
+        "beyond_5_sigma\n";
+    for (const EnvelopeScore& s : scores)
+    {
+        std::vector<ScoredStep> steps = s.beyond;
+        std::copy_if(
+            s.large.begin(),
+            s.large.end(),
+            std::back_inserter(steps),
+            [](const ScoredStep& step) { return !step.isBeyond; });
+        for (const ScoredStep& step : steps)
+        {
+            out += s.sequence + "," + s.condition + "," + s.method +
+                   text(
+                       ",%zu,%zu,%.6f,%.1f,%.2f,%.2f,%.3f,%.1f,%d\n",
+                       step.run,
+                       step.frame,
+                       step.stamp,
+                       mm(step.errorTranslation),
+                       degrees(step.errorRotation),
+                       mm(step.sigmaTranslation),
+                       degrees(step.sigmaRotation),
+                       step.nees,
+                       step.isBeyond ? 1 : 0);
+        }
+    }
+    return out;
+}
+}  // namespace pointplane

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "EnvelopeScore.h"
+
+namespace pointplane
+{
+/** What counts over all sequences, a line per method and per condition, and the cells in which our
+ * first method is behind a peer. Markdown. */
+[[nodiscard]] std::string envelopeSummary(const std::vector<EnvelopeScore>& scores);
+
+/** A heading and a table per sequence: our first method, then what the others make of it. Markdown.
+ * \param scores method by method within a condition, condition by condition within a sequence */
+[[nodiscard]] std::string envelopeTables(const std::vector<EnvelopeScore>& scores);
+
+/** A line per sequence, condition and method. */
+[[nodiscard]] std::string envelopeCsv(const std::vector<EnvelopeScore>& scores);
+
+/** A line per tracked step that is beyond five standard deviations, or off by more than 50 mm or
+ * 5 deg: where to look. */
+[[nodiscard]] std::string failuresCsv(const std::vector<EnvelopeScore>& scores);
+}  // namespace pointplane

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "frame_changes.h"
+
+#include <pointplane/core/check.h>
+
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include <cmath>
+#include <limits>
+
+namespace pointplane
+{
+namespace
+{
+constexpr float kNoDepth = std::numeric_limits<float>::quiet_NaN();
+
+/** Mean depth of the part of a block that belongs to its nearest surface. */
+[[nodiscard]] float depthOfBlock(const cv::Mat& block)
+{
+    constexpr float kSameSurface = 1.03F;  // depth against the block's nearest
+    float nearest = std::numeric_limits<float>::infinity();
+    for (int v = 0; v < block.rows; ++v)
+    {
+        for (int u = 0; u < block.cols; ++u)
+        {
+            nearest = std::fmin(nearest, block.at<float>(v, u));
+        }
+    }
+    float sum = 0;
+    int count = 0;
+    for (int v = 0; v < block.rows; ++v)
+    {
+        for (int u = 0; u < block.cols; ++u)
+        {
+            const float z = block.at<float>(v, u);
+            if (z <= kSameSurface * nearest)
+            {
+                sum += z;
+                ++count;
+            }
+        }
+    }
+    return count > 0 ? sum / static_cast<float>(count) : kNoDepth;
+}
+}  // namespace
+
+RgbdFrame withoutDepth(const RgbdFrame& frame)
+{
+    RgbdFrame out = frame;
+    out.depth = cv::Mat(frame.depth.size(), CV_32FC1, cv::Scalar(kNoDepth));
+    return out;
+}
+
+RgbdFrame withoutColour(const RgbdFrame& frame)
+{
+    RgbdFrame out = frame;
+    // Not cv::Mat::zeros(): assigning that would write into the given frame's image.
+    out.gray = cv::Mat(frame.gray.size(), CV_8UC1, cv::Scalar(0));
+    return out;
+}
+
+RgbdFrame withoutImages(const RgbdFrame& frame)
+{
+    RgbdFrame out = frame;
+    out.gray = cv::Mat();
+    out.depth = cv::Mat();
+    return out;
+}
+
+RgbdFrame withDepthUpTo(const RgbdFrame& frame, float range)
+{
+    RgbdFrame out = frame;
+    out.depth = frame.depth.clone();
+    out.depth.setTo(cv::Scalar(kNoDepth), frame.depth > range);
+    return out;
+}
+
+RgbdFrame shrunk(const RgbdFrame& frame, int factor)
+{
+    POINTPLANE_CHECK(factor >= 1, "factor " << factor);
+    const cv::Size size(frame.camera.width / factor, frame.camera.height / factor);
+    const cv::Rect used(0, 0, size.width * factor, size.height * factor);
+    RgbdFrame out = frame;
+    PinholeCamera& camera = out.camera;
+    camera.width = size.width;
+    camera.height = size.height;
+    camera.fx /= factor;
+    camera.fy /= factor;
+    // The centre of pixel u covers columns factor u .. factor u + factor - 1.
+    camera.cx = (camera.cx + 0.5) / factor - 0.5;
+    camera.cy = (camera.cy + 0.5) / factor - 0.5;
+    out.gray = cv::Mat();
+    cv::resize(frame.gray(used), out.gray, size, 0, 0, cv::INTER_AREA);
+    out.depth = cv::Mat(size, CV_32FC1);
+    for (int v = 0; v < size.height; ++v)
+    {
+        for (int u = 0; u < size.width; ++u)
+        {
+            out.depth.at<float>(v, u) =
+                depthOfBlock(frame.depth(cv::Rect(u * factor, v * factor, factor, factor)));
+        }
+    }
+    return out;
+}
+
+bool showsSomething(const RgbdFrame& frame)
+{
+    return !frame.gray.empty() && !frame.depth.empty() && cv::countNonZero(frame.gray) > 0 &&
+           cv::countNonZero(frame.depth == frame.depth) > 0;
+}
+}  // namespace pointplane

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pointplane/sensor/RgbdFrame.h>
+
+namespace pointplane
+{
+// What a camera may fail to deliver. The images of the given frame are never modified.
+
+/** No pixel has a depth. */
+[[nodiscard]] RgbdFrame withoutDepth(const RgbdFrame& frame);
+
+/** The colour image is black. */
+[[nodiscard]] RgbdFrame withoutColour(const RgbdFrame& frame);
+
+/** Both images are empty. */
+[[nodiscard]] RgbdFrame withoutImages(const RgbdFrame& frame);
+
+/** No depth beyond a range. \param range [m] along the optical axis */
+[[nodiscard]] RgbdFrame withDepthUpTo(const RgbdFrame& frame, float range);
+
+/** The same view in fewer pixels: brightness is averaged, depth too, but not across edges.
+ * \param factor divides both sides; a remainder of columns and rows is left out */
+[[nodiscard]] RgbdFrame shrunk(const RgbdFrame& frame, int factor);
+
+/** False when one of the images shows nothing: missing, all black or without any depth. */
+[[nodiscard]] bool showsSomething(const RgbdFrame& frame);
+}  // namespace pointplane
