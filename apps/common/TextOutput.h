@@ -1,34 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstdio>
-#include <memory>
+#include <pointplane/mrpt_io/OutputFile.h>
+
 #include <string>
 
 namespace pointplane
 {
-/** A text file that appears under its name when it is complete; until then it is `<path>.partial`.
- * Every write is checked and reaches the operating system with its line.
- * All members throw EnvironmentError naming the file. */
+/** A text file that is complete or marked as not (OutputFile). Every line reaches the operating
+ * system at once. All members throw EnvironmentError naming the file. */
 class TextOutput
 {
  public:
-    explicit TextOutput(const std::string& path);
+    explicit TextOutput(const std::string& path) : file_(path) {}
 
-    void writeLine(const std::string& line);
+    void writeLine(const std::string& line) { write(line + "\n"); }
+    void write(const std::string& text) { file_.write(text.data(), text.size()); }
     /** Completes and renames the file. */
-    void close();
+    void close() { file_.commit(); }
+    /** Removes the partial file. */
+    void discard() noexcept { file_.discard(); }
 
-    [[nodiscard]] const std::string& path() const { return path_; }
+    [[nodiscard]] const std::string& path() const { return file_.path(); }
 
  private:
-    struct Closer
-    {
-        void operator()(std::FILE* file) const { std::fclose(file); }
-    };
-    [[noreturn]] void fail(const char* action) const;
-
-    std::string path_;
-    std::unique_ptr<std::FILE, Closer> file_;
+    OutputFile file_;
 };
 }  // namespace pointplane

@@ -9,6 +9,7 @@
 
 #include "ProgressBar.h"
 #include "TumConverter.h"
+#include "run_program.h"
 #include <CLI/CLI.hpp>
 
 namespace pointplane
@@ -63,24 +64,6 @@ int runConvert(const std::vector<std::string>& args, std::ostream& out, std::ost
     app.require_subcommand(1);
     TumConverterOptions options;
     addTumCommand(app, options);
-    try
-    {
-        app.parse(std::vector<std::string>(args.rbegin(), args.rend()));  // CLI11: last first
-        return convert(options, out, err);
-    }
-    catch (const CLI::ParseError& e)
-    {
-        return app.exit(e, out, err) == 0 ? kExitOk : kExitBadInput;
-    }
-    catch (const EnvironmentError& e)
-    {
-        err << "pointplane-convert: " << e.what() << "\n";
-        return kExitEnvironment;
-    }
-    catch (const std::exception& e)
-    {
-        err << "pointplane-convert: " << oneLine(e) << "\n";
-        return kExitBadInput;
-    }
+    return runCommand(app, args, out, err, [&] { return convert(options, out, err); });
 }
 }  // namespace pointplane

@@ -16,7 +16,9 @@
 #include <optional>
 #include <vector>
 
+#include "OutputGuard.h"
 #include "ProgressBar.h"
+#include "TextOutput.h"
 #include "TumFolder.h"
 #include "tum_camera.h"
 
@@ -91,6 +93,33 @@ void requireSize(const cv::Mat& image, const PinholeCamera& camera, const std::s
     return scan;
 }
 
+[[nodiscard]] OutputGuard guardOf(
+    const TumConverterOptions& options,
+    const std::vector<TumImage>& colour,
+    const std::vector<TumImage>& depth)
+{
+    OutputGuard guard;
+    guard.addOutput("-o", options.output);
+    guard.addOutput("ground truth of -o", groundTruthOf(options.output));
+    if (options.external)
+    {
+        guard.addOutputFolder("images of -o", imagesFolderOf(options.output), "");
+    }
+    guard.addInput(options.camera);
+    for (const char* name : {"rgb.txt", "depth.txt", "camera.txt", "groundtruth.txt"})
+    {
+        guard.addInput(options.folder + "/" + name);
+    }
+    for (const auto* images : {&colour, &depth})
+    {
+        for (const TumImage& image : *images)
+        {
+            guard.addInput(image.path);
+        }
+    }
+    return guard;
+}
+
 /** \return where to, or empty if there is none */
 [[nodiscard]] std::string copyGroundTruth(const TumConverterOptions& options)
 {
@@ -100,16 +129,53 @@ void requireSize(const cv::Mat& image, const PinholeCamera& camera, const std::s
         return "";
     }
     const std::string to = groundTruthOf(options.output);
-    // Not copy_file: it would copy a write protection, too.
     std::ifstream in(from, std::ios::binary);
-    std::ofstream out(to, std::ios::binary);
-    out << in.rdbuf();
-    out.close();
-    if (!in || !out)
+    const std::string text(std::istreambuf_iterator<char>(in), {});
+    if (!in)
     {
-        throw EnvironmentError("cannot copy " + from + " to " + to);
+        throw InputError("cannot read " + from);
     }
+    TextOutput out(to);
+    out.write(text);
+    out.close();
     return to;
+}
+struct Recording
+{
+    const TumConverterOptions& options;
+    const std::vector<TumImage>& colour;
+    const std::vector<TumImage>& depth;
+    const std::vector<std::pair<std::size_t, std::size_t>>& pairs;
+    TumCamera camera;
+};
+
+void writeFrames(Recording recording, ScanWriter& writer, std::ostream& progress)
+{
+    const auto& [options, colour, depth, pairs, camera] = recording;
+    ShutterModel& shutter = recording.camera.shutter;
+    std::optional<ProgressBar> bar;
+    if (!options.quiet)
+    {
+        bar.emplace(progress, standardErrorIsTerminal(), options.folder);
+    }
+    std::size_t numFrames = 0;
+    for (const auto& [c, d] : pairs)
+    {
+        // Some colour images go with the depth image before, some with that after: 33 ms apart.
+        const double delay = depth[d].seconds - colour[c].seconds;
+        if (numFrames == 0 || std::abs(delay - shutter.depthDelay) > kSameDelay)
+        {
+            shutter.depthDelay = delay;
+            writer.writeComment(colour[c].stamp, shutterComment(options.label, shutter));
+        }
+        writer.write(readScan(colour[c], depth[d], camera));
+        ++numFrames;
+        if (bar)
+        {
+            bar->update(
+                static_cast<double>(numFrames) / static_cast<double>(pairs.size()), numFrames);
+        }
+    }
 }
 }  // namespace
 
@@ -139,33 +205,21 @@ TumConversion convertTum(const TumConverterOptions& options, std::ostream& progr
         delays.push_back(depth[d].seconds - colour[c].seconds);
     }
 
+    (void)guardOf(options, colour, depth);
     ScanWriter writer(options.output, options.label, options.external);
-    std::optional<ProgressBar> bar;
-    if (!options.quiet)
-    {
-        bar.emplace(progress, standardErrorIsTerminal(), options.folder);
-    }
     TumConversion out;
-    for (const auto& [c, d] : pairs)
+    try
     {
-        // Some colour images go with the depth image before, some with that after: 33 ms apart.
-        const double delay = depth[d].seconds - colour[c].seconds;
-        if (out.numFrames == 0 || std::abs(delay - camera.shutter.depthDelay) > kSameDelay)
-        {
-            camera.shutter.depthDelay = delay;
-            writer.writeComment(colour[c].stamp, shutterComment(options.label, camera.shutter));
-        }
-        writer.write(readScan(colour[c], depth[d], camera));
-        ++out.numFrames;
-        if (bar)
-        {
-            bar->update(
-                static_cast<double>(out.numFrames) / static_cast<double>(pairs.size()),
-                out.numFrames);
-        }
+        writeFrames({options, colour, depth, pairs, camera}, writer, progress);
+        out.groundTruth = copyGroundTruth(options);
     }
-    out.groundTruth = copyGroundTruth(options);
+    catch (const InputError&)
+    {
+        writer.discard();
+        throw;
+    }
     writer.close();
+    out.numFrames = pairs.size();
     out.numColourAlone = colour.size() - pairs.size();
     out.numDepthAlone = depth.size() - pairs.size();
     out.depthDelay = median(delays);

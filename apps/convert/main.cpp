@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <iostream>
-
 #include "ConvertApp.h"
+#include "run_program.h"
 
 int main(int argc, char** argv)
 {
-    return pointplane::runConvert({argv + 1, argv + argc}, std::cout, std::cerr);
+    return pointplane::runProgram("pointplane-convert", pointplane::runConvert, argc, argv);
 }

@@ -5,6 +5,7 @@
 #include <ostream>
 
 #include "command.h"
+#include "run_program.h"
 
 namespace pointplane
 {
@@ -35,26 +36,8 @@ int runEval(const std::vector<std::string>& args, std::ostream& out, std::ostrea
     addSweepCommand(app, context);
     addReproduceCommand(app, context);
 
-    std::vector<std::string> reversed;
-    std::transform(args.rbegin(), args.rend(), std::back_inserter(reversed), withHyphens);
-    try
-    {
-        app.parse(reversed);  // CLI11 takes the arguments last first
-        return context.exitCode;
-    }
-    catch (const CLI::ParseError& e)
-    {
-        return app.exit(e, out, err) == 0 ? kExitOk : kExitBadInput;
-    }
-    catch (const EnvironmentError& e)
-    {
-        err << "pointplane-eval: " << e.what() << "\n";
-        return kExitEnvironment;
-    }
-    catch (const std::exception& e)
-    {
-        err << "pointplane-eval: " << oneLine(e) << "\n";
-        return kExitBadInput;
-    }
+    std::vector<std::string> words;
+    std::transform(args.begin(), args.end(), std::back_inserter(words), withHyphens);
+    return runCommand(app, words, out, err, [&] { return context.exitCode; });
 }
 }  // namespace pointplane

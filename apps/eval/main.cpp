@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <iostream>
-
 #include "EvalApp.h"
+#include "run_program.h"
 
 int main(int argc, char** argv)
 {
-    return pointplane::runEval({argv + 1, argv + argc}, std::cout, std::cerr);
+    return pointplane::runProgram("pointplane-eval", pointplane::runEval, argc, argv);
 }

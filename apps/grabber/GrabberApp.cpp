@@ -11,6 +11,7 @@
 #include "GrabberOptions.h"
 #include "GrabberRun.h"
 #include "device_list.h"
+#include "run_program.h"
 #include <CLI/CLI.hpp>
 
 namespace pointplane
@@ -190,29 +191,19 @@ int runGrabber(const std::vector<std::string>& args, std::ostream& out, std::ost
     addCameraOptions(app, options, words);
     addRecordingOptions(app, options, words);
     addOtherOptions(app, options, words);
-    try
-    {
-        app.parse(std::vector<std::string>(args.rbegin(), args.rend()));  // CLI11: last first
-        if (words.list)
+    return runCommand(
+        app,
+        args,
+        out,
+        err,
+        [&]
         {
-            return listCameras(makeCameraDrivers(options.driver), out, err);
-        }
-        understand(words, options);
-        return GrabberRun(options, out, err).run();
-    }
-    catch (const CLI::ParseError& e)
-    {
-        return app.exit(e, out, err) == 0 ? kExitOk : kExitBadInput;
-    }
-    catch (const EnvironmentError& e)
-    {
-        err << "pointplane-grabber: " << e.what() << "\n";
-        return kExitEnvironment;
-    }
-    catch (const std::exception& e)
-    {
-        err << "pointplane-grabber: " << oneLine(e) << "\n";
-        return kExitBadInput;
-    }
+            if (words.list)
+            {
+                return listCameras(makeCameraDrivers(options.driver), out, err);
+            }
+            understand(words, options);
+            return GrabberRun(options, out, err).run();
+        });
 }
 }  // namespace pointplane

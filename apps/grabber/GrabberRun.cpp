@@ -8,6 +8,7 @@
 #include <ostream>
 #include <thread>
 
+#include "OutputGuard.h"
 #include "ProgressBar.h"
 #include "StopSignals.h"
 
@@ -85,8 +86,28 @@ void GrabberRun::calibrate()
     builder_ = std::make_unique<ObservationBuilder>(std::move(calibration));
 }
 
+void GrabberRun::keepFilesApart() const
+{
+    OutputGuard guard;
+    if (camera_->facts().isFile)
+    {
+        guard.addInput(options_.device);
+    }
+    guard.addInput(options_.calibration);
+    guard.addInput(options_.liveOdometry.config);
+    constexpr int kSegments = 1000;
+    const bool splits = options_.recordsRawlog() && options_.recording.splitAfter > 0.0;
+    for (int i = 0; i < (splits ? kSegments : 1); ++i)
+    {
+        guard.addOutput("-o", splits ? segmentPath(options_.output, i) : options_.output);
+    }
+    guard.addOutput("--preview", options_.preview);
+    guard.addOutput("--live-output", options_.liveOdometry.poseRawlog);
+}
+
 void GrabberRun::openOutputs()
 {
+    keepFilesApart();
     if (options_.recordsOni())
     {
         if (fs::exists(options_.output))

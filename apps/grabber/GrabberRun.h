@@ -29,6 +29,7 @@ class GrabberRun
  private:
     [[nodiscard]] bool openCameraOrWait();
     void calibrate();
+    void keepFilesApart() const;
     void openOutputs();
     [[nodiscard]] bool consume(const ImagePair& pair);
     [[nodiscard]] CaptureEnd captureWithStatus();

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <iostream>
-
 #include "GrabberApp.h"
+#include "run_program.h"
 
 int main(int argc, char** argv)
 {
-    return pointplane::runGrabber({argv + 1, argv + argc}, std::cout, std::cerr);
+    return pointplane::runProgram("pointplane-grabber", pointplane::runGrabber, argc, argv);
 }

@@ -38,6 +38,8 @@ class Sink
     virtual void add(const OutputItem& item) = 0;
     /** Completes what was written. \throws EnvironmentError */
     virtual void close() = 0;
+    /** Removes what was written: the run came to nothing. */
+    virtual void discard() noexcept = 0;
     /** What is there now, for the summary: "out.rawlog: poses and observations". */
     [[nodiscard]] virtual std::string description() const = 0;
     [[nodiscard]] virtual bool needsFeatures() const { return false; }

@@ -13,8 +13,8 @@ namespace pointplane
 using mrpt::obs::CObservation3DRangeScan;
 using mrpt::obs::CObservationComment;
 
-FrameSource::FrameSource(const OdometryOptions& options)
-    : options_(options), label_(options.sensorLabel)
+FrameSource::FrameSource(const OdometryOptions& options, const OutputGuard& guard)
+    : options_(options), guard_(guard), label_(options.sensorLabel)
 {
     openNext();
 }
@@ -23,6 +23,7 @@ void FrameSource::openNext()
 {
     reader_ = std::make_unique<RawlogReader>(options_.inputs.at(nextInput_));
     converter_.setExternalsDirectory(reader_->externalsDirectory());
+    guard_.checkInput(reader_->externalsDirectory());
     ++nextInput_;
 }
 
@@ -54,6 +55,21 @@ bool FrameSource::refill()
     return true;
 }
 
+void FrameSource::checkExternals(const CObservation3DRangeScan& scan) const
+{
+    if (scan.rangeImage_isExternallyStored())
+    {
+        guard_.checkInput(scan.rangeImage_getExternalStorageFile(""));
+    }
+    for (const auto* image : {&scan.intensityImage, &scan.confidenceImage})
+    {
+        if (image->isExternallyStored())
+        {
+            guard_.checkInput(image->getExternalStorageFile());
+        }
+    }
+}
+
 SourceItem FrameSource::item(const mrpt::obs::CObservation::Ptr& observation)
 {
     SourceItem out;
@@ -78,6 +94,7 @@ SourceItem FrameSource::item(const mrpt::obs::CObservation::Ptr& observation)
         return out;
     }
     makeExternalsAbsolute(*scan, reader_->externalsDirectory());
+    checkExternals(*scan);
     labelsSeen_.insert(scan->sensorLabel);
     if (label_.empty() && numFrames_ == 0)
     {

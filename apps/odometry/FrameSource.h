@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "OdometryOptions.h"
+#include "OutputGuard.h"
 
 namespace pointplane
 {
@@ -32,8 +33,9 @@ struct SourceItem
 class FrameSource
 {
  public:
-    /** \throws InputError if the first rawlog cannot be read */
-    explicit FrameSource(const OdometryOptions& options);
+    /** \param guard knows all outputs: none of them may be a file that a rawlog refers to
+     * \throws InputError if the first rawlog cannot be read */
+    FrameSource(const OdometryOptions& options, const OutputGuard& guard);
 
     /** Nothing at the end: of the input, of the frames wanted, or at damage (see damage()).
      * \throws InputError if a further rawlog cannot be opened or a camera comment understood */
@@ -48,9 +50,11 @@ class FrameSource
  private:
     void openNext();
     bool refill();
+    void checkExternals(const mrpt::obs::CObservation3DRangeScan& scan) const;
     [[nodiscard]] SourceItem item(const mrpt::obs::CObservation::Ptr& observation);
 
     const OdometryOptions& options_;
+    const OutputGuard& guard_;
     std::size_t nextInput_{0};
     std::unique_ptr<RawlogReader> reader_;
     ObservationConverter converter_;

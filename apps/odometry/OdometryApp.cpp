@@ -5,11 +5,11 @@
 #include <pointplane/mrpt_io/params_ini.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <ostream>
 
 #include "OdometryOptions.h"
 #include "OdometryRun.h"
+#include "run_program.h"
 #include <CLI/CLI.hpp>
 
 namespace pointplane
@@ -72,19 +72,11 @@ void addOptions(CLI::App& app, OdometryOptions& o, bool& dumpConfig, bool& dumpK
     app.add_flag("--quiet", o.quiet, "No progress")->group("Run");
 }
 
-void checkPaths(const OdometryOptions& o)
+void requireInput(const OdometryOptions& o)
 {
     if (o.inputs.empty())
     {
         throw InputError("no input rawlog given (see --help)");
-    }
-    for (const std::string& input : o.inputs)
-    {
-        std::error_code ignored;
-        if (std::filesystem::equivalent(input, o.output, ignored))
-        {
-            throw InputError(o.output + ": is an input; the output needs another name");
-        }
     }
 }
 
@@ -92,7 +84,7 @@ int run(const OdometryOptions& options, std::ostream& out, std::ostream& err)
 {
     OdometryParams params = loadOdometryParams(options.config, options.settings);
     params.covariance.history = std::max(params.covariance.history, options.since);
-    checkPaths(options);
+    requireInput(options);
     const RunSummary summary = runOdometry(options, params, err);
     summary.print(out, options.profile);
     if (summary.numUnusable > 0)
@@ -116,31 +108,21 @@ int runOdometry(const std::vector<std::string>& args, std::ostream& out, std::os
     OdometryOptions options;
     bool dumpConfig = false, dumpKeys = false;
     addOptions(app, options, dumpConfig, dumpKeys);
-    try
-    {
-        app.parse(std::vector<std::string>(args.rbegin(), args.rend()));  // CLI11: last first
-        if (dumpConfig || dumpKeys)
+    return runCommand(
+        app,
+        args,
+        out,
+        err,
+        [&]
         {
-            OdometryParams params = loadOdometryParams(options.config, options.settings);
-            const ParameterTable table = parametersOf(params);
-            out << (dumpConfig ? iniText(table) : markdownText(table));
-            return kExitOk;
-        }
-        return run(options, out, err);
-    }
-    catch (const CLI::ParseError& e)
-    {
-        return app.exit(e, out, err) == 0 ? kExitOk : kExitBadInput;
-    }
-    catch (const EnvironmentError& e)
-    {
-        err << "pointplane-odometry: " << e.what() << "\n";
-        return kExitEnvironment;
-    }
-    catch (const std::exception& e)
-    {
-        err << "pointplane-odometry: " << oneLine(e) << "\n";
-        return kExitBadInput;
-    }
+            if (dumpConfig || dumpKeys)
+            {
+                OdometryParams params = loadOdometryParams(options.config, options.settings);
+                const ParameterTable table = parametersOf(params);
+                out << (dumpConfig ? iniText(table) : markdownText(table));
+                return kExitOk;
+            }
+            return run(options, out, err);
+        });
 }
 }  // namespace pointplane

@@ -14,6 +14,7 @@
 
 #include "FrameEstimator.h"
 #include "FrameSource.h"
+#include "OutputGuard.h"
 #include "ProgressBar.h"
 #include "RawlogSink.h"
 #include "Worker.h"
@@ -59,6 +60,23 @@ using Sinks = std::vector<std::unique_ptr<Sink>>;
     return sinks;
 }
 
+[[nodiscard]] OutputGuard guardOf(const OdometryOptions& options)
+{
+    OutputGuard guard;
+    guard.addInput(options.config);
+    for (const std::string& input : options.inputs)
+    {
+        guard.addInput(input);
+    }
+    guard.addOutput("-o", options.output);
+    guard.addOutput("--simplemap", options.simplemap);
+    guard.addOutput("--graph", options.graph);
+    guard.addOutput("--trajectory", options.trajectory);
+    guard.addOutput("--diagnostics", options.diagnostics);
+    guard.addOutputFolder("--overlay", options.overlay, ".png");
+    return guard;
+}
+
 /** The run, in one thread or in three. */
 class Run
 {
@@ -66,7 +84,8 @@ class Run
     Run(const OdometryOptions& options, const OdometryParams& params, std::ostream& err)
         : options_(options),
           err_(err),
-          source_(options),
+          guard_(guardOf(options)),
+          source_(options, guard_),
           sinks_(openSinks(options)),
           estimator_(
               params,
@@ -82,25 +101,39 @@ class Run
     [[nodiscard]] RunSummary run()
     {
         const auto start = std::chrono::steady_clock::now();
-        if (options_.jobs > 1)
+        try
         {
-            runThreads();
+            runFrames();
+            bar_.reset();
+            finish();
         }
-        else
+        catch (const InputError&)
         {
-            while (auto item = source_.next())
+            for (const auto& sink : sinks_)
             {
-                write(estimate(std::move(*item)));
+                sink->discard();
             }
+            throw;
         }
-        bar_.reset();
-        finish();
         summary_.seconds =
             std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         return std::move(summary_);
     }
 
  private:
+    void runFrames()
+    {
+        if (options_.jobs > 1)
+        {
+            runThreads();
+            return;
+        }
+        while (auto item = source_.next())
+        {
+            write(estimate(std::move(*item)));
+        }
+    }
+
     void runThreads()
     {
         constexpr std::size_t kDepth = 4;  // frames waiting between two threads
@@ -241,6 +274,7 @@ class Run
 
     const OdometryOptions& options_;
     std::ostream& err_;
+    OutputGuard guard_;
     FrameSource source_;
     Sinks sinks_;
     FrameEstimator estimator_;

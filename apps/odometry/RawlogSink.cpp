@@ -138,8 +138,6 @@ void RawlogSink::addFormat1(const OutputItem& item)
     writer_.write(frame);
 }
 
-void RawlogSink::close() { writer_.close(); }
-
 std::string RawlogSink::description() const
 {
     return writer_.path() + ": " + std::to_string(writer_.numObjects()) + " objects, format " +

@@ -22,7 +22,8 @@ class RawlogSink : public Sink
     explicit RawlogSink(const OdometryOptions& options);
 
     void add(const OutputItem& item) override;
-    void close() override;
+    void close() override { writer_.close(); }
+    void discard() noexcept override { writer_.discard(); }
     [[nodiscard]] std::string description() const override;
 
  private:

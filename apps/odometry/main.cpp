@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <iostream>
-
 #include "OdometryApp.h"
+#include "run_program.h"
 
 int main(int argc, char** argv)
 {
-    return pointplane::runOdometry({argv + 1, argv + argc}, std::cout, std::cerr);
+    return pointplane::runProgram("pointplane-odometry", pointplane::runOdometry, argc, argv);
 }

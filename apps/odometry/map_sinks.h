@@ -23,6 +23,7 @@ class SimplemapSink : public Sink
 
     void add(const OutputItem& item) override;
     void close() override { writer_.close(); }
+    void discard() noexcept override { writer_.discard(); }
     [[nodiscard]] std::string description() const override;
 
  private:
@@ -43,6 +44,7 @@ class GraphSink : public Sink
 
     void add(const OutputItem& item) override;
     void close() override { file_.close(); }
+    void discard() noexcept override { file_.discard(); }
     [[nodiscard]] std::string description() const override;
 
  private:

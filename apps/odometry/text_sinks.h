@@ -18,6 +18,7 @@ class TrajectorySink : public Sink
 
     void add(const OutputItem& item) override;
     void close() override { file_.close(); }
+    void discard() noexcept override { file_.discard(); }
     [[nodiscard]] std::string description() const override;
 
  private:
@@ -33,6 +34,7 @@ class DiagnosticsSink : public Sink
 
     void add(const OutputItem& item) override;
     void close() override { file_.close(); }
+    void discard() noexcept override { file_.discard(); }
     [[nodiscard]] std::string description() const override;
 
  private:

@@ -12,6 +12,7 @@
 #include <optional>
 #include <thread>
 
+#include "OutputGuard.h"
 #include "ProgressBar.h"
 #include "TextOutput.h"
 #include "tum_line.h"
@@ -84,6 +85,13 @@ Eigen::Isometry3d robotFromCamera(const Eigen::Isometry3d& T_world_cam)
 void writeSequence(
     const SimulatedSequence& sequence, const SequenceOutput& output, std::ostream& progress)
 {
+    OutputGuard guard;
+    guard.addOutput("-o", output.path);
+    guard.addOutput("ground truth of -o", groundTruthOf(output.path));
+    if (output.external)
+    {
+        guard.addOutputFolder("images of -o", imagesFolderOf(output.path), "");
+    }
     ScanWriter writer(output.path, output.label, output.external);
     const auto start = fromSeconds(sequence.stamp(0));
     if (!output.hideShutter)

@@ -12,6 +12,7 @@
 #include <ostream>
 
 #include "SequenceWriter.h"
+#include "run_program.h"
 #include <CLI/CLI.hpp>
 
 namespace pointplane
@@ -142,24 +143,6 @@ int runSimulate(const std::vector<std::string>& args, std::ostream& out, std::os
     Arguments arguments;
     addOptions(app, arguments);
     addListSettings(app);
-    try
-    {
-        app.parse(std::vector<std::string>(args.rbegin(), args.rend()));  // CLI11: last first
-        return simulate(arguments, out, err);
-    }
-    catch (const CLI::ParseError& e)
-    {
-        return app.exit(e, out, err) == 0 ? kExitOk : kExitBadInput;
-    }
-    catch (const EnvironmentError& e)
-    {
-        err << "pointplane-simulate: " << e.what() << "\n";
-        return kExitEnvironment;
-    }
-    catch (const std::exception& e)
-    {
-        err << "pointplane-simulate: " << oneLine(e) << "\n";
-        return kExitBadInput;
-    }
+    return runCommand(app, args, out, err, [&] { return simulate(arguments, out, err); });
 }
 }  // namespace pointplane

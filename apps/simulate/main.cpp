@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <iostream>
-
 #include "SimulateApp.h"
+#include "run_program.h"
 
 int main(int argc, char** argv)
 {
-    return pointplane::runSimulate({argv + 1, argv + argc}, std::cout, std::cerr);
+    return pointplane::runProgram("pointplane-simulate", pointplane::runSimulate, argc, argv);
 }

@@ -256,7 +256,8 @@ TEST_F(OdometryApp, unwritableOutputIsExitCode3)
     {
         const Outcome outcome = run({in_, option, "/nonexistent/x"});
         EXPECT_EQ(outcome.code, kExitEnvironment) << option;
-        EXPECT_THAT(outcome.err, HasSubstr("/nonexistent/x.partial: No such file or directory"));
+        EXPECT_THAT(
+            outcome.err, HasSubstr("cannot write /nonexistent/x: No such file or directory"));
     }
     std::filesystem::create_symlink("/dev/full", dir_ / "full.rawlog.partial");
     const Outcome outcome = run({in_, "-o", dir_ / "full.rawlog"});

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pointplane/grabber/DurableFile.h>
 #include <pointplane/grabber/ObservationBuilder.h>
 #include <pointplane/grabber/Preview.h>
+#include <pointplane/mrpt_io/OutputFile.h>
 #include <pointplane/mrpt_io/errors.h>
 
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include <chrono>
-#include <cstdio>
 #include <filesystem>
 
 #include "lowPriority.h"
@@ -21,12 +20,9 @@ void writePicture(const std::string& path, const cv::Mat& picture)
 {
     std::vector<std::uint8_t> png;
     cv::imencode(".png", picture, png, {cv::IMWRITE_PNG_COMPRESSION, 1});
-    const std::string temporary = path + ".partial";
-    writeFile(temporary, png.data(), png.size());
-    if (std::rename(temporary.c_str(), path.c_str()) != 0)
-    {
-        throw EnvironmentError("cannot write preview '" + path + "'");
-    }
+    OutputFile file(path);
+    file.write(png.data(), png.size());
+    file.commit();
 }
 }  // namespace
 

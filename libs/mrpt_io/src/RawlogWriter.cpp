@@ -7,9 +7,7 @@
 #include <mrpt/serialization/CArchive.h>
 #include <mrpt/serialization/CSerializable.h>
 
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
+#include <stdexcept>
 
 #include "GzOutput.h"
 
@@ -34,16 +32,12 @@ void writeComment(
 struct RawlogWriter::Impl
 {
     Impl(const std::string& thePath, const Options& theOptions)
-        : path(thePath),
-          partialPath(thePath + ".partial"),
-          options(theOptions),
-          file(std::make_unique<GzOutput>(partialPath, theOptions.compressionLevel))
+        : options(theOptions), file(thePath, theOptions.compressionLevel)
     {
     }
-    std::string path;
-    std::string partialPath;
     Options options;
-    std::unique_ptr<GzOutput> file;  // empty once closed
+    GzOutput file;
+    bool closed{false};
     std::size_t numObjects{0};
     std::uint64_t numBytes{0};
     std::size_t objectsSinceFlush{0};
@@ -59,21 +53,21 @@ RawlogWriter::~RawlogWriter()
 {
     try
     {
-        if (impl_->file)
+        if (!impl_->closed)
         {
             flush();
         }
     }
-    catch (const EnvironmentError&)  // the file is marked as partial in any case
+    catch (const std::exception&)  // the file is marked as partial in any case
     {
     }
 }
 
 void RawlogWriter::write(const mrpt::serialization::CSerializable& object)
 {
-    if (!impl_->file)
+    if (impl_->closed)
     {
-        throw std::logic_error("RawlogWriter::write after close: " + impl_->path);
+        throw std::logic_error("RawlogWriter::write after close: " + path());
     }
     mrpt::io::CMemoryStream buffer;
     auto archive = mrpt::serialization::archiveFrom(buffer);
@@ -87,7 +81,7 @@ void RawlogWriter::write(const mrpt::serialization::CSerializable& object)
         archive << object;
     }
     const auto size = static_cast<std::size_t>(buffer.getTotalBytesCount());
-    impl_->file->write(buffer.getRawBufferData(), size);
+    impl_->file.write(buffer.getRawBufferData(), size);
     ++impl_->numObjects;
     impl_->numBytes += size;
     impl_->bytesSinceFlush += size;
@@ -100,29 +94,28 @@ void RawlogWriter::write(const mrpt::serialization::CSerializable& object)
 
 void RawlogWriter::flush()
 {
-    impl_->file->flush();
+    impl_->file.flush();
     impl_->objectsSinceFlush = 0;
     impl_->bytesSinceFlush = 0;
 }
 
 void RawlogWriter::close()
 {
-    if (!impl_->file)
+    if (!impl_->closed)
     {
-        return;
-    }
-    impl_->file->finish();
-    impl_->file.reset();
-    if (std::rename(impl_->partialPath.c_str(), impl_->path.c_str()) != 0)
-    {
-        throw EnvironmentError(
-            "cannot rename " + impl_->partialPath + " to " + impl_->path + ": " +
-            std::strerror(errno));
+        impl_->file.commit();
+        impl_->closed = true;
     }
 }
 
-const std::string& RawlogWriter::path() const { return impl_->path; }
-const std::string& RawlogWriter::partialPath() const { return impl_->partialPath; }
+void RawlogWriter::discard() noexcept
+{
+    impl_->file.discard();
+    impl_->closed = true;
+}
+
+const std::string& RawlogWriter::path() const { return impl_->file.file().path(); }
+std::string RawlogWriter::partialPath() const { return impl_->file.file().writtenPath(); }
 std::size_t RawlogWriter::numObjects() const { return impl_->numObjects; }
 std::uint64_t RawlogWriter::numBytes() const { return impl_->numBytes; }
 }  // namespace pointplane

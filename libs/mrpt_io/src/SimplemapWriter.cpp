@@ -8,10 +8,7 @@
 #include <mrpt/obs/T3DPointsProjectionParams.h>
 #include <mrpt/serialization/CArchive.h>
 
-#include <cerrno>
 #include <cstdint>
-#include <cstdio>
-#include <cstring>
 #include <utility>
 #include <vector>
 
@@ -21,12 +18,8 @@ namespace pointplane
 {
 struct SimplemapWriter::Impl
 {
-    explicit Impl(const std::string& thePath)
-        : path(thePath), file(std::make_unique<GzOutput>(thePath + ".partial", 1))
-    {
-    }
-    std::string path;
-    std::unique_ptr<GzOutput> file;
+    explicit Impl(const std::string& thePath) : file(thePath, 1) {}
+    GzOutput file;
     std::vector<std::pair<mrpt::poses::CPose3DPDFGaussian, mrpt::obs::CObservation3DRangeScan::Ptr>>
         keyframes;
 };
@@ -74,7 +67,7 @@ void SimplemapWriter::close()
     archive << static_cast<std::uint8_t>(name.size() | 0x80U);
     archive.WriteBuffer(name.data(), name.size());
     archive << std::uint8_t{1} << static_cast<std::uint32_t>(impl_->keyframes.size());
-    GzOutput& file = *impl_->file;
+    GzOutput& file = impl_->file;
     const auto put = [&file](const mrpt::io::CMemoryStream& bytes)
     { file.write(bytes.getRawBufferData(), static_cast<std::size_t>(bytes.getTotalBytesCount())); };
     put(head);
@@ -89,10 +82,8 @@ void SimplemapWriter::close()
     }
     constexpr std::uint8_t kEndMark = 0x88;
     file.write(&kEndMark, 1);
-    file.finish();
-    if (std::rename((impl_->path + ".partial").c_str(), impl_->path.c_str()) != 0)
-    {
-        throw EnvironmentError("cannot rename to " + impl_->path + ": " + std::strerror(errno));
-    }
+    file.commit();
 }
+
+void SimplemapWriter::discard() noexcept { impl_->file.discard(); }
 }  // namespace pointplane

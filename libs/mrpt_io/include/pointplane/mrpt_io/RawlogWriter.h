@@ -23,7 +23,7 @@ struct RawlogWriterOptions
     std::size_t flushEveryBytes{1U << 20U};
 };
 
-/** Writes a rawlog that is either complete or marked as not.
+/** Writes a rawlog that is either complete or marked as not (OutputFile).
  *
  * Objects go to `<path>.partial`, which close() renames to `path`. Without close() the partial file
  * stays, readable up to the last flush. Every write is checked (MRPT's own stream swallows a full
@@ -50,9 +50,11 @@ class RawlogWriter
 
     /** Completes the file and renames it to path(). \throws EnvironmentError */
     void close();
+    /** Removes the partial file: for a run that came to nothing. */
+    void discard() noexcept;
 
     [[nodiscard]] const std::string& path() const;
-    [[nodiscard]] const std::string& partialPath() const;
+    [[nodiscard]] std::string partialPath() const;  //!< the path itself if that is a device
     [[nodiscard]] std::size_t numObjects() const;
     [[nodiscard]] std::uint64_t numBytes() const;  //!< before compression
 

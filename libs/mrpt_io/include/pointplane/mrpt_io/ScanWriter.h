@@ -36,6 +36,8 @@ class ScanWriter
     void writeComment(mrpt::Clock::time_point stamp, const std::string& text);
     void write(const RegisteredScan& scan);
     void close() { writer_.close(); }
+    /** Removes the partial rawlog. */
+    void discard() noexcept { writer_.discard(); }
 
  private:
     RawlogWriter writer_;

@@ -30,6 +30,8 @@ class SimplemapWriter
 
     /** Writes everything and renames the file to its name. \throws EnvironmentError */
     void close();
+    /** Removes the partial file. */
+    void discard() noexcept;
 
     [[nodiscard]] std::size_t size() const;
 

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "OutputGuard.h"
+
+#include <pointplane/mrpt_io/OutputFile.h>
+#include <pointplane/mrpt_io/errors.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace pointplane
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+[[nodiscard]] fs::path folderOf(const fs::path& path)
+{
+    return path.parent_path().empty() ? "." : path.parent_path();
+}
+
+/** The nearest folder on the way to `path` that is there. */
+[[nodiscard]] fs::path existingFolder(fs::path path)
+{
+    std::error_code error;
+    while (!fs::exists(path, error) && path.has_relative_path())
+    {
+        path = folderOf(path);
+        if (path == ".")
+        {
+            break;
+        }
+    }
+    return path;
+}
+
+[[noreturn]] void failToWrite(const std::string& option, const std::string& path)
+{
+    throw EnvironmentError(option + ": cannot write " + path + ": " + std::strerror(errno));
+}
+}  // namespace
+
+OutputGuard::File OutputGuard::fileAt(const std::string& path)
+{
+    File file;
+    std::error_code error;
+    const fs::path real = fs::weakly_canonical(outputTarget(path).path, error);
+    file.path = error ? fs::absolute(path, error).string() : real.string();
+    if (file.path.size() > 1 && file.path.back() == '/')
+    {
+        file.path.pop_back();
+    }
+    struct stat info = {};
+    if (::stat(path.c_str(), &info) == 0)
+    {
+        file.device = info.st_dev;
+        file.inode = info.st_ino;
+    }
+    return file;
+}
+
+bool OutputGuard::same(const File& a, const File& b)
+{
+    return a.path == b.path || (a.inode != 0 && a.inode == b.inode && a.device == b.device);
+}
+
+bool OutputGuard::isIn(const File& file, const File& folder)
+{
+    return file.path.size() > folder.path.size() && file.path[folder.path.size()] == '/' &&
+           file.path.compare(0, folder.path.size(), folder.path) == 0;
+}
+
+bool OutputGuard::writes(const Output& output, const File& file)
+{
+    if (output.isFolder)
+    {
+        const fs::path path(file.path);
+        return path.parent_path() == output.files.front().path &&
+               (output.extension.empty() || path.extension() == output.extension);
+    }
+    for (const File& written : output.files)
+    {
+        if (same(written, file))
+        {
+            return true;
+        }
+    }
+    return false;
+}
+
+void OutputGuard::keepApart(const Output& output, const File& input)
+{
+    const File& first = output.files.front();
+    if (same(first, input))
+    {
+        throw InputError(output.option + " " + output.name + ": is an input; give another name");
+    }
+    if (writes(output, input))
+    {
+        throw InputError(
+            output.option + " " + output.name + ": would write over the input " + input.path +
+            "; give another name");
+    }
+    if (isIn(first, input))
+    {
+        throw InputError(
+            output.option + " " + output.name + ": is in the folder of the inputs, " + input.path +
+            "; give another one");
+    }
+}
+
+void OutputGuard::checkInput(const std::string& path) const
+{
+    if (outputs_.empty() || path.empty())
+    {
+        return;
+    }
+    const File input = fileAt(path);
+    for (const Output& output : outputs_)
+    {
+        keepApart(output, input);
+    }
+}
+
+void OutputGuard::addInput(const std::string& path)
+{
+    checkInput(path);
+    if (!path.empty())
+    {
+        inputs_.push_back(fileAt(path));
+    }
+}
+
+void OutputGuard::add(const Output& output)
+{
+    for (const File& input : inputs_)
+    {
+        keepApart(output, input);
+    }
+    for (const Output& other : outputs_)
+    {
+        for (const File& file : output.files)
+        {
+            if (writes(other, file) || (output.isFolder && writes(output, other.files.front())))
+            {
+                throw InputError(
+                    output.option + " " + output.name + ": would write over what " + other.option +
+                    " " + other.name + " writes; give another name");
+            }
+        }
+    }
+    outputs_.push_back(output);
+}
+
+void OutputGuard::addOutput(const std::string& option, const std::string& path)
+{
+    if (path.empty())
+    {
+        return;
+    }
+    std::error_code error;
+    const auto status = fs::status(path, error);
+    if (fs::is_directory(status) || path.back() == '/')
+    {
+        throw InputError(option + " " + path + ": is a folder; give the name of a file");
+    }
+    if (fs::is_block_file(status))
+    {
+        throw InputError(option + " " + path + ": is a disk; give the name of a file");
+    }
+    const OutputTarget target = outputTarget(path);
+    // The file and, where it is made anew, its folder.
+    if ((fs::exists(status) && ::access(path.c_str(), W_OK) != 0) ||
+        (target.isReplaced && ::access(folderOf(target.path).c_str(), W_OK | X_OK) != 0))
+    {
+        failToWrite(option, path);
+    }
+    if (fs::is_character_file(status))
+    {
+        return;  // /dev/null takes any number of outputs
+    }
+    Output output{option, path, {fileAt(path)}, false, ""};
+    if (target.isReplaced)
+    {
+        output.files.push_back(fileAt(target.writtenPath()));
+    }
+    add(output);
+}
+
+void OutputGuard::addOutputFolder(
+    const std::string& option, const std::string& path, const std::string& extension)
+{
+    if (path.empty())
+    {
+        return;
+    }
+    const fs::path folder = existingFolder(path);
+    std::error_code error;
+    if (!fs::is_directory(folder, error))
+    {
+        throw InputError(option + " " + path + ": " + folder.string() + " is not a folder");
+    }
+    if (::access(folder.c_str(), W_OK | X_OK) != 0)
+    {
+        failToWrite(option, path);
+    }
+    add({option, path, {fileAt(path)}, true, extension});
+}
+}  // namespace pointplane

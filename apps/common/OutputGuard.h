@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <sys/types.h>
+
+namespace pointplane
+{
+/** Keeps apart what a run reads and what it writes, before anything is opened. A program tells it
+ * every file, also those that it opens itself (listings, images, ground truth, configuration); in
+ * any order, and further inputs while it runs. Two names are the same file if they lead to the same
+ * inode, through symbolic or hard links, or will.
+ *
+ * All members throw InputError, in one line that names option and file; EnvironmentError if a file
+ * cannot be written. Empty paths are ignored. */
+class OutputGuard
+{
+ public:
+    /** A file, or a folder and all that is in it. Need not exist: its reader reports that. */
+    void addInput(const std::string& path);
+
+    /** As addInput(), when all outputs are known: checks and keeps nothing. Thread-safe. */
+    void checkInput(const std::string& path) const;
+
+    /** \param option that names it, e.g. "--trajectory" */
+    void addOutput(const std::string& option, const std::string& path);
+
+    /** A folder, made if need be, in which files are written.
+     * \param extension of these files, e.g. ".png"; empty: any */
+    void addOutputFolder(
+        const std::string& option, const std::string& path, const std::string& extension);
+
+ private:
+    /** A file, or what will be one. */
+    struct File
+    {
+        std::string path;  //!< absolute, without links
+        dev_t device{0};
+        ino_t inode{0};  //!< 0: is not there
+    };
+    struct Output
+    {
+        std::string option, name;  //!< as given
+        std::vector<File> files;   //!< itself and the partial one
+        bool isFolder{false};
+        std::string extension;  //!< of what is written into the folder
+    };
+
+    [[nodiscard]] static File fileAt(const std::string& path);
+    [[nodiscard]] static bool same(const File& a, const File& b);
+    [[nodiscard]] static bool isIn(const File& file, const File& folder);
+    [[nodiscard]] static bool writes(const Output& output, const File& file);
+    static void keepApart(const Output& output, const File& input);
+    void add(const Output& output);
+
+    std::vector<Output> outputs_;
+    std::vector<File> inputs_;
+};
+}  // namespace pointplane

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+namespace pointplane
+{
+/** Where the bytes of an output go. */
+struct OutputTarget
+{
+    std::string path;        //!< symbolic links followed; to be opened
+    bool isReplaced{false};  //!< a regular file, or none: appears complete, by renaming
+
+    /** The file that is being written: `<path>.partial` if it is replaced, else the path itself. */
+    [[nodiscard]] std::string writtenPath() const { return isReplaced ? path + ".partial" : path; }
+};
+
+/** What a name given by the user stands for. Devices, pipes, and what the standard output is
+ * redirected to are written directly; anything else is replaced when it is complete. */
+[[nodiscard]] OutputTarget outputTarget(const std::string& path);
+
+/** A file that appears under its name when it is complete; until then it is `<target>.partial`, and
+ * an earlier file with that name is untouched. Every write is checked and reaches the operating
+ * system at once. All members throw EnvironmentError naming the file. */
+class OutputFile
+{
+ public:
+    /** Creates or truncates the partial file; one that is replaced keeps its permissions. */
+    explicit OutputFile(const std::string& path);
+    /** Leaves the partial file if neither commit() nor discard() was called. */
+    ~OutputFile();
+    OutputFile(const OutputFile&) = delete;
+    OutputFile& operator=(const OutputFile&) = delete;
+
+    void write(const void* bytes, std::size_t size);
+    /** Waits until the disk has everything, and renames the file. */
+    void commit();
+    /** Removes the partial file; nothing after commit(). */
+    void discard() noexcept;
+
+    [[nodiscard]] const std::string& path() const { return path_; }
+    [[nodiscard]] std::string writtenPath() const { return target_.writtenPath(); }
+
+ private:
+    [[noreturn]] void fail(const char* action) const;
+
+    std::string path_;
+    OutputTarget target_;
+    int fd_{-1};
+};
+}  // namespace pointplane

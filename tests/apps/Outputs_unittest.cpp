@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// No output destroys anything: of pointplane-odometry, whose outputs are all others' outputs, too.
+#include <pointplane/mrpt_io/errors.h>
+
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+#include <future>
+#include <string>
+#include <vector>
+
+#include "OdometryApp.h"
+#include "OutputGuard.h"
+#include "TempDir.h"
+#include "rawlog_samples.h"
+#include "run_app.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/sysmacros.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace pointplane
+{
+namespace
+{
+namespace fs = std::filesystem;
+using test::AppRun;
+using test::readBytes;
+using test::runApp;
+using test::writeBytes;
+using testing::HasSubstr;
+
+const std::vector<std::string> kOptions{
+    "-o", "--trajectory", "--diagnostics", "--graph", "--simplemap"};
+
+class Outputs : public testing::Test
+{
+ protected:
+    void SetUp() override
+    {
+        fs::create_directory(dir_ / "in");
+        test::writeObservations(in_, 3);
+        writeBytes(config_, "[Covariance]\n");
+    }
+
+    [[nodiscard]] static AppRun run(std::vector<std::string> args)
+    {
+        args.emplace_back("--quiet");
+        return runApp(runOdometry, args);
+    }
+
+    /** Names of the files in the folder of the test, and in those below. */
+    [[nodiscard]] std::vector<std::string> files() const
+    {
+        std::vector<std::string> out;
+        for (const auto& entry : fs::recursive_directory_iterator(dir_ / ""))
+        {
+            out.push_back(entry.path());
+        }
+        std::sort(out.begin(), out.end());
+        return out;
+    }
+
+    /** Refused in one line, with every file as it was. */
+    void expectRefused(const std::vector<std::string>& args, const std::string& why)
+    {
+        const auto before = files();
+        const std::string input = readBytes(in_), config = readBytes(config_);
+        const AppRun outcome = run(args);
+        std::string line;
+        for (const std::string& arg : args)
+        {
+            line += arg + " ";
+        }
+        EXPECT_EQ(outcome.code, kExitBadInput) << line << outcome.err;
+        EXPECT_THAT(outcome.err, HasSubstr(why)) << line;
+        EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+        EXPECT_EQ(files(), before) << line;
+        EXPECT_EQ(readBytes(in_), input) << line;
+        EXPECT_EQ(readBytes(config_), config) << line;
+    }
+
+    test::TempDir dir_;
+    std::string in_{dir_ / "in/a.rawlog"};
+    std::string config_{dir_ / "in/c.ini"};
+    std::string out_{dir_ / "out"};
+};
+
+TEST_F(Outputs, noneIsAnInputByAnyName)
+{
+    fs::create_symlink(in_, dir_ / "symbolic");
+    fs::create_hard_link(in_, dir_ / "hard");
+    fs::create_directory_symlink(dir_ / "in", dir_ / "folder");
+    fs::create_symlink("symbolic", dir_ / "chain");
+    for (const std::string& option : kOptions)
+    {
+        for (const std::string& name :
+             {in_,
+              dir_ / "symbolic",
+              dir_ / "hard",
+              dir_ / "folder/a.rawlog",
+              dir_ / "chain",
+              dir_ / "in/../in/./a.rawlog"})
+        {
+            expectRefused({in_, option, name}, option + " " + name + ": is an input");
+            expectRefused({name, option, in_}, option + " " + in_ + ": is an input");
+        }
+        expectRefused({in_, "-c", config_, option, config_}, "is an input");
+    }
+}
+
+TEST_F(Outputs, noneIsMadeOverAnInput)
+{
+    const std::string partial = dir_ / "in/q.rawlog.partial";
+    fs::copy(in_, partial);
+    for (const std::string& option : kOptions)
+    {
+        expectRefused({partial, option, dir_ / "in/q.rawlog"}, "would write over the input");
+        expectRefused({in_, partial, option, dir_ / "in/q.rawlog"}, "would write over the input");
+    }
+    EXPECT_EQ(readBytes(partial), readBytes(in_));
+}
+
+TEST_F(Outputs, noTwoAreTheSame)
+{
+    fs::create_symlink("out", dir_ / "link");
+    for (const std::string& a : kOptions)
+    {
+        for (const std::string& b : kOptions)
+        {
+            if (a != b)
+            {
+                expectRefused({in_, a, out_, b, out_}, "would write over what");
+                expectRefused({in_, a, out_, b, dir_ / "link"}, "would write over what");
+                expectRefused({in_, a, out_, b, out_ + ".partial"}, "would write over what");
+            }
+        }
+    }
+}
+
+TEST_F(Outputs, picturesDoNotReplaceImagesOfTheRawlog)
+{
+    const std::string images = dir_ / "in/b_Images";
+    fs::create_directory(images);
+    const std::string external = dir_ / "in/b.rawlog";
+    {
+        RawlogWriter writer(external);
+        const auto scan = test::sampleScan(0);
+        ASSERT_TRUE(scan->intensityImage.saveToFile(images + "/000000.png"));
+        scan->intensityImage.setExternalStorage("000000.png");
+        writer.write(*scan);
+        writer.close();
+    }
+    const std::string image = readBytes(images + "/000000.png");
+    expectRefused({external, "--overlay", images}, "is an input");
+    expectRefused({external, "--overlay", images + "/"}, "is an input");
+    expectRefused(
+        {external, "--trajectory", images + "/000000.png"}, "in the folder of the inputs");
+    EXPECT_EQ(readBytes(images + "/000000.png"), image);
+    // The names in an output are absolute: the images are elsewhere then.
+    ASSERT_EQ(run({external, "-o", out_}).code, kExitOk);
+    expectRefused({out_, "--overlay", images}, "would write over the input");
+    expectRefused({out_, "--trajectory", images + "/000000.png"}, "is an input");
+    EXPECT_EQ(readBytes(images + "/000000.png"), image);
+}
+
+TEST_F(Outputs, whatCannotBeWrittenIsRefusedBeforeTheRun)
+{
+    fs::create_directory(dir_ / "folder");
+    for (const std::string& option : kOptions)
+    {
+        expectRefused({in_, option, dir_ / "folder"}, "is a folder");
+        const auto before = files();
+        const AppRun outcome = run({in_, "--overlay", dir_ / "pictures", option, "/nonexistent/x"});
+        EXPECT_EQ(outcome.code, kExitEnvironment);
+        EXPECT_THAT(
+            outcome.err,
+            HasSubstr(option + ": cannot write /nonexistent/x: No such file or directory"));
+        EXPECT_EQ(files(), before);
+    }
+    expectRefused({in_, "--overlay", in_}, "is not a folder");
+}
+
+TEST_F(Outputs, linksAreWrittenThrough)
+{
+    writeBytes(dir_ / "target", "old");
+    fs::create_symlink("target", dir_ / "link");
+    fs::create_symlink("target2", dir_ / "dangling");
+    ASSERT_EQ(run({in_, "--trajectory", out_}).code, kExitOk);
+    for (const char* name : {"link", "dangling"})
+    {
+        ASSERT_EQ(run({in_, "--trajectory", dir_ / name}).code, kExitOk) << name;
+        EXPECT_TRUE(fs::is_symlink(dir_ / name)) << name;
+        EXPECT_EQ(readBytes(dir_ / name), readBytes(out_)) << name;
+    }
+    EXPECT_EQ(readBytes(dir_ / "target2"), readBytes(out_));
+}
+
+TEST_F(Outputs, pipesAreWrittenThrough)
+{
+    for (const std::string& option : kOptions)
+    {
+        const std::string pipe = dir_ / "pipe";
+        ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+        auto reader = std::async(std::launch::async, [&] { return readBytes(pipe); });
+        const AppRun outcome = run({in_, option, pipe});
+        EXPECT_EQ(outcome.code, kExitOk) << outcome.err;
+        const std::string bytes = reader.get();
+        EXPECT_TRUE(fs::is_fifo(pipe)) << option;
+        ASSERT_EQ(run({in_, option, out_}).code, kExitOk);
+        EXPECT_EQ(bytes.size(), readBytes(out_).size()) << option;
+        fs::remove(pipe);
+        fs::remove(out_);
+    }
+}
+
+TEST_F(Outputs, devicesStayDevices)
+{
+    const std::string null = dir_ / "null";
+    if (::mknod(null.c_str(), S_IFCHR | 0600, ::makedev(1, 3)) != 0)
+    {
+        GTEST_SKIP() << "this user may not make a device";
+    }
+    fs::create_symlink("null", dir_ / "link");
+    std::vector<std::string> args{in_};
+    for (const std::string& option : kOptions)
+    {
+        args.push_back(option);
+        args.push_back(option == "-o" ? dir_ / "link" : null);  // all into one
+    }
+    const AppRun outcome = run(args);
+    if (outcome.err.find("Permission denied") != std::string::npos)
+    {
+        GTEST_SKIP() << "devices do not work on this disk";
+    }
+    EXPECT_EQ(outcome.code, kExitOk) << outcome.err;
+    EXPECT_TRUE(fs::is_character_file(null));
+    EXPECT_TRUE(fs::is_symlink(dir_ / "link"));
+}
+
+TEST_F(Outputs, aReplacedFileKeepsItsPermissions)
+{
+    writeBytes(out_, "old");
+    fs::permissions(out_, fs::perms::owner_read | fs::perms::owner_write);
+    ASSERT_EQ(run({in_, "--trajectory", out_}).code, kExitOk);
+    EXPECT_EQ(fs::status(out_).permissions(), fs::perms::owner_read | fs::perms::owner_write);
+    EXPECT_NE(readBytes(out_), "old");
+}
+
+TEST_F(Outputs, aRunThatComesToNothingLeavesNothing)
+{
+    writeBytes(out_, "old");
+    const auto before = files();
+    for (const std::string& option : kOptions)
+    {
+        const AppRun outcome = run({in_, "--sensor-label", "X", option, out_});
+        EXPECT_EQ(outcome.code, kExitBadInput);
+        EXPECT_EQ(files(), before) << option;
+        EXPECT_EQ(readBytes(out_), "old");
+    }
+}
+
+/** In a process of its own, with a limit on the size of files, as by ulimit -f. */
+TEST_F(Outputs, aLimitOnTheSizeOfFilesIsExitCode3)
+{
+    test::writeObservations(in_, 40);
+    for (const std::string& option : kOptions)
+    {
+        writeBytes(out_, "old");
+        const pid_t child = ::fork();
+        if (child == 0)
+        {
+            std::signal(SIGXFSZ, SIG_IGN);  // as runProgram() does
+            const rlimit limit{1024, 1024};
+            ::setrlimit(RLIMIT_FSIZE, &limit);
+            const AppRun outcome = run({in_, option, out_});
+            const bool told = outcome.err.find("File too large") != std::string::npos;
+            ::_exit(told ? outcome.code : 99);
+        }
+        int status = 0;
+        ASSERT_EQ(::waitpid(child, &status, 0), child);
+        EXPECT_TRUE(WIFEXITED(status)) << option;
+        EXPECT_EQ(WEXITSTATUS(status), kExitEnvironment) << option;
+        EXPECT_EQ(readBytes(out_), "old") << option;
+    }
+}
+
+TEST(OutputGuard, anyOrderOfInputsAndOutputs)
+{
+    const test::TempDir dir;
+    writeBytes(dir / "a", "a");
+    OutputGuard first, second;
+    first.addInput(dir / "a");
+    EXPECT_THROW(first.addOutput("-o", dir / "a"), InputError);
+    second.addOutput("-o", dir / "a");
+    EXPECT_THROW(second.addInput(dir / "a"), InputError);
+    EXPECT_NO_THROW(second.addInput(dir / "b"));
+    EXPECT_NO_THROW(second.addInput(""));
+    EXPECT_NO_THROW(second.addOutput("-o", ""));
+}
+}  // namespace
+}  // namespace pointplane
