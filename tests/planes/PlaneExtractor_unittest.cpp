@@ -234,6 +234,38 @@ TEST_P(PlaneExtractorTest, byRansacAndThePapersWeights)
     }
 }
 
+/** Every 101st pixel 3 % too far: RANSAC takes it out of the segment, not only out of the fit. */
+TEST_P(PlaneExtractorTest, segmentsAreTheInliersOfRansac)
+{
+    const Eigen::Vector3d theta(0.1, 0.05, -0.6);
+    cv::Mat depth = twoParts(theta, theta);
+    const auto isOutlier = [&](int u, int v) { return (v * depth.cols + u) % 101 == 0; };
+    for (int v = 0; v < depth.rows; ++v)
+    {
+        for (int u = 0; u < depth.cols; ++u)
+        {
+            depth.at<float>(v, u) *= isOutlier(u, v) ? 1.03F : 1;
+        }
+    }
+    PlaneExtractor::TParams params;
+    params.ransac = true;
+    const PlaneSet set = extract(depth, camera, params);
+    ASSERT_EQ(set.planes.size(), 1U);
+    EXPECT_EQ(cv::countNonZero(set.labels), set.planes[0].numPixels);
+    int inside = 0, wrong = 0;
+    for (int v = 0; v < depth.rows; ++v)
+    {
+        for (int u = 0; u < depth.cols; ++u)
+        {
+            const bool isLabelled = set.labels.at<uchar>(v, u) != 0;
+            inside += isLabelled ? 1 : 0;
+            wrong += isLabelled && isOutlier(u, v) ? 1 : 0;
+        }
+    }
+    EXPECT_EQ(wrong, 0);
+    EXPECT_GT(inside, 0.9 * static_cast<double>(depth.total()));
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Cameras,
     PlaneExtractorTest,

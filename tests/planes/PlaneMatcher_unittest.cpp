@@ -55,13 +55,21 @@ TEST(PlaneMatcher, overlapOfHalfOfTheSmallerSegment)
 {
     const PlaneSet left = one(tilted(0), 2, {0, 0, 320, 480});
     EXPECT_TRUE(matches(left, one(tilted(0), 2, {160, 0, 320, 480})));
-    EXPECT_FALSE(matches(left, one(tilted(0), 2, {168, 0, 320, 480})));
+    EXPECT_FALSE(matches(left, one(tilted(0), 2, {161, 0, 320, 480})));
     // Half of the small one is enough, whichever of the two it is.
     const PlaneSet small = one(tilted(0), 2, {280, 80, 80, 80});
     EXPECT_TRUE(matches(left, small));
     EXPECT_TRUE(matches(small, left));
     EXPECT_FALSE(matches(left, one(tilted(0), 2, {288, 80, 80, 80})));
     EXPECT_FALSE(matches(left, one(tilted(0), 2, {320, 0, 320, 480})));
+}
+
+/** Segments smaller than the grid on which moved ones are compared. */
+TEST(PlaneMatcher, unmovedSegmentsAreComparedPixelByPixel)
+{
+    const PlaneSet small = one(tilted(0), 2, {17, 17, 6, 6});
+    EXPECT_TRUE(matches(small, one(tilted(0), 2, {20, 17, 6, 6})));
+    EXPECT_FALSE(matches(small, one(tilted(0), 2, {21, 17, 6, 6})));
 }
 
 TEST(PlaneMatcher, normalsWithinTenDegrees)

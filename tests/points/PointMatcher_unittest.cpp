@@ -78,6 +78,26 @@ TEST(PointMatcher, nearestDescriptorInsideTheCircleByHand)
     EXPECT_FLOAT_EQ(matches[0].distance, 4);
 }
 
+/** k-NN over the image, then the circle: 9 is in the circle, but not one of the two nearest. */
+TEST(PointMatcher, nearestOfTheImageInsideTheCircleByHand)
+{
+    PointMatcher::TParams params = plain(10);
+    params.neighbours = 2;
+    const std::vector<Vector2d> cur{{111, 100}, {104, 100}, {100, 111}};
+    const auto two = PointMatcher(params).match({{100, 100}}, floats({5}), cur, floats({5, 9, 7}));
+    EXPECT_TRUE(two.empty());
+    params.neighbours = 3;
+    const auto three =
+        PointMatcher(params).match({{100, 100}}, floats({5}), cur, floats({5, 9, 7}));
+    ASSERT_EQ(three.size(), 1u);
+    EXPECT_EQ(three[0].cur, 1);
+    params.neighbours = 100;  // more than there are
+    EXPECT_EQ(
+        PointMatcher(params).match({{100, 100}}, floats({5}), cur, floats({5, 9, 7})).size(), 1u);
+    params.neighbours = -1;
+    EXPECT_THROW(PointMatcher{params}, std::invalid_argument);
+}
+
 TEST(PointMatcher, circleNotSquare)
 {
     EXPECT_TRUE(

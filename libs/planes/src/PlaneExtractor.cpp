@@ -9,6 +9,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+
+#include "segment_pixels.h"
 
 namespace pointplane
 {
@@ -16,34 +19,9 @@ namespace
 {
 constexpr size_t kMaxPlanes = 255;  // labels are bytes
 
-/** The pixels of a cluster's cells as 3-D points. */
-std::vector<Eigen::Vector3d> clusterPoints(
-    const CellCluster& cluster,
-    const CellGrid& grid,
-    const cv::Mat& depth,
-    const PinholeCamera& camera)
-{
-    std::vector<Eigen::Vector3d> points;
-    points.reserve(static_cast<size_t>(cluster.moments.n));
-    for (const int cell : cluster.cells)
-    {
-        const int u0 = cell % grid.cols * grid.cellSizePx, v0 = cell / grid.cols * grid.cellSizePx;
-        for (int v = v0; v < v0 + grid.cellSizePx; ++v)
-        {
-            const float* row = depth.ptr<float>(v);
-            for (int u = u0; u < u0 + grid.cellSizePx; ++u)
-            {
-                const double z = static_cast<double>(row[u]);
-                if (z > 0.05 && z < 100)
-                {
-                    points.emplace_back(
-                        z * (u - camera.cx) / camera.fx, z * (v - camera.cy) / camera.fy, z);
-                }
-            }
-        }
-    }
-    return points;
-}
+constexpr double kRansacSigmas = 3;
+constexpr int kRansacDraws = 50;
+constexpr std::uint32_t kRansacSeed = 1;
 
 Eigen::Matrix3d rowLever(const CellCluster& cluster, const CellGrid& grid, int height)
 {
@@ -270,36 +248,99 @@ PlaneSet PlaneExtractor::extract(const cv::Mat& depth, const PinholeCamera& came
     }
     clusters.resize(std::min(clusters.size(), kMaxPlanes));
 
+    return params_.ransac || params_.fitWeights == "sigmaZ"
+               ? fitToPixels(clusters, test, depth, camera)
+               : fitToCells(std::move(clusters), test, depth, camera);
+}
+
+PlaneSet PlaneExtractor::fitToCells(
+    std::vector<CellCluster> clusters,
+    const PlanarityTest& test,
+    const cv::Mat& depth,
+    const PinholeCamera& camera) const
+{
     PlaneSet out;
     std::vector<CellCluster> kept;
     const EdgeErosion erosion(clusters, grid_);
     for (CellCluster& cluster : clusters)
     {
-        CellCluster core = erosion.eroded(cluster);
-        std::optional<PlaneGaussian> plane;
-        if (params_.ransac || params_.fitWeights == "sigmaZ")
+        const CellCluster core = erosion.eroded(cluster);
+        const auto plane =
+            feature(fitInverseDepth(core.moments, noise_), core, core.moments.n, depth.rows);
+        if (plane)
         {
-            std::vector<Eigen::Vector3d> points = clusterPoints(core, grid_, depth, camera);
-            if (params_.ransac)
-            {
-                points = ransacInliers(points, noise_, 3, 50, 1);
-            }
-            plane = fitWeightedLeastSquares(points, noise_);
-            core.moments.n = static_cast<double>(points.size());
-        }
-        else
-        {
-            plane = fitInverseDepth(core.moments, noise_);
-        }
-        if (plane && plane->theta_m.norm() > 1e-3 && plane->cov_m.allFinite())
-        {
-            plane->cov_m *= params_.correlatedPixels;
-            out.planes.push_back(
-                {*plane, static_cast<int>(core.moments.n), rowLever(core, grid_, depth.rows)});
+            out.planes.push_back(*plane);
             kept.push_back(std::move(cluster));
         }
     }
     out.labels = LabelPainter(grid_, depth, camera).paint(kept, test);
     return out;
+}
+
+/** [P17, section Plane Extraction]: RANSAC filters each detected plane, the inliers are what the
+ * plane is fitted to and what it covers. */
+PlaneSet PlaneExtractor::fitToPixels(
+    const std::vector<CellCluster>& clusters,
+    const PlanarityTest& test,
+    const cv::Mat& depth,
+    const PinholeCamera& camera) const
+{
+    const cv::Mat detected = LabelPainter(grid_, depth, camera).paint(clusters, test);
+    const auto segments = pixelsOfSegments(detected, depth, camera, clusters.size());
+    PlaneSet out;
+    out.labels = cv::Mat(depth.size(), CV_8UC1, cv::Scalar(0));
+    for (size_t k = 0; k < segments.size(); ++k)
+    {
+        const SegmentPixels& segment = segments[k];
+        std::vector<size_t> inliers(segment.points.size());
+        std::iota(inliers.begin(), inliers.end(), 0U);
+        if (params_.ransac)
+        {
+            inliers =
+                ransacInliers(segment.points, noise_, kRansacSigmas, kRansacDraws, kRansacSeed);
+        }
+        const auto numInliers = static_cast<double>(inliers.size());
+        const auto plane =
+            feature(fit(segment.points, inliers), clusters[k], numInliers, depth.rows);
+        if (plane)
+        {
+            out.planes.push_back(*plane);
+            for (const size_t i : inliers)
+            {
+                out.labels.at<uchar>(segment.pixels[i]) = static_cast<uchar>(out.planes.size());
+            }
+        }
+    }
+    return out;
+}
+
+std::optional<PlaneGaussian> PlaneExtractor::fit(
+    const std::vector<Eigen::Vector3d>& points, const std::vector<size_t>& inliers) const
+{
+    std::vector<Eigen::Vector3d> chosen;
+    PlaneMoments moments;
+    for (const size_t i : inliers)
+    {
+        const Eigen::Vector3d& P = points[i];
+        chosen.push_back(P);
+        moments.add(P.x() / P.z(), P.y() / P.z(), 1 / P.z());
+    }
+    return params_.fitWeights == "sigmaZ" ? fitWeightedLeastSquares(chosen, noise_)
+                                          : fitInverseDepth(moments, noise_);
+}
+
+/** \return nothing for what is no plane */
+std::optional<PlaneFeature> PlaneExtractor::feature(
+    std::optional<PlaneGaussian> plane,
+    const CellCluster& cells,
+    double numPixels,
+    int imageHeight) const
+{
+    if (!plane || !(plane->theta_m.norm() > 1e-3) || !plane->cov_m.allFinite())
+    {
+        return std::nullopt;
+    }
+    plane->cov_m *= params_.correlatedPixels;
+    return PlaneFeature{*plane, static_cast<int>(numPixels), rowLever(cells, grid_, imageHeight)};
 }
 }  // namespace pointplane

@@ -42,6 +42,8 @@ std::optional<PlaneGaussian> fitInverseDepth(const PlaneMoments& moments, const 
 std::optional<PlaneGaussian> fitWeightedLeastSquares(
     const std::vector<Eigen::Vector3d>& points, const DepthNoise& noise)
 {
+    // A has no unit, its inverse is taken for 1/mm^2.
+    constexpr double kMillimetres = 1000;
     Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
     Eigen::Vector3d b = Eigen::Vector3d::Zero();
     for (const Eigen::Vector3d& P : points)
@@ -56,10 +58,10 @@ std::optional<PlaneGaussian> fitWeightedLeastSquares(
     {
         return std::nullopt;
     }
-    return PlaneGaussian{*cov * b, *cov};  // [P17, after Eq. 5]
+    return PlaneGaussian{*cov * b, kMillimetres * kMillimetres * *cov};  // [P17, after Eq. 5]
 }
 
-std::vector<Eigen::Vector3d> ransacInliers(
+std::vector<std::size_t> ransacInliers(
     const std::vector<Eigen::Vector3d>& points,
     const DepthNoise& noise,
     double maxSigmas,
@@ -67,20 +69,16 @@ std::vector<Eigen::Vector3d> ransacInliers(
     std::uint32_t seed)
 {
     const size_t n = points.size();
-    if (n < 3)
-    {
-        return points;
-    }
+    const auto isInlier = [&](const Eigen::Vector3d& P, const Plane& plane)
+    { return std::abs(plane.n.dot(P) + plane.d) <= maxSigmas * noise.sigmaZ(P.z()); };
     std::mt19937 rng(seed);
     // Not std::uniform_int_distribution: its draws differ between standard libraries.
     const auto draw = [&]() { return points[rng() % n]; };
     // A vote of a few hundred pixels ranks the hypotheses as well as one of all of them.
     const size_t stride = std::max<size_t>(1, n / 500);
-    const auto isInlier = [&](const Eigen::Vector3d& P, const Plane& plane)
-    { return std::abs(plane.n.dot(P) + plane.d) <= maxSigmas * noise.sigmaZ(P.z()); };
     Plane best;
     size_t bestVotes = 0;
-    for (int k = 0; k < draws; ++k)
+    for (int k = 0; n >= 3 && k < draws; ++k)
     {
         const Eigen::Vector3d a = draw(), b = draw(), c = draw();
         const Eigen::Vector3d normal = (b - a).cross(c - a);
@@ -100,17 +98,15 @@ std::vector<Eigen::Vector3d> ransacInliers(
             best = plane;
         }
     }
-    if (bestVotes == 0)
-    {
-        return points;
-    }
-    std::vector<Eigen::Vector3d> inliers;
+    std::vector<std::size_t> inliers;
     inliers.reserve(n);
-    std::copy_if(
-        points.begin(),
-        points.end(),
-        std::back_inserter(inliers),
-        [&](const Eigen::Vector3d& P) { return isInlier(P, best); });
+    for (size_t i = 0; i < n; ++i)
+    {
+        if (bestVotes == 0 || isInlier(points[i], best))
+        {
+            inliers.push_back(i);
+        }
+    }
     return inliers;
 }
 }  // namespace pointplane

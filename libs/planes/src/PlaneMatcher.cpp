@@ -9,7 +9,7 @@ namespace pointplane
 {
 namespace
 {
-constexpr int kStridePx = 8;  //!< segments are compared on a grid of this pitch
+constexpr int kStridePx = 8;  //!< segments that move are compared on a grid of this pitch
 
 /** Samples common to each pair of segments, and of each segment alone. */
 struct OverlapCounts
@@ -21,6 +21,34 @@ struct OverlapCounts
     std::vector<int> ref, cur;
     std::vector<std::vector<int>> common;
 };
+
+/** The segments as they lie on each other, pixel by pixel [P17, section Matching]. */
+OverlapCounts countOverlaps(const PlaneSet& ref, const PlaneSet& cur)
+{
+    OverlapCounts counts(ref.planes.size(), cur.planes.size());
+    for (int v = 0; v < ref.labels.rows; ++v)
+    {
+        const auto* refRow = ref.labels.ptr<uchar>(v);
+        const auto* curRow = cur.labels.ptr<uchar>(v);
+        for (int u = 0; u < ref.labels.cols; ++u)
+        {
+            const int r = refRow[u] - 1, c = curRow[u] - 1;
+            if (r >= 0)
+            {
+                ++counts.ref[static_cast<size_t>(r)];
+            }
+            if (c >= 0)
+            {
+                ++counts.cur[static_cast<size_t>(c)];
+            }
+            if (r >= 0 && c >= 0)
+            {
+                ++counts.common[static_cast<size_t>(r)][static_cast<size_t>(c)];
+            }
+        }
+    }
+    return counts;
+}
 
 /** Moves the reference's segments by the predicted motion, each along its own plane, and counts
  * where they fall on the current ones. */
@@ -92,7 +120,9 @@ std::vector<PlaneMatch> PlaneMatcher::match(
     {
         return {};
     }
-    const OverlapCounts counts = countOverlaps(ref, cur, camera, T_cur_ref);
+    const OverlapCounts counts = T_cur_ref.matrix().isIdentity(0)
+                                     ? countOverlaps(ref, cur)
+                                     : countOverlaps(ref, cur, camera, T_cur_ref);
     const double minCosine = std::cos(params_.maxNormalAngleDeg * M_PI / 180);
     struct Candidate
     {
@@ -108,8 +138,8 @@ std::vector<PlaneMatch> PlaneMatcher::match(
             const Plane plane = hessianForm(cur.planes[c].plane_cam.theta_m);
             const int smaller = std::min(counts.ref[r], counts.cur[c]);
             if (counts.common[r][c] >= params_.minOverlap * std::max(1, smaller) &&
-                moved.n.dot(plane.n) >= minCosine &&
-                std::abs(moved.d - plane.d) <= params_.maxDistance)
+                moved.n.dot(plane.n) > minCosine &&
+                std::abs(moved.d - plane.d) < params_.maxDistance)
             {
                 candidates.push_back(
                     {(moved.d * moved.n - plane.d * plane.n).norm(),  // [P17 Eq. 7]

@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <utility>
 
 namespace pointplane
 {
@@ -116,6 +118,23 @@ float descriptorDistance(const cv::Mat& a, int rowA, const cv::Mat& b, int rowB)
     return std::sqrt(squaredL2(a.ptr<float>(rowA), b.ptr<float>(rowB), a.cols));
 }
 
+/** The k current points of nearest descriptor, nearest first. */
+std::vector<int> nearestDescriptors(const cv::Mat& refs, int ref, const cv::Mat& curs, int k)
+{
+    std::vector<std::pair<float, int>> all;
+    all.reserve(static_cast<size_t>(curs.rows));
+    for (int cur = 0; cur < curs.rows; ++cur)
+    {
+        all.emplace_back(descriptorDistance(refs, ref, curs, cur), cur);
+    }
+    const auto end = all.begin() + std::min(k, curs.rows);
+    std::partial_sort(all.begin(), end, all.end());
+    std::vector<int> out;
+    std::transform(
+        all.begin(), end, std::back_inserter(out), [](const auto& entry) { return entry.second; });
+    return out;
+}
+
 void checkInput(const Positions& points, const cv::Mat& descriptors, const char* name)
 {
     POINTPLANE_CHECK(
@@ -129,6 +148,7 @@ void PointMatcher::TParams::check() const
     POINTPLANE_CHECK(
         searchRadiusPx > 0 && searchRadiusPx < 1e5,
         "searchRadiusPx = " << searchRadiusPx << " is not in (0, 100000)");
+    POINTPLANE_CHECK(neighbours >= 0, "neighbours = " << neighbours << " is negative");
     POINTPLANE_CHECK(
         maxRatio > 0 && maxRatio <= 1, "maxRatio = " << maxRatio << " is not in (0, 1]");
 }
@@ -164,32 +184,42 @@ std::vector<PointMatch> PointMatcher::match(
         const Eigen::Vector2d& centre = predicted_px[static_cast<size_t>(ref)];
         PointMatch nearest{ref, -1, kNone};
         float second = kNone;
-        grid.around(
-            centre,
-            [&](int cur)
+        const auto consider = [&](int cur)
+        {
+            const auto c = static_cast<size_t>(cur);
+            if (!((cur_px[c] - centre).squaredNorm() <= radius * radius))
             {
-                const auto c = static_cast<size_t>(cur);
-                if ((cur_px[c] - centre).squaredNorm() > radius * radius)
-                {
-                    return;
-                }
-                const float distance = descriptorDistance(refDescriptors, ref, curDescriptors, cur);
-                if (distance < nearest.distance)
-                {
-                    second = nearest.distance;
-                    nearest.cur = cur;
-                    nearest.distance = distance;
-                }
-                else
-                {
-                    second = std::min(second, distance);
-                }
-                if (distance < nearestOfCur[c])
-                {
-                    nearestOfCur[c] = distance;
-                    refOfCur[c] = ref;
-                }
-            });
+                return;
+            }
+            const float distance = descriptorDistance(refDescriptors, ref, curDescriptors, cur);
+            if (distance < nearest.distance)
+            {
+                second = nearest.distance;
+                nearest.cur = cur;
+                nearest.distance = distance;
+            }
+            else
+            {
+                second = std::min(second, distance);
+            }
+            if (distance < nearestOfCur[c])
+            {
+                nearestOfCur[c] = distance;
+                refOfCur[c] = ref;
+            }
+        };
+        if (params_.neighbours > 0)
+        {
+            for (const int cur :
+                 nearestDescriptors(refDescriptors, ref, curDescriptors, params_.neighbours))
+            {
+                consider(cur);
+            }
+        }
+        else
+        {
+            grid.around(centre, consider);
+        }
         const bool isDistinct =
             second == kNone || params_.maxRatio == 1 ||
             static_cast<double>(nearest.distance) < params_.maxRatio * static_cast<double>(second);

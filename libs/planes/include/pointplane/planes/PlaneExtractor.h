@@ -3,10 +3,13 @@
 
 #include <pointplane/core/Parameters.h>
 #include <pointplane/planes/CellGrid.h>
+#include <pointplane/planes/PlaneClustering.h>
 #include <pointplane/planes/PlaneFeature.h>
 #include <pointplane/sensor/DepthNoise.h>
 
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace pointplane
 {
@@ -46,11 +49,14 @@ class PlaneExtractor
               mergeCoplanarPlanes,
               "-",
               "join parts of one plane that are not adjacent");
-            v("ransac", ransac, "-", "filter each plane's pixels by RANSAC before the fit");
+            v("ransac",
+              ransac,
+              "-",
+              "filter each plane's pixels by RANSAC before the fit (the paper)");
             v("fitWeights",
               fitWeights,
               "-",
-              "inverseDepth (constant noise in 1/Z) or sigmaZ (the paper's w = sigma_Z^-2)");
+              "inverseDepth (constant noise in 1/Z) or sigmaZ (the paper's w = sigma_Z^-2, in mm)");
             v("correlatedPixels",
               correlatedPixels,
               "px",
@@ -68,6 +74,24 @@ class PlaneExtractor
     [[nodiscard]] PlaneSet extract(const cv::Mat& depth, const PinholeCamera& camera);
 
  private:
+    [[nodiscard]] PlaneSet fitToCells(
+        std::vector<CellCluster> clusters,
+        const PlanarityTest& test,
+        const cv::Mat& depth,
+        const PinholeCamera& camera) const;
+    [[nodiscard]] PlaneSet fitToPixels(
+        const std::vector<CellCluster>& clusters,
+        const PlanarityTest& test,
+        const cv::Mat& depth,
+        const PinholeCamera& camera) const;
+    [[nodiscard]] std::optional<PlaneGaussian> fit(
+        const std::vector<Eigen::Vector3d>& points, const std::vector<size_t>& inliers) const;
+    [[nodiscard]] std::optional<PlaneFeature> feature(
+        std::optional<PlaneGaussian> plane,
+        const CellCluster& cells,
+        double numPixels,
+        int imageHeight) const;
+
     TParams params_;
     DepthNoise noise_;
     CellGrid grid_;

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -19,14 +20,17 @@ namespace pointplane
     const PlaneMoments& moments, const DepthNoise& noise);
 
 /** Plane of minimal sum w_i (theta_m . P_i + 1)^2 / 2, w_i = sigma_Z^-2, by theta_m = A^-1 b with
- * Sigma_m = A^-1 [P17 Eq. 3, 4, 5].
+ * Sigma_m = A^-1 [P17 Eq. 3, 4, 5]. With these weights Sigma_m depends on the unit of length: w_i is
+ * 1 / length^2, theta_m . P_i + 1 a bare number. As the paper gives sigma_Z, it is the millimetre;
+ * in metres Sigma_m were a million times smaller.
  * \param points on the plane, camera frame [m] \return nothing when they do not span a plane */
 [[nodiscard]] std::optional<PlaneGaussian> fitWeightedLeastSquares(
     const std::vector<Eigen::Vector3d>& points, const DepthNoise& noise);
 
-/** The points within `maxSigmas` of the best plane through three of them, over a fixed number of
- * draws from a seeded generator; all points when fewer than 3 or when every draw is degenerate. */
-[[nodiscard]] std::vector<Eigen::Vector3d> ransacInliers(
+/** Indices of the points within `maxSigmas` of the best plane through three of them, over a fixed
+ * number of draws from a seeded generator; of all points when fewer than 3 or when every draw is
+ * degenerate. */
+[[nodiscard]] std::vector<std::size_t> ransacInliers(
     const std::vector<Eigen::Vector3d>& points,
     const DepthNoise& noise,
     double maxSigmas,

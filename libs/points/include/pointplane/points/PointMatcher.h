@@ -18,21 +18,28 @@ struct PointMatch
 };
 
 /** Which point is which [P17, section Matching]: the nearest descriptor among the current points
- * inside a circle around the predicted position. Only points of that circle are compared, found
- * through a grid. */
+ * inside a circle around the expected position. Only points of that circle are compared, found
+ * through a grid; or, with `neighbours`, the k current points with the nearest descriptors anywhere
+ * in the image are found first, of which those outside of the circle are left out. */
 class PointMatcher
 {
  public:
     struct TParams
     {
-        double searchRadiusPx{50};  //!< around the predicted position
+        double searchRadiusPx{50};  //!< around the expected position
+        int neighbours{0};          //!< k of the descriptor search; 0 = all in the circle
         double maxRatio{0.9};       //!< nearest over second nearest distance; 1 = no test
         bool crossCheck{true};      //!< the reference must be the nearest of the current one too
 
         template <class V>
         void visit(V&& v)
         {
-            v("searchRadiusPx", searchRadiusPx, "px", "circle around the predicted position");
+            v("searchRadiusPx", searchRadiusPx, "px", "circle around the expected position");
+            v("neighbours",
+              neighbours,
+              "-",
+              "so many nearest descriptors of the image are looked for in the circle (the paper's "
+              "k-NN); 0 = all that are in it");
             v("maxRatio",
               maxRatio,
               "-",
@@ -46,7 +53,7 @@ class PointMatcher
     PointMatcher() : PointMatcher(TParams{}) {}
     explicit PointMatcher(const TParams& params);
 
-    /** \param predicted_px where the reference points should be in the current image; points with
+    /** \param predicted_px where the reference points are expected in the current image; points with
      * a position that is not finite are left out
      * \param refDescriptors, curDescriptors a row a point: CV_8UC1 (Hamming) or CV_32FC1 (L2)
      * \return at most one match per reference and per current point, sorted by reference index
