@@ -102,6 +102,8 @@ int runCommand(
     std::ostream& err,
     const std::function<int()>& body)
 {
+    app.failure_message([](const CLI::App* a, const CLI::Error& e)
+                        { return a->get_name() + ": " + e.what() + " (see --help)\n"; });
     try
     {
         app.parse(std::vector<std::string>(args.rbegin(), args.rend()));  // CLI11: last first

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <pointplane/mrpt_io/RobotTrajectory.h>
-#include <pointplane/odometry/OdometryResult.h>
 
 #include <optional>
 
@@ -13,8 +12,7 @@ namespace pointplane
 /** What the odometry made of one frame. */
 struct FrameRecord
 {
-    OdometryResult result;   //!< of the camera, optical axes
-    RobotMotion motion;      //!< of the robot, MRPT axes
+    RobotMotion motion;
     FrameFeatures features;  //!< only if a sink asked for them
 };
 

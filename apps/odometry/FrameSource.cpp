@@ -4,18 +4,38 @@
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/external_range.h>
 
+#include <mrpt/obs/CObservationRobotPose.h>
 #include <mrpt/obs/CSensoryFrame.h>
 
+#include <filesystem>
 #include <utility>
+
+#include "output_labels.h"
 
 namespace pointplane
 {
 using mrpt::obs::CObservation3DRangeScan;
 using mrpt::obs::CObservationComment;
 
+namespace
+{
+[[nodiscard]] bool startsWith(const std::string& text, const std::string& beginning)
+{
+    return text.compare(0, beginning.size(), beginning) == 0;
+}
+}  // namespace
+
 FrameSource::FrameSource(const OdometryOptions& options, const OutputGuard& guard)
     : options_(options), guard_(guard), label_(options.sensorLabel)
 {
+    for (std::size_t i = 1; i < options.inputs.size(); ++i)
+    {
+        std::error_code error;
+        if (!std::filesystem::is_fifo(options.inputs[i], error))  // it can be read but once
+        {
+            (void)RawlogReader(options.inputs[i]);  // before the run, not in the middle of it
+        }
+    }
     openNext();
 }
 
@@ -70,6 +90,38 @@ void FrameSource::checkExternals(const CObservation3DRangeScan& scan) const
     }
 }
 
+bool FrameSource::isOfEarlierRun(const mrpt::obs::CObservation& observation) const
+{
+    if (const auto* comment = dynamic_cast<const CObservationComment*>(&observation))
+    {
+        return startsWith(comment->text, statusCommentOf(label_));
+    }
+    return dynamic_cast<const mrpt::obs::CObservationRobotPose*>(&observation) != nullptr &&
+           (observation.sensorLabel == poseLabelOf(label_) ||
+            startsWith(observation.sensorLabel, sinceLabelOf(label_)));
+}
+
+std::vector<std::string> FrameSource::notes() const
+{
+    std::vector<std::string> out;
+    for (const auto& [label, count] : framesOf_)
+    {
+        if (label != label_)
+        {
+            out.push_back(
+                "not used: " + std::to_string(count) + " frames of camera '" + label +
+                "' (--sensor-label chooses)");
+        }
+    }
+    if (numReplaced_ > 0)
+    {
+        out.push_back(
+            "replaced: " + std::to_string(numReplaced_) +
+            " poses and comments of an earlier run on camera '" + label_ + "'");
+    }
+    return out;
+}
+
 SourceItem FrameSource::item(const mrpt::obs::CObservation::Ptr& observation)
 {
     SourceItem out;
@@ -95,7 +147,7 @@ SourceItem FrameSource::item(const mrpt::obs::CObservation::Ptr& observation)
     }
     makeExternalsAbsolute(*scan, reader_->externalsDirectory());
     checkExternals(*scan);
-    labelsSeen_.insert(scan->sensorLabel);
+    ++framesOf_[scan->sensorLabel];
     if (label_.empty() && numFrames_ == 0)
     {
         label_ = scan->sensorLabel;
@@ -121,6 +173,11 @@ std::optional<SourceItem> FrameSource::next()
         }
         const auto observation = pending_.front();
         pending_.pop_front();
+        if (isOfEarlierRun(*observation))
+        {
+            ++numReplaced_;
+            continue;
+        }
         SourceItem out = item(observation);
         if (numFrames_ > options_.first || options_.first == 0)
         {

@@ -8,9 +8,9 @@
 
 #include <cstddef>
 #include <deque>
+#include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -29,28 +29,32 @@ struct SourceItem
 };
 
 /** Observation after observation of the input rawlogs, formats 1 and 2, as one sequence; those of
- * the camera are converted. Observations before the first frame wanted are left out. */
+ * the camera are converted. Observations before the first frame wanted are left out, and what an
+ * earlier run has written about this camera. */
 class FrameSource
 {
  public:
     /** \param guard knows all outputs: none of them may be a file that a rawlog refers to
-     * \throws InputError if the first rawlog cannot be read */
+     * \throws InputError if one of the rawlogs cannot be read */
     FrameSource(const OdometryOptions& options, const OutputGuard& guard);
 
     /** Nothing at the end: of the input, of the frames wanted, or at damage (see damage()).
-     * \throws InputError if a further rawlog cannot be opened or a camera comment understood */
+     * \throws InputError if a camera comment cannot be understood */
     [[nodiscard]] std::optional<SourceItem> next();
 
     /** One line; empty if the input was read to its end. */
     [[nodiscard]] const std::string& damage() const { return damage_; }
     [[nodiscard]] const std::string& label() const { return label_; }
-    /** Labels of RGB-D cameras in what was read. */
-    [[nodiscard]] const std::set<std::string>& labelsSeen() const { return labelsSeen_; }
+    /** Number of frames in what was read, of each RGB-D camera by its label. */
+    [[nodiscard]] const std::map<std::string, std::size_t>& framesOf() const { return framesOf_; }
+    /** Lines about what was read and not used. */
+    [[nodiscard]] std::vector<std::string> notes() const;
 
  private:
     void openNext();
     bool refill();
     void checkExternals(const mrpt::obs::CObservation3DRangeScan& scan) const;
+    [[nodiscard]] bool isOfEarlierRun(const mrpt::obs::CObservation& observation) const;
     [[nodiscard]] SourceItem item(const mrpt::obs::CObservation::Ptr& observation);
 
     const OdometryOptions& options_;
@@ -60,7 +64,8 @@ class FrameSource
     ObservationConverter converter_;
     std::deque<mrpt::obs::CObservation::Ptr> pending_;
     std::string label_;
-    std::set<std::string> labelsSeen_;
+    std::map<std::string, std::size_t> framesOf_;
+    std::size_t numReplaced_{0};  //!< observations of an earlier run
     std::size_t numFrames_{0};
     std::string damage_;
 };

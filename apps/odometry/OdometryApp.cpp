@@ -29,41 +29,54 @@ void addOptions(CLI::App& app, OdometryOptions& o, bool& dumpConfig, bool& dumpK
         "--dump-config", dumpConfig, "Print the complete configuration in effect and exit");
     app.add_flag("--dump-keys", dumpKeys, "The same as Markdown tables, for docs/config.md")
         ->group("");
+}
 
-    app.add_option("-o,--output", o.output, "Rawlog with a pose PDF per frame")->group("Output");
-    app.add_flag("--only-poses", o.onlyPoses, "Leave the observations out of it")->group("Output");
+void addOutputOptions(CLI::App& app, OdometryOptions& o)
+{
+    const std::size_t numOthers = app.get_options().size();
+    auto* output = app.add_option("-o,--output", o.output, "Rawlog with a pose PDF per frame");
+    auto* onlyPoses = app.add_flag("--only-poses", o.onlyPoses, "Leave the observations out of it")
+                          ->needs(output);
     app.add_flag(
            "--format1", o.format1, "Actions (CActionRobotMovement3D) and sensory frames in it")
-        ->group("Output");
+        ->needs(output);
     app.add_option("--since", o.since, "Motion since 1 ... N frames before, with PDFs (for nees)")
         ->check(CLI::Range(1, 300))
-        ->group("Output");
+        ->needs(output);
     app.add_flag("--with-points", o.withPoints, "Point clouds in its scans (rbpf-slam, maps)")
-        ->group("Output");
-    app.add_option("--simplemap", o.simplemap, "Key frames with pose PDFs, for observations2map")
-        ->group("Output");
+        ->needs(output)
+        ->excludes(onlyPoses);
+    auto* simplemap = app.add_option(
+        "--simplemap", o.simplemap, "Key frames with pose PDFs, for observations2map");
     app.add_option("--keyframe-distance", o.keyframeDistance, "Between those key frames [m]")
         ->check(CLI::PositiveNumber)
         ->capture_default_str()
-        ->group("Output");
+        ->needs(simplemap);
     app.add_option("--keyframe-angle", o.keyframeAngleDeg, "Or this rotation [deg]")
         ->check(CLI::PositiveNumber)
         ->capture_default_str()
-        ->group("Output");
-    app.add_option("--graph", o.graph, "Pose graph with information matrices, for graph-slam")
-        ->group("Output");
-    app.add_option("--trajectory", o.trajectory, "Poses as TUM text")->group("Output");
+        ->needs(simplemap);
+    app.add_option("--graph", o.graph, "Pose graph with information matrices, for graph-slam");
+    auto* trajectory = app.add_option("--trajectory", o.trajectory, "Poses as TUM text");
     app.add_option("--trajectory-frame", o.trajectoryFrame, "Whose: optical (camera) or robot")
         ->check(CLI::IsMember({"optical", "robot"}))
         ->capture_default_str()
-        ->group("Output");
-    app.add_option("--diagnostics", o.diagnostics, "Table with a line per frame (CSV)")
-        ->group("Output");
-    app.add_option("--overlay", o.overlay, "Folder for pictures of points and planes")
-        ->group("Output");
+        ->needs(trajectory);
+    app.add_option("--diagnostics", o.diagnostics, "Table with a line per frame (CSV)");
+    app.add_option("--overlay", o.overlay, "Folder for pictures of points and planes");
+    const auto options = app.get_options();
+    for (std::size_t i = numOthers; i < options.size(); ++i)
+    {
+        options[i]->group("Output");
+    }
+}
 
+void addRunOptions(CLI::App& app, OdometryOptions& o)
+{
     app.add_option("--first", o.first, "Leave out so many frames")->group("Run");
-    app.add_option("--count", o.count, "Stop after so many frames")->group("Run");
+    app.add_option("--count", o.count, "Stop after so many frames")
+        ->check(CLI::PositiveNumber)
+        ->group("Run");
     app.add_option("--jobs", o.jobs, "1: one thread; more: read, estimate, write in parallel")
         ->check(CLI::Range(1, 64))
         ->capture_default_str()
@@ -85,16 +98,15 @@ int run(const OdometryOptions& options, std::ostream& out, std::ostream& err)
     OdometryParams params = loadOdometryParams(options.config, options.settings);
     params.covariance.history = std::max(params.covariance.history, options.since);
     requireInput(options);
+    if ((options.output + options.simplemap + options.graph + options.trajectory +
+         options.diagnostics + options.overlay)
+            .empty())
+    {
+        err << "pointplane-odometry: warning: nothing is written (no -o, --trajectory, ...)\n";
+    }
     const RunSummary summary = runOdometry(options, params, err);
     summary.print(out, options.profile);
-    if (summary.numUnusable > 0)
-    {
-        err << "pointplane-odometry: " << summary.numUnusable << " frames could not be used\n";
-    }
-    if (!summary.damage.empty())
-    {
-        err << "pointplane-odometry: " << summary.damage << "\n";
-    }
+    summary.printProblems(err);
     return summary.exitCode();
 }
 }  // namespace
@@ -108,6 +120,8 @@ int runOdometry(const std::vector<std::string>& args, std::ostream& out, std::os
     OdometryOptions options;
     bool dumpConfig = false, dumpKeys = false;
     addOptions(app, options, dumpConfig, dumpKeys);
+    addOutputOptions(app, options);
+    addRunOptions(app, options);
     return runCommand(
         app,
         args,

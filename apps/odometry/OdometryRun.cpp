@@ -2,6 +2,7 @@
 #include "OdometryRun.h"
 
 #include <pointplane/core/BoundedQueue.h>
+#include <pointplane/mrpt_io/VisualOdometry.h>
 #include <pointplane/mrpt_io/errors.h>
 
 #include <algorithm>
@@ -12,7 +13,6 @@
 #include <utility>
 #include <vector>
 
-#include "FrameEstimator.h"
 #include "FrameSource.h"
 #include "OutputGuard.h"
 #include "ProgressBar.h"
@@ -83,15 +83,14 @@ class Run
  public:
     Run(const OdometryOptions& options, const OdometryParams& params, std::ostream& err)
         : options_(options),
-          err_(err),
           guard_(guardOf(options)),
           source_(options, guard_),
           sinks_(openSinks(options)),
-          estimator_(
-              params,
-              std::any_of(
-                  sinks_.begin(), sinks_.end(), [](const auto& s) { return s->needsFeatures(); }))
+          keepFeatures_(std::any_of(
+              sinks_.begin(), sinks_.end(), [](const auto& s) { return s->needsFeatures(); })),
+          odometry_(params)
     {
+        odometry_.setMinLoggingLevel(mrpt::system::LVL_ERROR);  // the summary says it
         if (!options.quiet)
         {
             bar_.emplace(err, standardErrorIsTerminal(), options.inputs.front());
@@ -192,40 +191,24 @@ class Run
 
     [[nodiscard]] OutputItem estimate(SourceItem source)
     {
-        OutputItem item = estimator_.process(
-            std::move(source),
-            [this](const std::string& problem)
-            {
-                constexpr std::size_t kShown = 5;
-                ++summary_.numUnusable;
-                if (summary_.problems.size() < kShown)
-                {
-                    summary_.problems.push_back(problem);
-                    report(problem);
-                }
-            });
-        if (item.frame)
+        OutputItem item;
+        item.source = std::move(source);
+        if (!item.source.converted)
         {
-            summary_.add(item);
-            if (bar_)
-            {
-                bar_->update(item.source.progress, summary_.numFrames);
-            }
+            return item;
         }
-        return item;
-    }
-
-    void report(const std::string& problem)
-    {
-        const std::string line = "pointplane-odometry: " + problem;
+        FrameRecord& record = item.frame.emplace();
+        record.motion = odometry_.process(*item.source.converted);
+        if (keepFeatures_)
+        {
+            record.features = odometry_.features();
+        }
+        summary_.add(item);
         if (bar_)
         {
-            bar_->message(line);
+            bar_->update(item.source.progress, summary_.numFrames);
         }
-        else
-        {
-            err_ << line << "\n";
-        }
+        return item;
     }
 
     void write(const OutputItem& item)
@@ -240,6 +223,7 @@ class Run
     {
         summary_.label = source_.label();
         summary_.damage = source_.damage();
+        summary_.notes = source_.notes();
         requireFrames();
         for (const auto& sink : sinks_)
         {
@@ -258,14 +242,14 @@ class Run
         {
             throw InputError(source_.damage());
         }
-        std::string labels;
-        for (const std::string& label : source_.labelsSeen())
-        {
-            labels += (labels.empty() ? "'" : ", '") + label + "'";
-        }
-        if (labels.empty())
+        if (source_.framesOf().empty())
         {
             throw InputError(options_.inputs.front() + ": no CObservation3DRangeScan in it");
+        }
+        std::string labels;
+        for (const auto& [label, count] : source_.framesOf())
+        {
+            labels += (labels.empty() ? "'" : ", '") + label + "'";
         }
         throw InputError(
             options_.inputs.front() + ": no frames with sensor label '" + source_.label() +
@@ -273,11 +257,11 @@ class Run
     }
 
     const OdometryOptions& options_;
-    std::ostream& err_;
     OutputGuard guard_;
     FrameSource source_;
     Sinks sinks_;
-    FrameEstimator estimator_;
+    bool keepFeatures_;
+    VisualOdometry odometry_;
     std::optional<ProgressBar> bar_;
     RunSummary summary_;
 };

@@ -11,17 +11,17 @@
 
 #include <vector>
 
+#include "output_labels.h"
+
 namespace pointplane
 {
 namespace
 {
 [[nodiscard]] mrpt::obs::CObservationRobotPose::Ptr poseObservation(
-    const OutputItem& item,
-    const mrpt::poses::CPose3DPDFGaussian& pose,
-    const std::string& labelSuffix)
+    const OutputItem& item, const mrpt::poses::CPose3DPDFGaussian& pose, const std::string& label)
 {
     auto out = mrpt::obs::CObservationRobotPose::Create();
-    out->sensorLabel = item.source.observation->sensorLabel + labelSuffix;
+    out->sensorLabel = label;
     out->timestamp = item.source.observation->timestamp;
     out->pose = pose;
     return out;
@@ -32,10 +32,13 @@ namespace
     const OutputItem& item, int since)
 {
     const RobotMotion& motion = item.frame->motion;
-    std::vector<mrpt::obs::CObservation::Ptr> out{poseObservation(item, motion.pose, "_pose")};
+    const std::string& camera = item.source.observation->sensorLabel;
+    std::vector<mrpt::obs::CObservation::Ptr> out{
+        poseObservation(item, motion.pose, poseLabelOf(camera))};
     for (std::size_t k = 0; k < motion.since.size() && k < static_cast<std::size_t>(since); ++k)
     {
-        out.push_back(poseObservation(item, motion.since[k], "_since_" + std::to_string(k + 1)));
+        const std::string label = sinceLabelOf(camera) + std::to_string(k + 1);
+        out.push_back(poseObservation(item, motion.since[k], label));
     }
     return out;
 }
@@ -51,8 +54,8 @@ namespace
     auto out = mrpt::obs::CObservationComment::Create();
     out->timestamp = item.source.observation->timestamp;
     const RobotMotion& motion = item.frame->motion;
-    out->text = "pointplane-status label=" + item.source.observation->sensorLabel +
-                " frame=" + std::to_string(item.source.frameIndex) + " " + toString(motion.status) +
+    out->text = statusCommentOf(item.source.observation->sensorLabel) +
+                std::to_string(item.source.frameIndex) + " " + toString(motion.status) +
                 (motion.reason.empty() ? "" : ": " + motion.reason);
     return out;
 }

@@ -2,6 +2,7 @@
 #include "RunSummary.h"
 
 #include <pointplane/mrpt_io/errors.h>
+#include <pointplane/mrpt_io/mrpt_poses.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -9,6 +10,53 @@
 
 namespace pointplane
 {
+namespace
+{
+constexpr std::size_t kMostGroups = 8;  // lines that are still read
+
+/** Reasons that differ in numbers alone are one reason. */
+[[nodiscard]] std::string withoutNumbers(std::string text)
+{
+    text.erase(
+        std::remove_if(
+            text.begin(), text.end(), [](char c) { return (c >= '0' && c <= '9') || c == '.'; }),
+        text.end());
+    return text;
+}
+
+[[nodiscard]] std::string lineOf(const UntrackedFrames& frames)
+{
+    const std::string first = std::to_string(frames.first);
+    return (frames.first == frames.last ? "frame " + first
+                                        : "frames " + first + "-" + std::to_string(frames.last)) +
+           " (stamp " + stampText(frames.stamp) + "): " + toString(frames.status) + ": " +
+           frames.reason;
+}
+}  // namespace
+
+void RunSummary::addUntracked(const OutputItem& item)
+{
+    const RobotMotion& motion = item.frame->motion;
+    const std::size_t index = item.source.frameIndex;
+    const bool continues = !untracked.empty() && numUntrackedMore == 0 &&
+                           untracked.back().last + 1 == index &&
+                           untracked.back().status == motion.status &&
+                           withoutNumbers(untracked.back().reason) == withoutNumbers(motion.reason);
+    if (continues)
+    {
+        untracked.back().last = index;
+    }
+    else if (untracked.size() < kMostGroups)
+    {
+        untracked.push_back(
+            {index, index, item.source.observation->timestamp, motion.status, motion.reason});
+    }
+    else
+    {
+        ++numUntrackedMore;
+    }
+}
+
 void RunSummary::add(const OutputItem& item)
 {
     const RobotMotion& motion = item.frame->motion;
@@ -21,9 +69,11 @@ void RunSummary::add(const OutputItem& item)
             break;
         case TrackingStatus::Predicted:
             ++numPredicted;
+            addUntracked(item);
             break;
         case TrackingStatus::Lost:
             ++numLost;
+            addUntracked(item);
             break;
     }
     pathLength += motion.increment.mean.norm();
@@ -55,6 +105,19 @@ void RunSummary::print(std::ostream& out, bool profile) const
         sum.msTotal / frames,
         frames / std::max(seconds, 1e-9));
     out << line;
+    for (const UntrackedFrames& group : untracked)
+    {
+        out << "  " << lineOf(group) << "\n";
+    }
+    if (numUntrackedMore > 0)
+    {
+        out << "  and " << numUntrackedMore
+            << " frames after these (--diagnostics FILE has them all)\n";
+    }
+    for (const std::string& note : notes)
+    {
+        out << note << "\n";
+    }
     if (profile)
     {
         std::snprintf(
@@ -74,8 +137,26 @@ void RunSummary::print(std::ostream& out, bool profile) const
     }
 }
 
+void RunSummary::printProblems(std::ostream& err) const
+{
+    if (numLost > 0)
+    {
+        const auto lost = std::find_if(
+            untracked.begin(),
+            untracked.end(),
+            [](const UntrackedFrames& f) { return f.status == TrackingStatus::Lost; });
+        err << "pointplane-odometry: " << numLost << " of " << numFrames
+            << " frames could not be used"
+            << (lost == untracked.end() ? std::string() : ", first " + lineOf(*lost)) << "\n";
+    }
+    if (!damage.empty())
+    {
+        err << "pointplane-odometry: " << damage << "\n";
+    }
+}
+
 int RunSummary::exitCode() const
 {
-    return damage.empty() && numUnusable == 0 ? kExitOk : kExitIncomplete;
+    return damage.empty() && numLost == 0 ? kExitOk : kExitIncomplete;
 }
 }  // namespace pointplane

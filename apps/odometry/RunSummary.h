@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <mrpt/core/Clock.h>
+
 #include <cstddef>
 #include <iosfwd>
 #include <string>
@@ -10,25 +12,41 @@
 
 namespace pointplane
 {
+/** Frames in a row that were not tracked, for one reason. */
+struct UntrackedFrames
+{
+    std::size_t first{0}, last{0};  //!< frame numbers in the input
+    mrpt::Clock::time_point stamp;  //!< of the first
+    TrackingStatus status{TrackingStatus::Lost};
+    std::string reason;  //!< of the first; of the others the same but for numbers in it
+};
+
 /** What a run amounted to. */
 struct RunSummary
 {
     std::string label;
     std::size_t numFrames{0}, numTracked{0}, numPredicted{0}, numLost{0};
-    std::size_t numUnusable{0};         //!< of the lost: the observation was at fault
-    double pathLength{0};               //!< of the robot [m]
-    double seconds{0};                  //!< wall time
-    FrameDiagnostics sum;               //!< of the times per stage
-    std::vector<std::string> problems;  //!< one line each, the first few
-    std::string damage;                 //!< where the input ended early, or empty
-    std::vector<std::string> outputs;   //!< descriptions
+    std::vector<UntrackedFrames> untracked;  //!< the first few
+    std::size_t numUntrackedMore{0};         //!< frames of the others
+    double pathLength{0};                    //!< of the robot [m]
+    double seconds{0};                       //!< wall time
+    FrameDiagnostics sum;                    //!< of the times per stage
+    std::vector<std::string> notes;          //!< lines about the input
+    std::string damage;                      //!< where the input ended early, or empty
+    std::vector<std::string> outputs;        //!< descriptions
 
     void add(const OutputItem& item);
 
     /** \param profile also the mean times per stage */
     void print(std::ostream& out, bool profile) const;
 
+    /** What the exit code is about, in one line each; nothing when it is 0. */
+    void printProblems(std::ostream& err) const;
+
     /** One of mrpt_io/errors.h. */
     [[nodiscard]] int exitCode() const;
+
+ private:
+    void addUntracked(const OutputItem& item);
 };
 }  // namespace pointplane

@@ -27,7 +27,7 @@ void TrajectorySink::add(const OutputItem& item)
         return;
     }
     const Eigen::Isometry3d T =
-        robotFrame_ ? fromMrpt(item.frame->motion.pose.mean) : item.frame->result.pose.mean;
+        robotFrame_ ? fromMrpt(item.frame->motion.pose.mean) : item.frame->motion.cameraPose.mean;
     file_.writeLine(tumLine(item.source.observation->timestamp, T));
 }
 

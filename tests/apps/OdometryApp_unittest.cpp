@@ -2,6 +2,7 @@
 #include "OdometryApp.h"
 
 #include <pointplane/mrpt_io/RawlogReader.h>
+#include <pointplane/mrpt_io/VisualOdometry.h>
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/external_range.h>
 
@@ -176,11 +177,123 @@ TEST_F(OdometryApp, aFrameThatCannotBeUsedIsNamedAndTheRestIsDone)
                 }
             });
         EXPECT_EQ(outcome.code, kExitIncomplete) << c.text;
-        EXPECT_THAT(outcome.err, HasSubstr("frame 2 of RGBD: "));
+        EXPECT_THAT(
+            outcome.err, HasSubstr("1 of 4 frames could not be used, first frame 2 (stamp "));
         EXPECT_THAT(outcome.err, HasSubstr(c.text));
         EXPECT_EQ(numPoses(out_), 4U) << c.text;
         EXPECT_THAT(outcome.out, HasSubstr("1 lost")) << c.text;
     }
+}
+
+TEST_F(OdometryApp, theSummaryGroupsTheFramesThatWereNotTracked)
+{
+    const Outcome outcome = runOn(
+        9,
+        [](int i, CObservation3DRangeScan& scan)
+        {
+            if (i == 2 || i == 6 || i == 7)
+            {
+                scan.hasRangeImage = false;
+            }
+            if (i == 4)
+            {
+                scan.timestamp = mrpt::Clock::fromDouble(900);
+            }
+        });
+    EXPECT_EQ(outcome.code, kExitIncomplete);
+    EXPECT_THAT(outcome.out, HasSubstr("4 lost"));
+    EXPECT_THAT(
+        outcome.out,
+        HasSubstr("\n  frame 2 (stamp 1000.062500000): lost: observation has no range image\n"
+                  "  frame 4 (stamp 900.000000000): lost: its time stamp is not after the previous "
+                  "frame's\n"
+                  "  frames 6-7 (stamp 1000.187500000): lost: observation has no range image\n"));
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+}
+
+/** Two rawlogs in the wrong order: one frame is late, then the clock has been set back. */
+TEST_F(OdometryApp, afterAClockSetBackTheProgramSaysWhatTheOdometrySays)
+{
+    test::writeObservations(dir_ / "early.rawlog", 6);
+    {
+        RawlogWriter writer(dir_ / "late.rawlog");
+        for (int i = 100; i < 106; ++i)
+        {
+            writer.write(*sampleScan(i));
+        }
+        writer.close();
+    }
+    const Outcome outcome = run({dir_ / "late.rawlog", dir_ / "early.rawlog", "-o", out_});
+    EXPECT_EQ(outcome.code, kExitIncomplete);
+    EXPECT_THAT(outcome.out, HasSubstr("1 lost"));
+    EXPECT_THAT(outcome.out, HasSubstr("frame 6 (stamp 1000.000000000): lost: its time stamp"));
+    EXPECT_THAT(
+        outcome.out,
+        HasSubstr("frame 7 (stamp 1000.031250000): predicted: the clock has been set back"));
+    VisualOdometry odometry;
+    odometry.setMinLoggingLevel(mrpt::system::LVL_ERROR);
+    std::size_t frame = 0;
+    const auto contents = test::readAll(out_);
+    for (std::size_t i = 0; i + 1 < contents.objects.size(); ++i)
+    {
+        const auto scan = std::dynamic_pointer_cast<CObservation3DRangeScan>(contents.objects[i]);
+        if (!scan)
+        {
+            continue;
+        }
+        const RobotMotion motion = odometry.process(*scan);
+        const auto pose = std::dynamic_pointer_cast<CObservationRobotPose>(contents.objects[i + 1]);
+        ASSERT_TRUE(pose);
+        EXPECT_EQ(pose->pose.mean.asString(), motion.pose.mean.asString()) << "frame " << frame;
+        EXPECT_EQ(pose->pose.cov, motion.pose.cov) << "frame " << frame;
+        ++frame;
+    }
+    EXPECT_EQ(frame, 12U);
+}
+
+TEST_F(OdometryApp, aRunOnAnOutputReplacesWhatIsThere)
+{
+    ASSERT_EQ(runOn(5, [](int i, auto& scan) { scan.hasRangeImage = i != 3; }).code, 1);
+    const std::string first = dir_ / "first.rawlog";
+    ASSERT_EQ(run({in_, "-o", first, "--since", "2"}).code, kExitIncomplete);
+    for (const char* format : {"--format1", "--quiet"})
+    {
+        const Outcome again = run({first, "-o", out_, "--since", "2", format});
+        EXPECT_EQ(again.code, kExitIncomplete) << again.err;
+        // Per frame a pose, 0 + 1 + 2 + 2 + 2 motions, one comment.
+        EXPECT_THAT(again.out, HasSubstr("replaced: 13 poses and comments of an earlier run"));
+    }
+    EXPECT_EQ(readBytes(out_), readBytes(first));
+}
+
+TEST_F(OdometryApp, otherCamerasAreNamed)
+{
+    const Outcome outcome = runOn(
+        6, [](int i, CObservation3DRangeScan& scan) { scan.sensorLabel = i == 4 ? "" : "RGBD"; });
+    EXPECT_THAT(outcome.out, HasSubstr("not used: 1 frames of camera ''"));
+}
+
+TEST_F(OdometryApp, optionsWithoutEffectAreNamed)
+{
+    test::writeObservations(in_, 2);
+    for (const std::vector<std::string>& args : std::vector<std::vector<std::string>>{
+             {"--since", "2"},
+             {"--only-poses"},
+             {"--format1"},
+             {"--with-points"},
+             {"--only-poses", "--with-points", "-o", out_},
+             {"--keyframe-distance", "1"},
+             {"--keyframe-angle", "1"},
+             {"--trajectory-frame", "robot"}})
+    {
+        std::vector<std::string> all{in_};
+        all.insert(all.end(), args.begin(), args.end());
+        const Outcome outcome = run(all);
+        EXPECT_EQ(outcome.code, kExitBadInput) << args[0];
+        EXPECT_THAT(outcome.err, HasSubstr(args[0]));
+        EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    }
+    EXPECT_THAT(run({in_}).err, HasSubstr("warning: nothing is written"));
 }
 
 TEST_F(OdometryApp, untrackedFramesSaySoInTheRawlog)
@@ -360,7 +473,7 @@ TEST_F(OdometryApp, externalFilesStayReachableFromTheOutput)
     const Outcome outcome = run({in_, "-o", out_});
     EXPECT_EQ(outcome.code, kExitIncomplete);
     EXPECT_THAT(outcome.err, HasSubstr("in_Images/1.bin: No such file"));
-    EXPECT_THAT(outcome.err, HasSubstr("in_Images/2.png: is not an image, or damaged"));
+    EXPECT_THAT(outcome.out, HasSubstr("in_Images/2.png: is not an image, or damaged"));
     EXPECT_EQ(numPoses(out_), 3U);
 }
 

@@ -31,6 +31,7 @@ RobotMotion RobotTrajectory::add(const OdometryResult& result, const Eigen::Isom
     out.status = result.status;
     out.reason = result.reason;
     out.diagnostics = result.diagnostics;
+    out.cameraPose = result.pose;
     out.increment = toMrpt(onRobot(T_robot_cam_.front(), result.increment, T_robot_cam));
     out.pose = toMrpt(onRobot(T_robot_cam_first_, result.pose, T_robot_cam));
     for (std::size_t k = 0; k < std::min(result.since.size(), T_robot_cam_.size()); ++k)

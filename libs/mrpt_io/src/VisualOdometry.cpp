@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/mrpt_io/VisualOdometry.h>
-#include <pointplane/mrpt_io/mrpt_poses.h>
 #include <pointplane/mrpt_io/params_ini.h>
+
+#include <mrpt/core/format.h>
 
 namespace pointplane
 {
@@ -18,7 +19,11 @@ void VisualOdometry::loadFromConfigFileName(const std::string& path)
 
 RobotMotion VisualOdometry::process(const mrpt::obs::CObservation3DRangeScan& scan)
 {
-    const ConvertedFrame converted = converter_.convert(scan);
+    return process(converter_.convert(scan));
+}
+
+RobotMotion VisualOdometry::process(const ConvertedFrame& converted)
+{
     const bool usable = converted.problem.empty();
     const OdometryResult result = odometry_.process(converted.frame);
     RobotMotion motion =
@@ -27,14 +32,13 @@ RobotMotion VisualOdometry::process(const mrpt::obs::CObservation3DRangeScan& sc
     {
         motion.reason = converted.problem;
     }
+    const auto stamp = [&] { return mrpt::format("%.6f", converted.frame.stamp); };
     if (motion.status == TrackingStatus::Predicted || motion.status == TrackingStatus::Lost)
     {
-        MRPT_LOG_WARN_STREAM(
-            stampText(scan.timestamp) << ": " << toString(motion.status) << ": " << motion.reason);
+        MRPT_LOG_WARN_STREAM(stamp() << ": " << toString(motion.status) << ": " << motion.reason);
     }
     MRPT_LOG_DEBUG_STREAM(
-        stampText(scan.timestamp) << ": " << toString(motion.status) << " "
-                                  << motion.pose.mean.asString());
+        stamp() << ": " << toString(motion.status) << " " << motion.pose.mean.asString());
     return motion;
 }
 

@@ -19,6 +19,7 @@ struct RobotMotion
     mrpt::poses::CPose3DPDFGaussian increment;           //!< since the previous frame
     mrpt::poses::CPose3DPDFGaussian pose;                //!< since the first frame
     std::vector<mrpt::poses::CPose3DPDFGaussian> since;  //!< since 1, 2, ... frames ago
+    PoseGaussian cameraPose;  //!< T_first_cam of the camera, optical axes
     FrameDiagnostics diagnostics;
 };
 

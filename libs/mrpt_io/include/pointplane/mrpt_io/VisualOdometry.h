@@ -36,6 +36,10 @@ class VisualOdometry : public mrpt::system::COutputLogger
     /** \return increment and pose in the robot's frame: sensorPose is taken into account */
     [[nodiscard]] RobotMotion process(const mrpt::obs::CObservation3DRangeScan& scan);
 
+    /** The same for a frame that an ObservationConverter has made, in another thread for instance.
+     * One that has a problem (ConvertedFrame::problem) is Lost for that reason. */
+    [[nodiscard]] RobotMotion process(const ConvertedFrame& converted);
+
     /** Points and planes of the latest frame, camera's optical frame. */
     [[nodiscard]] const FrameFeatures& features() const { return odometry_.features(); }
     [[nodiscard]] const TParams& params() const { return odometry_.params(); }
