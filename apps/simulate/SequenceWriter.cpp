@@ -3,11 +3,16 @@
 
 #include <pointplane/mrpt_io/ObservationConverter.h>
 #include <pointplane/mrpt_io/ScanWriter.h>
+#include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/mrpt_poses.h>
 #include <pointplane/mrpt_io/rawlog_names.h>
 
+#include <opencv2/imgcodecs.hpp>
+
 #include <algorithm>
+#include <cstdio>
 #include <deque>
+#include <filesystem>
 #include <future>
 #include <optional>
 #include <thread>
@@ -57,6 +62,26 @@ class Renderers
     int started_{0};
 };
 
+/** One picture a frame, of the colour image's pixels: 0 = the still world, i + 1 = mover i. */
+void writeMasks(const SimulatedSequence& sequence, const std::string& folder)
+{
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error)
+    {
+        throw EnvironmentError("cannot create " + folder + ": " + error.message());
+    }
+    for (int i = 0; i < sequence.numFrames(); ++i)
+    {
+        char name[32];
+        std::snprintf(name, sizeof name, "/%06d.png", i);
+        if (!cv::imwrite(folder + name, sequence.trueMovers(i).labels))
+        {
+            throw EnvironmentError(folder + name + ": cannot be written");
+        }
+    }
+}
+
 void writeGroundTruth(const SimulatedSequence& sequence, const SequenceOutput& output)
 {
     TextOutput file(groundTruthOf(output.path));
@@ -76,6 +101,12 @@ void writeGroundTruth(const SimulatedSequence& sequence, const SequenceOutput& o
     file.close();
 }
 }  // namespace
+
+std::string masksFolderOf(const std::string& rawlog)
+{
+    const std::string images = imagesFolderOf(rawlog), suffix = "_Images";
+    return images.substr(0, images.size() - suffix.size()) + "_Masks";
+}
 
 Eigen::Isometry3d robotFromCamera(const Eigen::Isometry3d& T_world_cam)
 {
@@ -115,6 +146,10 @@ void writeSequence(
         }
     }
     writeGroundTruth(sequence, output);
+    if (output.masks)
+    {
+        writeMasks(sequence, masksFolderOf(output.path));
+    }
     writer.close();
 }
 }  // namespace pointplane

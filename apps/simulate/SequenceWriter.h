@@ -14,10 +14,14 @@ struct SequenceOutput
     std::string label{"RGBD"};
     bool external{false};
     bool hideShutter{false};
+    bool masks{false};                  //!< what moves, as pictures in masksFolderOf(path)
     std::string truthFrame{"optical"};  //!< whose poses the ground truth holds, or "robot"
     bool quiet{false};
     std::string description;  //!< goes into a comment at the beginning, to render it again
 };
+
+/** NAME_Masks beside NAME.rawlog. */
+[[nodiscard]] std::string masksFolderOf(const std::string& rawlog);
 
 /** Pose of the robot, MRPT axes (x forward, y left, z up), whose camera has sensorPose = identity:
  * what the odometry reports poses of. */

@@ -4,6 +4,7 @@
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/params_ini.h>
 #include <pointplane/mrpt_io/rawlog_names.h>
+#include <pointplane/simulation/Scene.h>
 #include <pointplane/simulation/scenes.h>
 
 #include <cstdint>
@@ -71,6 +72,10 @@ void addOptions(CLI::App& app, Arguments& args)
     app.add_flag("--external", args.output.external, "images as files beside the rawlog");
     app.add_flag(
         "--hide-shutter", args.output.hideShutter, "do not tell the rows' times in the rawlog");
+    app.add_flag(
+        "--masks",
+        args.output.masks,
+        "a picture a frame of what moves, in NAME_Masks: 0 = the still world, 1, 2, ... = movers");
     app.add_option(
            "--truth-frame",
            args.output.truthFrame,
@@ -131,6 +136,11 @@ int simulate(Arguments& args, std::ostream& out, std::ostream& err)
     writeSequence(sequence, args.output, err);
     out << args.output.path << ": " << sequence.numFrames() << " frames\n"
         << groundTruthOf(args.output.path) << ": ground truth\n";
+    if (args.output.masks)
+    {
+        out << masksFolderOf(args.output.path) << ": masks of " << sequence.scene()->movers.size()
+            << " movers\n";
+    }
     return kExitOk;
 }
 }  // namespace

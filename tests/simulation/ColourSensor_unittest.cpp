@@ -41,6 +41,22 @@ TEST(ColourSensor, noiseHasTheSigmaAskedForAndGrowsWithBrightness)
     }
 }
 
+TEST(ColourSensor, inLowLightShotNoiseGrowsByTheRootOfTheGain)
+{
+    SimulationParams params = SimulationParams::ideal();
+    params.imageNoise = 1.5;
+    params.light = 0.1;
+    const ColourSensor sensor(params, 1);
+    for (const int level : {64, 128})
+    {
+        cv::Scalar mean, sigma;
+        cv::meanStdDev(sensor.sense({grey(level)}, 0, 7), mean, sigma);
+        EXPECT_NEAR(mean[0], level, 0.2) << "the gain keeps the brightness";
+        const double variance = 1.5 * 1.5 * (0.5 / 0.01 + level / 256.0 / 0.1);
+        EXPECT_NEAR(sigma[1], std::sqrt(variance + 1.0 / 12), 0.1);
+    }
+}
+
 TEST(ColourSensor, vignettingDarkensCorners)
 {
     SimulationParams params = SimulationParams::ideal();

@@ -11,6 +11,7 @@
 #include <mrpt/obs/CObservationComment.h>
 
 #include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
 
 #include <cmath>
 #include <filesystem>
@@ -178,6 +179,25 @@ TEST(SimulateApp, externalImagesAreTheEmbeddedOnes)
         ASSERT_EQ(external[i].problem, "");
         EXPECT_EQ(largestDifference(external[i].frame.depth, embedded[i].frame.depth), 0);
         EXPECT_EQ(cv::norm(external[i].frame.gray, embedded[i].frame.gray, cv::NORM_INF), 0);
+    }
+}
+
+TEST(SimulateApp, masksTellWhatMoves)
+{
+    const test::TempDir dir;
+    std::vector<std::string> args = smallRun(dir / "a.rawlog");
+    args[0] = "half";
+    args.emplace_back("--masks");
+    const Finished done = run(args);
+    ASSERT_EQ(done.code, 0) << done.err;
+    EXPECT_THAT(done.out, testing::HasSubstr("a_Masks: masks of 1 movers"));
+    const SimulatedSequence sequence("half", smallParams(), 9);
+    for (int i = 0; i < sequence.numFrames(); ++i)
+    {
+        const std::string file = "a_Masks/00000" + std::to_string(i) + ".png";
+        const cv::Mat mask = cv::imread(dir / file, cv::IMREAD_UNCHANGED);
+        ASSERT_EQ(mask.type(), CV_8UC1) << file;
+        EXPECT_EQ(cv::norm(mask, sequence.trueMovers(i).labels, cv::NORM_INF), 0);
     }
 }
 

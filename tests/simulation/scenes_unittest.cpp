@@ -88,12 +88,23 @@ TEST_P(EveryScene, fillsTheViewWhateverTheSeed)
 INSTANTIATE_TEST_SUITE_P(
     scenes,
     EveryScene,
-    testing::Values("corner", "desk", "room", "notexture", "cabinet", "corridor", "corridor_floor"),
+    testing::Values(
+        "corner",
+        "desk",
+        "room",
+        "notexture",
+        "cabinet",
+        "corridor",
+        "corridor_floor",
+        "person",
+        "push",
+        "door",
+        "half"),
     [](const auto& scene) { return scene.param; });
 
 TEST(scenes, listAndNamesAgree)
 {
-    EXPECT_EQ(sceneList().size(), 7U);
+    EXPECT_EQ(sceneList().size(), 11U);
     for (const SceneInfo& info : sceneList())
     {
         EXPECT_EQ(makeScene(info.name, 1).name, info.name);

@@ -47,8 +47,10 @@ ColourSensor::ColourSensor(const SimulationParams& params, std::uint64_t seed)
     }
     for (int i = 0; i < 256; ++i)
     {
-        // Half of the variance at mid grey is read-out noise, half is shot noise.
-        sigmas_.push_back(static_cast<float>(params.imageNoise * std::sqrt(0.5 + i / 256.0)));
+        // Half of the variance at mid grey is read-out noise, half is shot noise. With less light
+        // the gain multiplies both; of the shot noise there was less.
+        const double readOut = 0.5 / (params.light * params.light), shot = i / 256.0 / params.light;
+        sigmas_.push_back(static_cast<float>(params.imageNoise * std::sqrt(readOut + shot)));
     }
 }
 

@@ -64,8 +64,7 @@ cv::Vec3i sampleColour(const RowCaster& caster, const Candidates& candidates, do
     return hit < 0 ? cv::Vec3i(0, 0, 0) : cv::Vec3i(caster.colourAt(u, hit, nearest));
 }
 
-void smoothEdges(
-    RowCaster& caster, const Eigen::Isometry3d& pose, const cv::Mat& ids, int v, cv::Mat& bgr)
+void smoothEdges(RowCaster& caster, const RowPose& pose, const cv::Mat& ids, int v, cv::Mat& bgr)
 {
     const auto* row = ids.ptr<std::int32_t>(v);
     const auto* above = ids.ptr<std::int32_t>(std::max(v - 1, 0));
@@ -83,7 +82,7 @@ void smoothEdges(
     std::vector<cv::Vec3i> sums(edges.size(), cv::Vec3i(0, 0, 0));
     for (std::size_t s = 0; s < kSamples && !edges.empty(); ++s)
     {
-        caster.setRow(pose, v + kOffsets[s][1]);
+        caster.setRow(pose.T_world_cam, v + kOffsets[s][1], pose.t);
         for (std::size_t k = 0; k < edges.size(); ++k)
         {
             sums[k] += sampleColour(caster, candidates[k], edges[k] + kOffsets[s][0]);
@@ -113,7 +112,8 @@ CastImage castImage(const Scene& scene, const PinholeCamera& camera, const RowPo
     RowCaster caster(scene, camera);
     for (int v = 0; v < camera.height; ++v)
     {
-        caster.setRow(poses[static_cast<std::size_t>(v)], v);
+        const RowPose& pose = poses[static_cast<std::size_t>(v)];
+        caster.setRow(pose.T_world_cam, v, pose.t);
         caster.cast(out.inverseDepth.ptr<float>(v), out.ids.ptr<std::int32_t>(v));
     }
     return out;
@@ -131,8 +131,8 @@ cv::Mat shadeImage(
     RowCaster caster(scene, camera);
     for (int v = 0; v < camera.height; ++v)
     {
-        const Eigen::Isometry3d& pose = poses[static_cast<std::size_t>(v)];
-        caster.setRow(pose, v);
+        const RowPose& pose = poses[static_cast<std::size_t>(v)];
+        caster.setRow(pose.T_world_cam, v, pose.t);
         caster.shade(
             cast.inverseDepth.ptr<float>(v), cast.ids.ptr<std::int32_t>(v), bgr.ptr<cv::Vec3b>(v));
         if (antialias)

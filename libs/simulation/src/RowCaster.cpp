@@ -58,30 +58,43 @@ void RowCaster::Interval::keepNegative(double a, double b, double c)
     high = std::min(high, (-b + root) / (2 * a));
 }
 
-void RowCaster::setRow(const Eigen::Isometry3d& T_world_cam, double v)
+RowCaster::View RowCaster::viewFrom(const Eigen::Isometry3d& T_world_cam) const
 {
-    R_cam_world_ = T_world_cam.linear().transpose();
-    eye_ = T_world_cam.translation();
+    View out;
+    out.R_cam_world = T_world_cam.linear().transpose();
+    out.eye = T_world_cam.translation();
+    out.rayStep = T_world_cam.linear().col(0) / camera_.fx;
+    out.rayOrigin = T_world_cam.linear() *
+                    Eigen::Vector3d(-camera_.cx / camera_.fx, (v_ - camera_.cy) / camera_.fy, 1);
+    return out;
+}
+
+void RowCaster::setRow(const Eigen::Isometry3d& T_world_cam, double v, double t)
+{
     v_ = v;
-    rayStep_ = T_world_cam.linear().col(0) / camera_.fx;
-    rayOrigin_ = T_world_cam.linear() *
-                 Eigen::Vector3d(-camera_.cx / camera_.fx, (v - camera_.cy) / camera_.fy, 1);
+    views_.clear();
+    views_.push_back(viewFrom(T_world_cam));
+    for (const Mover& mover : scene_.movers)
+    {
+        views_.push_back(viewFrom(mover.T_world_rest(t).inverse() * T_world_cam));
+    }
 }
 
 bool RowCaster::planeInterval(const Surface& s, Linear& q, Interval& interval) const
 {
-    const Eigen::Vector3d o = eye_ - s.origin;
+    const View& view = viewOf(s);
+    const Eigen::Vector3d o = view.eye - s.origin;
     const double above = o.dot(s.e3);
     if (above <= 1e-6)
     {
         return false;
     }
-    const Linear n = along(s.e3);
+    const Linear n = view.along(s.e3);
     q = {-n.c0 / above, -n.c1 / above};
     interval.keepPositive({q.c0 - kMinInverseDepth, q.c1});
     // Position on the plane times q.
     const double so = o.dot(s.e1), to = o.dot(s.e2);
-    const Linear e1 = along(s.e1), e2 = along(s.e2);
+    const Linear e1 = view.along(s.e1), e2 = view.along(s.e2);
     const Linear sq{e1.c0 + so * q.c0, e1.c1 + so * q.c1};
     const Linear tq{e2.c0 + to * q.c0, e2.c1 + to * q.c1};
     if (s.kind == Surface::Kind::Rectangle)
@@ -141,7 +154,8 @@ void RowCaster::cast(float* inverseDepth, std::int32_t* id) const
 
 void RowCaster::castCylinder(const Surface& s, std::int32_t id, float* q, std::int32_t* ids) const
 {
-    const Eigen::Vector3d centre = R_cam_world_ * (s.origin + 0.5 * s.height * s.e3 - eye_);
+    const View& view = viewOf(s);
+    const Eigen::Vector3d centre = view.R_cam_world * (s.origin + 0.5 * s.height * s.e3 - view.eye);
     const double reach = std::hypot(0.5 * s.height, s.radius);
     double low = 0, high = camera_.width - 1;
     if (centre.z() > 2 * reach)
@@ -166,7 +180,7 @@ void RowCaster::castCylinder(const Surface& s, std::int32_t id, float* q, std::i
     }
     for (int u = static_cast<int>(std::ceil(low)); u <= static_cast<int>(std::floor(high)); ++u)
     {
-        const auto here = static_cast<float>(s.inverseDepth(eye_, rayOrigin_ + u * rayStep_));
+        const auto here = static_cast<float>(s.inverseDepth(view.eye, view.ray(u)));
         if (here > q[u])
         {
             q[u] = here;
@@ -219,10 +233,11 @@ void RowCaster::shade(const float* inverseDepth, const std::int32_t* id, cv::Vec
 void RowCaster::shadePlane(
     const Surface& s, int begin, int end, const float* q, cv::Vec3b* bgr) const
 {
-    const Eigen::Vector3d o = eye_ - s.origin;
+    const View& view = viewOf(s);
+    const Eigen::Vector3d o = view.eye - s.origin;
     const double perTexel = 1 / s.texture.texel();
     const double middle = s.kind == Surface::Kind::Disc ? s.radius : 0;
-    const Linear e1 = along(s.e1), e2 = along(s.e2);
+    const Linear e1 = view.along(s.e1), e2 = view.along(s.e2);
     const auto x0 = static_cast<float>((o.dot(s.e1) + middle) * perTexel - 0.5);
     const auto y0 = static_cast<float>((o.dot(s.e2) + middle) * perTexel - 0.5);
     const auto xa = static_cast<float>(e1.c0 * perTexel), xb = static_cast<float>(e1.c1 * perTexel);
@@ -255,17 +270,19 @@ void RowCaster::shadePlane(
 double RowCaster::inverseDepthAt(double u, std::int32_t id) const
 {
     const Surface& s = scene_.surfaces[static_cast<std::size_t>(id)];
-    return s.inverseDepth(eye_, rayOrigin_ + u * rayStep_);
+    const View& view = viewOf(s);
+    return s.inverseDepth(view.eye, view.ray(u));
 }
 
 cv::Vec3b RowCaster::colourAt(double u, std::int32_t id, double inverseDepth) const
 {
     const Surface& s = scene_.surfaces[static_cast<std::size_t>(id)];
-    const Eigen::Vector3d point = eye_ + (rayOrigin_ + u * rayStep_) / inverseDepth;
+    const View& view = viewOf(s);
+    const Eigen::Vector3d point = view.eye + view.ray(u) / inverseDepth;
     const Eigen::Vector2d at =
         s.worldToPicture(point) / s.texture.texel() - Eigen::Vector2d::Constant(0.5);
     const bool plane = s.isPlane();
-    const double above = plane ? (eye_ - s.origin).dot(s.e3) : kCylinderSlope;
+    const double above = plane ? (view.eye - s.origin).dot(s.e3) : kCylinderSlope;
     const float lod = levelOffset(s, above) +
                       (plane ? 1.75F : 1.0F) * coarseLog2(static_cast<float>(1 / inverseDepth));
     return toBgr(s.texture.sample(static_cast<float>(at.x()), static_cast<float>(at.y()), lod));

@@ -4,6 +4,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace pointplane
@@ -18,8 +19,9 @@ bool isLit(const Scene& scene, const Eigen::Vector3d& lamp, const Eigen::Vector3
     const Eigen::Vector3d ray = point - lamp;
     for (const Surface& surface : scene.surfaces)
     {
-        // 1 / z = 1 at the point itself; surfaces touching it do not count.
-        if (surface.inverseDepth(lamp, ray) > 1.005)
+        // 1 / z = 1 at the point itself; surfaces touching it do not count. What moves casts no
+        // shadow: that would not stay where it is painted.
+        if (surface.mover < 0 && surface.inverseDepth(lamp, ray) > 1.005)
         {
             return false;
         }
@@ -73,6 +75,16 @@ cv::Mat lightMap(const Scene& scene, const Lamp& lamp, const Surface& surface)
     return map;
 }
 }  // namespace
+
+Scene withoutMovers(const Scene& scene)
+{
+    Scene out = scene;
+    out.movers.clear();
+    const auto moves = [](const Surface& surface) { return surface.mover >= 0; };
+    out.surfaces.erase(
+        std::remove_if(out.surfaces.begin(), out.surfaces.end(), moves), out.surfaces.end());
+    return out;
+}
 
 void bakeTextures(
     Scene& scene,

@@ -3,6 +3,7 @@
 #include <pointplane/simulation/SceneBuilder.h>
 
 #include <cmath>
+#include <utility>
 
 namespace pointplane
 {
@@ -17,6 +18,7 @@ void SceneBuilder::add(Surface surface, const Finish& finish)
     }
     canvas.turnOver();  // painted top row first, while t points up
     surface.hasDepth = finish.hasDepth;
+    surface.mover = mover_;
     scene_.surfaces.push_back(std::move(surface));
     pictures_.push_back(canvas.picture());
     texels_.push_back(canvas.texel());
@@ -82,6 +84,13 @@ void SceneBuilder::addCylinder(
     top.kind = Surface::Kind::Disc;
     top.origin.z() += height;
     add(std::move(top), lid);
+}
+
+void SceneBuilder::beginMover(
+    const std::string& name, std::function<Eigen::Isometry3d(double t)> path)
+{
+    mover_ = static_cast<int>(scene_.movers.size());
+    scene_.movers.push_back({name, std::move(path)});
 }
 
 Scene SceneBuilder::build(const Lamp& lamp)

@@ -17,7 +17,10 @@ namespace pointplane
 struct SimulatedSequence::Impl
 {
     Impl(std::shared_ptr<const Scene> aScene, const TParams& aParams, std::uint64_t aSeed)
-        : scene(std::move(aScene)),
+        : scene(
+              aParams.movers || aScene->movers.empty()
+                  ? std::move(aScene)
+                  : std::make_shared<const Scene>(withoutMovers(*aScene))),
           params(aParams),
           seed(aSeed),
           camera(params.camera()),
@@ -29,22 +32,33 @@ struct SimulatedSequence::Impl
 
     [[nodiscard]] double time(int frame) const { return frame / params.fps; }
 
+    /** T_world_cam. */
+    [[nodiscard]] Eigen::Isometry3d pose(double t) const
+    {
+        return path.pose(params.motionSpeed * t);
+    }
+
     [[nodiscard]] RowPoses rowPoses(double middle, double readout) const
     {
         const auto rows = static_cast<std::size_t>(camera.height);
         if (readout == 0)
         {
-            return RowPoses(rows, path.pose(middle));
+            return RowPoses(rows, {pose(middle), middle});
         }
         RowPoses out;
         out.reserve(rows);
         for (int v = 0; v < camera.height; ++v)
         {
             // As in ShutterModel.
-            out.push_back(
-                path.pose(middle + (static_cast<double>(v) / camera.height - 0.5) * readout));
+            const double t = middle + (static_cast<double>(v) / camera.height - 0.5) * readout;
+            out.push_back({pose(t), t});
         }
         return out;
+    }
+
+    [[nodiscard]] RowPoses colourPoses(int frame) const
+    {
+        return rowPoses(time(frame), params.readoutColour);
     }
 
     [[nodiscard]] RowPoses depthPoses(int frame) const
@@ -60,10 +74,26 @@ struct SimulatedSequence::Impl
             return 1;
         }
         const double half = 0.5 * params.exposure;
-        const Vector6d motion = se3Log(path.pose(t - half).inverse() * path.pose(t + half));
-        const double typicalDepth = 1.5, step_px = 1.25;
-        const double flow_px =
+        const Eigen::Isometry3d T_cam_before = pose(t - half).inverse();
+        const Eigen::Isometry3d T_cam_after = pose(t + half).inverse();
+        const Vector6d motion = se3Log(T_cam_before * T_cam_after.inverse());
+        const double typicalDepth = 1.5, nearest = 0.5, step_px = 1.25;
+        double flow_px =
             camera.fx * (motion.head<3>().norm() / typicalDepth + motion.tail<3>().norm());
+        for (const Surface& surface : scene->surfaces)
+        {
+            if (surface.mover < 0)
+            {
+                continue;
+            }
+            const Mover& mover = scene->movers[static_cast<std::size_t>(surface.mover)];
+            const Eigen::Vector3d before =
+                T_cam_before * (mover.T_world_rest(t - half) * surface.origin);
+            const Eigen::Vector3d after =
+                T_cam_after * (mover.T_world_rest(t + half) * surface.origin);
+            const double way = camera.fx * (after - before).norm();
+            flow_px = std::max(flow_px, way / std::max(after.z(), nearest));
+        }
         return std::clamp(static_cast<int>(std::ceil(flow_px / step_px)), 1, params.maxBlurSamples);
     }
 
@@ -155,12 +185,12 @@ RgbdFrame SimulatedSequence::frame(int frame, cv::Mat* colour) const
 
 Eigen::Isometry3d SimulatedSequence::truth(double stamp) const
 {
-    return impl_->path.pose(stamp - impl_->params.startStamp);
+    return impl_->pose(stamp - impl_->params.startStamp);
 }
 
 Eigen::Isometry3d SimulatedSequence::trueMotion(int a, int b) const
 {
-    return impl_->path.pose(impl_->time(a)).inverse() * impl_->path.pose(impl_->time(b));
+    return impl_->pose(impl_->time(a)).inverse() * impl_->pose(impl_->time(b));
 }
 
 TruePlanes SimulatedSequence::truePlanes(int frame) const
@@ -168,7 +198,7 @@ TruePlanes SimulatedSequence::truePlanes(int frame) const
     POINTPLANE_CHECK(frame >= 0 && frame < numFrames(), "frame " << frame << " of " << numFrames());
     const Impl& s = *impl_;
     const CastImage cast = castImage(*s.scene, s.camera, s.depthPoses(frame));
-    const Eigen::Isometry3d T_cam_world = s.path.pose(s.time(frame)).inverse();
+    const Eigen::Isometry3d T_cam_world = s.pose(s.time(frame)).inverse();
     TruePlanes out;
     out.labels = cv::Mat::zeros(cast.ids.size(), CV_8UC1);
     std::vector<int> labelOf(s.scene->surfaces.size(), 0);
@@ -185,11 +215,40 @@ TruePlanes SimulatedSequence::truePlanes(int frame) const
             int& label = labelOf[static_cast<std::size_t>(id)];
             if (label == 0 && out.planes_cam.size() < 255)
             {
+                const Eigen::Isometry3d T_cam_rest =
+                    surface.mover < 0
+                        ? T_cam_world
+                        : T_cam_world *
+                              s.scene->movers[static_cast<std::size_t>(surface.mover)].T_world_rest(
+                                  s.time(frame));
                 out.planes_cam.push_back(
-                    transformed(T_cam_world, {surface.e3, -surface.e3.dot(surface.origin)}));
+                    transformed(T_cam_rest, {surface.e3, -surface.e3.dot(surface.origin)}));
                 label = static_cast<int>(out.planes_cam.size());
             }
             out.labels.at<uchar>(v, u) = static_cast<uchar>(label);
+        }
+    }
+    return out;
+}
+
+TrueMovers SimulatedSequence::trueMovers(int frame) const
+{
+    POINTPLANE_CHECK(frame >= 0 && frame < numFrames(), "frame " << frame << " of " << numFrames());
+    const Impl& s = *impl_;
+    TrueMovers out;
+    for (const Mover& mover : s.scene->movers)
+    {
+        out.T_world_rest.push_back(mover.T_world_rest(s.time(frame)));
+    }
+    const CastImage cast = castImage(*s.scene, s.camera, s.colourPoses(frame));
+    out.labels = cv::Mat::zeros(cast.ids.size(), CV_8UC1);
+    for (int v = 0; v < cast.ids.rows; ++v)
+    {
+        for (int u = 0; u < cast.ids.cols; ++u)
+        {
+            const std::int32_t id = cast.ids.at<std::int32_t>(v, u);
+            const int mover = id < 0 ? -1 : s.scene->surfaces[static_cast<std::size_t>(id)].mover;
+            out.labels.at<uchar>(v, u) = static_cast<uchar>(mover + 1);
         }
     }
     return out;

@@ -32,6 +32,7 @@ void SimulationParams::check() const
     inRange("duration", duration, 0, 36000);
     inRange("startStamp", startStamp, 0, 1e10);
     inRange("motionScale", motionScale, 0, 10);
+    inRange("motionSpeed", motionSpeed, 0, 100);
     inRange("sceneSeed", sceneSeed, 0, 1e9);
     inRange("readoutColour", readoutColour, 0, 1);
     inRange("readoutDepth", readoutDepth, 0, 1);
@@ -40,6 +41,7 @@ void SimulationParams::check() const
     inRange("maxBlurSamples", maxBlurSamples, 1, 100);
     inRange("lensBlurPx", lensBlurPx, 0, 10);
     inRange("imageNoise", imageNoise, 0, 50);
+    inRange("light", light, 1e-4, 1);
     inRange("vignetting", vignetting, 0, 0.9);
     inRange("exposureSwing", exposureSwing, 0, 0.9);
     inRange("sigmaInverseDepth", sigmaInverseDepth, 0, 0.1);

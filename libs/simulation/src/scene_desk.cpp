@@ -150,6 +150,7 @@ void addObjects(SceneBuilder& builder, Random& random, double top)
     box(-2.1, 1.4, 0, 0.6, 0.8, 0.9, 0.3);
     box(-2.2, -1.2, 0, 0.4, 1.1, 1.3, 0);
 }
+}  // namespace
 
 SceneBuilder furnishedRoom(const std::string& name, std::uint64_t seed)
 {
@@ -170,7 +171,6 @@ Lamp roomLamp()
     lamp.position = {0.0, 0.4, 2.5};
     return lamp;
 }
-}  // namespace
 
 Scene makeDesk(std::uint64_t seed)
 {

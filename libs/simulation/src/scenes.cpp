@@ -26,7 +26,11 @@ const std::vector<Entry>& entries()
         {{"cabinet", "around a cabinet, little texture"}, makeCabinet},
         {{"corridor", "along two parallel blank walls, nothing else has depth"}, makeCorridor},
         {{"corridor_floor", "along a blank corridor with floor and ceiling"},
-         makeCorridorWithFloor}};
+         makeCorridorWithFloor},
+        {{"person", "a furnished room, a person walks across"}, makePerson},
+        {{"push", "objects on a desk, one is pushed about"}, makePush},
+        {{"door", "a furnished room, a cupboard's door opens and closes"}, makeDoor},
+        {{"half", "a furnished room, half of the view is a printed screen that moves"}, makeHalf}};
     return all;
 }
 }  // namespace

@@ -10,8 +10,15 @@
 
 namespace pointplane
 {
-/** The camera's pose T_world_cam when each row of a picture was taken, top row first. */
-using RowPoses = std::vector<Eigen::Isometry3d>;
+/** When a row of a picture was taken, and from where. */
+struct RowPose
+{
+    Eigen::Isometry3d T_world_cam{Eigen::Isometry3d::Identity()};
+    double t{0};  //!< [s] since the beginning: where the movers are
+};
+
+/** Those of a picture, top row first. */
+using RowPoses = std::vector<RowPose>;
 
 /** What the rays of a picture hit. */
 struct CastImage

@@ -7,6 +7,7 @@
 #include <opencv2/core/matx.hpp>
 
 #include <cstdint>
+#include <vector>
 
 namespace pointplane
 {
@@ -19,8 +20,8 @@ class RowCaster
     /** Keeps references. \param camera without lens distortion */
     RowCaster(const Scene& scene, const PinholeCamera& camera) : scene_(scene), camera_(camera) {}
 
-    /** Sets the row to be cast. \param v row, may be fractional */
-    void setRow(const Eigen::Isometry3d& T_world_cam, double v);
+    /** Sets the row to be cast. \param v row, may be fractional \param t [s], where movers are */
+    void setRow(const Eigen::Isometry3d& T_world_cam, double v, double t = 0);
 
     /** \param inverseDepth out, [1/m] along the optical axis, 0 = nothing there
      * \param id out, index of the surface, -1 = nothing */
@@ -50,9 +51,24 @@ class RowCaster
         void keepNegative(double a, double b, double c);  //!< a u^2 + b u + c <= 0, a > 0
     };
 
-    [[nodiscard]] Linear along(const Eigen::Vector3d& w) const
+    /** The row as it is seen from the world or, for its surfaces, from a mover at rest. */
+    struct View
     {
-        return {w.dot(rayOrigin_), w.dot(rayStep_)};
+        Eigen::Matrix3d R_cam_world{Eigen::Matrix3d::Identity()};
+        Eigen::Vector3d eye{0, 0, 0};
+        Eigen::Vector3d rayOrigin{0, 0, 1}, rayStep{0, 0, 0};  //!< ray(u) = origin + u step
+
+        [[nodiscard]] Linear along(const Eigen::Vector3d& w) const
+        {
+            return {w.dot(rayOrigin), w.dot(rayStep)};
+        }
+        [[nodiscard]] Eigen::Vector3d ray(double u) const { return rayOrigin + u * rayStep; }
+    };
+
+    [[nodiscard]] View viewFrom(const Eigen::Isometry3d& T_world_cam) const;
+    [[nodiscard]] const View& viewOf(const Surface& s) const
+    {
+        return views_[static_cast<std::size_t>(s.mover + 1)];
     }
     [[nodiscard]] bool planeInterval(const Surface& s, Linear& q, Interval& interval) const;
     void castCylinder(const Surface& s, std::int32_t id, float* q, std::int32_t* ids) const;
@@ -61,9 +77,7 @@ class RowCaster
 
     const Scene& scene_;
     const PinholeCamera& camera_;
-    Eigen::Matrix3d R_cam_world_{Eigen::Matrix3d::Identity()};
-    Eigen::Vector3d eye_{0, 0, 0};
-    Eigen::Vector3d rayOrigin_{0, 0, 1}, rayStep_{0, 0, 0};  //!< ray(u) = origin + u step, world
+    std::vector<View> views_;  //!< of the world, then of the movers
     double v_{0};
 };
 }  // namespace pointplane

@@ -4,18 +4,31 @@
 #include <pointplane/simulation/CameraPath.h>
 #include <pointplane/simulation/Surface.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
 namespace pointplane
 {
-/** A world that stands still, and how a camera is carried through it. World: z up, metres. */
+/** Something rigid that moves. It carries the light that falls on it at rest along. */
+struct Mover
+{
+    std::string name;
+    /** Where what is at p at rest is at t [s] since the beginning: T_world_rest(t) p. */
+    std::function<Eigen::Isometry3d(double t)> T_world_rest;
+};
+
+/** A world, what moves in it, and how a camera is carried through it. World: z up, metres. */
 struct Scene
 {
     std::string name;
     std::vector<Surface> surfaces;
+    std::vector<Mover> movers;
     CameraMotion motion;
 };
+
+/** The same world without what moves. */
+[[nodiscard]] Scene withoutMovers(const Scene& scene);
 
 /** Light of a scene: a lamp with soft shadows, and as much from everywhere. */
 struct Lamp

@@ -56,6 +56,11 @@ class SceneBuilder
         const Finish& mantle,
         const Finish& lid);
 
+    /** What is added from now on belongs to a new mover, until endMover(). It stands where it is at
+     * rest. */
+    void beginMover(const std::string& name, std::function<Eigen::Isometry3d(double t)> path);
+    void endMover() { mover_ = -1; }
+
     /** The finished scene. */
     [[nodiscard]] Scene build(const Lamp& lamp);
 
@@ -63,6 +68,7 @@ class SceneBuilder
     void add(Surface surface, const Finish& finish);
 
     Scene scene_;
+    int mover_{-1};
     std::vector<cv::Mat> pictures_;
     std::vector<double> texels_;
 };

@@ -22,6 +22,15 @@ struct TruePlanes
     cv::Mat labels;                 //!< CV_8UC1: 0 = none or curved, i + 1 = planes_cam[i]
 };
 
+/** What moves in a frame. */
+struct TrueMovers
+{
+    cv::Mat labels;  //!< CV_8UC1, of the colour image: 0 = the still world, i + 1 = mover i
+    /** How each mover has moved in the world since it was at rest; what is on mover i at p in frame
+     * a is at T_world_rest_b T_world_rest_a^-1 p in frame b. */
+    std::vector<Eigen::Isometry3d> T_world_rest;
+};
+
 /** A sequence of RGB-D frames of a scene, with exact ground truth. Frames are rendered when asked
  * for, in any order, from any number of threads; same scene, parameters and seed give the same
  * bytes. World: z up. */
@@ -58,6 +67,10 @@ class SimulatedSequence
 
     /** Planes and their pixels, as in the depth image but without its gaps. */
     [[nodiscard]] TruePlanes truePlanes(int frame) const;
+
+    /** Movers and their pixels in the middle of the colour exposure. A mover has its label while it
+     * stands, too. */
+    [[nodiscard]] TrueMovers trueMovers(int frame) const;
 
  private:
     struct Impl;

@@ -18,6 +18,8 @@ struct SimulationParams
     double duration{18};
     double startStamp{1500000000};
     double motionScale{1};
+    double motionSpeed{1};
+    bool movers{true};
     int sceneSeed{1};
 
     double readoutColour{0.8 / 30};
@@ -29,6 +31,7 @@ struct SimulationParams
     bool antialias{true};
     double lensBlurPx{0.5};
     double imageNoise{1.5};
+    double light{1};
     double vignetting{0.15};
     double exposureSwing{0};
 
@@ -57,6 +60,8 @@ struct SimulationParams
         v("duration", duration, "s", "of the sequence");
         v("startStamp", startStamp, "s", "UTC of the first frame");
         v("motionScale", motionScale, "-", "multiplies the hand's motion");
+        v("motionSpeed", motionSpeed, "-", "how much faster the camera goes along the same path");
+        v("movers", movers, "-", "false: the same scene without what moves in it");
         v("sceneSeed", sceneSeed, "-", "chooses textures and small objects");
 
         v("readoutColour", readoutColour, "s", "first to last row of the colour image");
@@ -68,6 +73,11 @@ struct SimulationParams
         v("antialias", antialias, "-", "pixels at edges of surfaces are averages");
         v("lensBlurPx", lensBlurPx, "px", "standard deviation of the lens's blur");
         v("imageNoise", imageNoise, "1/255", "standard deviation of colour noise at mid grey");
+        v("light",
+          light,
+          "-",
+          "share of the light that the gain makes up for: shot noise grows by its root, read-out "
+          "noise by itself");
         v("vignetting", vignetting, "-", "loss of brightness in the corners");
         v("exposureSwing", exposureSwing, "-", "amplitude of slow changes of brightness");
 

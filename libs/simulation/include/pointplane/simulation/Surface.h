@@ -6,7 +6,8 @@
 
 namespace pointplane
 {
-/** One analytic piece of a scene. Its frame in the world is (origin; e1, e2, e3), e3 = e1 x e2.
+/** One analytic piece of a scene. Its frame in the world is (origin; e1, e2, e3), e3 = e1 x e2;
+ * that of a mover's surface is in the world as it is with the mover at rest.
  *
  * - Rectangle: origin + s e1 + t e2, 0 <= s <= width, 0 <= t <= height.
  * - Disc: origin + s e1 + t e2, s^2 + t^2 <= radius^2.
@@ -27,6 +28,7 @@ struct Surface
     double width{1}, height{1};  //!< [m]
     double radius{0};            //!< [m]
     bool hasDepth{true};         //!< false: returns no infrared light
+    int mover{-1};               //!< index of the mover in Scene::movers that it belongs to
     Texture texture;             //!< with the scene's light in it
 
     [[nodiscard]] bool isPlane() const { return kind != Kind::Cylinder; }
