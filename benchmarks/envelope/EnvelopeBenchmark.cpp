@@ -21,6 +21,8 @@ namespace pointplane
 {
 namespace
 {
+constexpr double kUsualRate = 30;  //!< [Hz]: it has every condition that any rate has
+
 /** Calls work(0) .. work(n - 1), any of them at the same time as others. */
 void forEachOf(std::size_t n, unsigned int jobs, const std::function<void(std::size_t)>& work)
 {
@@ -176,15 +178,17 @@ std::vector<SequenceSource> EnvelopeBenchmark::sources() const
 {
     std::vector<SequenceSource> out =
         data_.empty() ? std::vector<SequenceSource>() : recordedSequences(data_);
-    for (SequenceSource& scene : simulatedSequences(quick_ ? std::min(duration_, 3.0) : duration_))
+    const double seconds = quick_ ? std::min(duration_, 3.0) : duration_;
+    for (auto& scenes : {simulatedSequences(seconds), hardSimulatedSequences(seconds)})
     {
-        const bool isWanted =
-            !quick_ || scene.name == "simulated desk" || scene.name == "simulated notexture";
-        if (isWanted)
-        {
-            out.push_back(std::move(scene));
-        }
+        out.insert(out.end(), scenes.begin(), scenes.end());
     }
+    const std::regex rest(
+        "simulated (corner|cabinet.*|corridor|push|door|.*(twice as fast|blurred)|"
+        "notexture, .*)");
+    const auto isLeftOut = [&](const SequenceSource& source)
+    { return (quick_ && std::regex_match(source.name, rest)) || !mayBeWanted(source); };
+    out.erase(std::remove_if(out.begin(), out.end(), isLeftOut), out.end());
     return out;
 }
 
@@ -207,18 +211,34 @@ std::vector<NamedMethod> EnvelopeBenchmark::methods() const
     return out;
 }
 
-std::vector<Condition> EnvelopeBenchmark::conditionsOf(
-    const BenchmarkSequence& sequence, std::size_t numFrames, double rate) const
+bool EnvelopeBenchmark::isWanted(const std::string& cell) const
 {
-    const std::regex only = regexOf(only_);
-    std::vector<Condition> out;
-    for (Condition& condition : envelopeConditions(numFrames, rate, conditionOptions()))
+    return std::regex_search(cell, regexOf(only_));
+}
+
+/** Opening a sequence costs seconds: is there a condition at all that is wanted of it? */
+bool EnvelopeBenchmark::mayBeWanted(const SequenceSource& source) const
+{
+    constexpr std::size_t kManyFrames = 1000;
+    const auto all = envelopeConditions(kManyFrames, kUsualRate, conditionOptions());
+    return std::any_of(
+        all.begin(),
+        all.end(),
+        [&](const Condition& condition)
+        { return isWanted(cellName(source.name, condition.name)); });
+}
+
+std::vector<Condition> EnvelopeBenchmark::conditionsOf(
+    const BenchmarkSequence& sequence, double rate) const
+{
+    std::vector<Condition> out = envelopeConditions(sequence.numFrames, rate, conditionOptions());
+    if (sequence.isHardAlready)
     {
-        if (std::regex_search(cellName(sequence.name, condition.name), only))
-        {
-            out.push_back(std::move(condition));
-        }
+        out.resize(std::min<std::size_t>(out.size(), 1));  // at its own rate
     }
+    const auto isLeftOut = [&](const Condition& condition)
+    { return !isWanted(cellName(sequence.name, condition.name)); };
+    out.erase(std::remove_if(out.begin(), out.end(), isLeftOut), out.end());
     return out;
 }
 
@@ -227,18 +247,16 @@ std::vector<EnvelopeScore> EnvelopeBenchmark::scoreSequence(
     const std::vector<NamedMethod>& methods,
     std::ostream& err) const
 {
-    // The rate is known with the frames; any rate will do to see whether they are wanted.
-    const double someRate = 30;
-    if (!only_.empty() && conditionsOf(sequence, sequence.numFrames, someRate).empty())
+    if (conditionsOf(sequence, kUsualRate).empty())
     {
-        return {};
+        return {};  // before all of its frames are read
     }
     const std::vector<RgbdFrame> frames = allFrames(sequence, jobs_);
     struct Job
     {
         std::size_t score, run;
     };
-    const std::vector<Condition> conditions = conditionsOf(sequence, frames.size(), rateOf(frames));
+    const std::vector<Condition> conditions = conditionsOf(sequence, rateOf(frames));
     std::vector<Job> work;
     for (std::size_t c = 0; c < conditions.size(); ++c)
     {

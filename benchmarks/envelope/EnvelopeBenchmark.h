@@ -27,8 +27,10 @@ class EnvelopeBenchmark
     [[nodiscard]] ConditionOptions conditionOptions() const;
     [[nodiscard]] std::vector<SequenceSource> sources() const;
     [[nodiscard]] std::vector<NamedMethod> methods() const;
+    [[nodiscard]] bool isWanted(const std::string& cell) const;
+    [[nodiscard]] bool mayBeWanted(const SequenceSource& source) const;
     [[nodiscard]] std::vector<Condition> conditionsOf(
-        const BenchmarkSequence& sequence, std::size_t numFrames, double rate) const;
+        const BenchmarkSequence& sequence, double rate) const;
     [[nodiscard]] std::vector<EnvelopeScore> scoreSequence(
         const BenchmarkSequence& sequence,
         const std::vector<NamedMethod>& methods,

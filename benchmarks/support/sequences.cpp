@@ -98,14 +98,13 @@ constexpr double kMotionCaptureSigmaDeg[] = {0.12, 0.06, 0.055};
     return out;
 }
 
-[[nodiscard]] BenchmarkSequence simulatedSequence(const std::string& scene, double duration)
+[[nodiscard]] BenchmarkSequence simulatedSequence(
+    const std::string& name, const std::string& scene, const SimulationParams& params)
 {
     constexpr std::uint64_t kSeed = 1;
-    SimulationParams params;
-    params.duration = duration;
     const auto simulation = std::make_shared<SimulatedSequence>(scene, params, kSeed);
     BenchmarkSequence out;
-    out.name = "simulated " + scene;
+    out.name = name;
     out.numFrames = static_cast<std::size_t>(simulation->numFrames());
     out.frame = [simulation](std::size_t k) { return simulation->frame(static_cast<int>(k)); };
     out.truth.name = out.name;
@@ -161,9 +160,50 @@ std::vector<SequenceSource> simulatedSequences(double duration)
     std::vector<SequenceSource> out;
     for (const std::string scene : {"corner", "desk", "notexture", "cabinet", "corridor"})
     {
-        out.push_back({"simulated " + scene, [scene, duration] {
-                           return simulatedSequence(scene, duration);
-                       }});
+        SimulationParams params;
+        params.duration = duration;
+        const std::string name = "simulated " + scene;
+        out.push_back(
+            {name, [name, scene, params] { return simulatedSequence(name, scene, params); }});
+    }
+    return out;
+}
+
+std::vector<SequenceSource> hardSimulatedSequences(double duration)
+{
+    std::vector<SequenceSource> out;
+    const auto add =
+        [&out](const std::string& scene, const std::string& what, const SimulationParams& params)
+    {
+        const std::string name = "simulated " + scene + what;
+        out.push_back(
+            {name,
+             [name, scene, params]
+             {
+                 BenchmarkSequence hard = simulatedSequence(name, scene, params);
+                 hard.isHardAlready = true;
+                 return hard;
+             }});
+    };
+    SimulationParams usual;
+    usual.duration = duration;
+    for (const std::string scene : {"desk", "notexture", "cabinet"})
+    {
+        SimulationParams params = usual;
+        params.motionSpeed = 2;
+        add(scene, ", twice as fast", params);
+        params.motionSpeed = 4;
+        add(scene, ", four times as fast", params);
+        params = usual;
+        params.exposure = 0.030;
+        params.maxBlurSamples = 16;
+        add(scene, ", blurred", params);
+        params.light = 0.1;
+        add(scene, ", dim", params);
+    }
+    for (const std::string scene : {"person", "push", "door", "half"})
+    {
+        add(scene, "", usual);
     }
     return out;
 }

@@ -25,6 +25,7 @@ struct BenchmarkSequence
     std::string name;
     Truth kind{Truth::Exact};
     std::size_t numFrames{0};
+    bool isHardAlready{false};                    //!< needs no further conditions to be a trial
     std::function<RgbdFrame(std::size_t)> frame;  //!< read or rendered anew at every call
     Trajectory truth;                             //!< T_world_cam, optical axes; may be empty
     NeesOptions nees;                             //!< how noisy the truth itself is
@@ -50,6 +51,10 @@ struct SequenceSource
 /** Simulated scenes through a first generation Kinect, rolling shutter included, which the frames
  * tell. \param duration [s] */
 [[nodiscard]] std::vector<SequenceSource> simulatedSequences(double duration);
+
+/** Simulated scenes, moved 2 and 4 times as fast, blurred by exposures of 30 ms, in a tenth of the
+ * light with such exposures, and those in which something moves. \param duration [s] */
+[[nodiscard]] std::vector<SequenceSource> hardSimulatedSequences(double duration);
 
 /** Both, with the simulated ones alone when `data` is empty. */
 [[nodiscard]] std::vector<SequenceSource> allSequences(const std::string& data, double duration);
