@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/core/covariance.h>
 #include <pointplane/core/se3.h>
-#include <pointplane/odometry/JointCovariance.h>
+#include <pointplane/odometry/uncertainty/JointCovariance.h>
 
 #include <map>
 #include <stdexcept>
@@ -192,7 +192,7 @@ TEST(JointCovariance, keepsWhatIsStillNeeded)
     joint.predict(8, kAtRest, Matrix6d::Identity());
     joint.predict(9, kAtRest, Matrix6d::Identity());
     joint.keep({1});
-    EXPECT_TRUE(joint.knows(6)) << "the base, though beyond the history";
+    EXPECT_TRUE(joint.knows(6)) << "the previous one, though beyond the history";
     EXPECT_FALSE(joint.knows(5));
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/core/covariance.h>
 #include <pointplane/core/se3.h>
-#include <pointplane/odometry/MotionModel.h>
+#include <pointplane/odometry/uncertainty/MotionModel.h>
 
 #include <Eigen/LU>
 
@@ -48,7 +48,7 @@ TEST(MotionModel, knowsNothingAtTheStart)
 {
     const MotionModel model({});
     const MotionGaussian p = model.predict(kFrame);
-    EXPECT_TRUE(p.mean.T_base_cur.isApprox(Eigen::Isometry3d::Identity()));
+    EXPECT_TRUE(p.mean.T_prev_cur.isApprox(Eigen::Isometry3d::Identity()));
     EXPECT_TRUE(isPositiveDefinite(p.cov));
     // As fast as hands move: 0.5 m/s and 1 rad/s.
     EXPECT_NEAR(std::sqrt(p.cov(0, 0)), 0.5 * kFrame, 0.2 * kFrame);
@@ -77,7 +77,7 @@ TEST(MotionModel, keepsTheVelocity)
     for (const double dt : {kFrame, 0.1})
     {
         const MotionGaussian p = model.predict(dt);
-        EXPECT_THAT(p.mean.T_base_cur, test::IsNearPose(se3Exp(velocity() * dt), 1e-12, 1e-12));
+        EXPECT_THAT(p.mean.T_prev_cur, test::IsNearPose(se3Exp(velocity() * dt), 1e-12, 1e-12));
         EXPECT_THAT(p.mean.velocity, test::IsMatrixNear(velocity(), 1e-12));
     }
 }
@@ -115,7 +115,7 @@ TEST(MotionModel, theVelocityBeforeLiesBetweenTheIncrements)
 {
     MotionModel model = moving();
     MotionGaussian measured = measuredMotion();
-    measured.mean.T_base_cur = se3Exp(2 * velocity() * kFrame / 2);  // half the time, twice as fast
+    measured.mean.T_prev_cur = se3Exp(2 * velocity() * kFrame / 2);  // half the time, twice as fast
     measured.mean.velocity.setConstant(7);
     measured.cov.topLeftCorner<6, 6>() = 1e-14 * Matrix6d::Identity();
     MotionModel surprised = model;
@@ -135,7 +135,7 @@ TEST(MotionModel, followsIncrementsHalfway)
     model.followIncrements();
     EXPECT_EQ(model.velocity(), velocity());
     MotionGaussian measured = measuredMotion();
-    measured.mean.T_base_cur = se3Exp(1.2 * velocity() * kFrame);
+    measured.mean.T_prev_cur = se3Exp(1.2 * velocity() * kFrame);
     measured.mean.velocity.setZero();
     model.update(measured, kFrame);
     model.followIncrements();
@@ -262,7 +262,7 @@ TEST(MotionModel, anyGapIsFinite)
     {
         MotionModel model = moving();
         EXPECT_TRUE(model.predict(dt).cov.allFinite()) << dt;
-        EXPECT_TRUE(model.predict(dt).mean.T_base_cur.matrix().allFinite()) << dt;
+        EXPECT_TRUE(model.predict(dt).mean.T_prev_cur.matrix().allFinite()) << dt;
         EXPECT_TRUE(model.jerk(dt).allFinite()) << dt;
         model.coast(dt);
         EXPECT_TRUE(model.predict(kFrame).cov.allFinite()) << dt;

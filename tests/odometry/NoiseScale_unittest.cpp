@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pointplane/odometry/NoiseScale.h>
+#include <pointplane/odometry/uncertainty/NoiseScale.h>
 
 #include <stdexcept>
 
@@ -9,9 +9,9 @@ namespace pointplane
 {
 namespace
 {
-PoseEstimate with(double pointVariance, double planeVariance)
+PoseAnalysis with(double pointVariance, double planeVariance)
 {
-    PoseEstimate out;
+    PoseAnalysis out;
     out.pointVariance = pointVariance;
     out.planeVariance = planeVariance;
     return out;
@@ -85,7 +85,7 @@ TEST(NoiseScale, followsTheDisagreementOfTheReferences)
     for (int i = 0; i < 900; ++i)
     {
         const NoiseFactors told = noise.factors();
-        PoseEstimate frame = with(1, 1);
+        PoseAnalysis frame = with(1, 1);
         frame.pointDisagreement = {truePoints / told.points, 1};
         frame.planeDisagreement = {2 * truePlanes / told.planes, 2};
         noise.update(frame, 1.0 / 30);
@@ -97,7 +97,7 @@ TEST(NoiseScale, followsTheDisagreementOfTheReferences)
 TEST(NoiseScale, referencesThatCannotDisagreeTellNothing)
 {
     NoiseScale noise(bare());
-    PoseEstimate frame;
+    PoseAnalysis frame;
     frame.pointDisagreement = {0, 0};
     const NoiseFactors before = noise.factors();
     noise.update(frame, 1);

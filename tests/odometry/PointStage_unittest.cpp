@@ -42,15 +42,14 @@ class PointStageTest : public testing::TestWithParam<const char*>
 
 TEST_P(PointStageTest, findsPointsWhereTheyAre)
 {
-    PointStage stage = PointStageTest::stage();
+    const PointStage stage = PointStageTest::stage();
     const RgbdFrame first = sequence().frame(0), second = sequence().frame(3);
     const Eigen::Isometry3d T_cur_ref = sequence().trueMotion(3, 0);
-    stage.prepare(first);
-    const PointReference reference = stage.makeReference(first);
+    const PointReference reference = stage.makeReference(first, stage.prepare(first));
     ASSERT_GT(reference.points.size(), 60U);
-    stage.prepare(second);
     // Predicted from the identity: the search has to do the rest.
-    const auto found = stage.correspond(reference, second, Eigen::Isometry3d::Identity(), 1);
+    const auto found = stage.correspond(
+        reference, second, stage.prepare(second), Eigen::Isometry3d::Identity(), 1);
     ASSERT_GT(found.size(), reference.points.size() / 3);
     std::vector<double> errors_px, errors;
     std::set<int> used;
@@ -73,37 +72,38 @@ TEST_P(PointStageTest, findsPointsWhereTheyAre)
 
 TEST_P(PointStageTest, predictionDecidesWhereToLook)
 {
-    PointStage stage = PointStageTest::stage();
+    const PointStage stage = PointStageTest::stage();
     const RgbdFrame frame = sequence().frame(0);
-    stage.prepare(frame);
-    const PointReference reference = stage.makeReference(frame);
-    EXPECT_FALSE(stage.correspond(reference, frame, Eigen::Isometry3d::Identity(), 1).empty());
+    const PreparedPoints prepared = stage.prepare(frame);
+    const PointReference reference = stage.makeReference(frame, prepared);
+    EXPECT_FALSE(
+        stage.correspond(reference, frame, prepared, Eigen::Isometry3d::Identity(), 1).empty());
     // Predicted behind the camera, or where nothing is: nothing is found.
     Eigen::Isometry3d away = Eigen::Isometry3d::Identity();
     away.translation().z() = -20;
-    EXPECT_TRUE(stage.correspond(reference, frame, away, 1).empty());
+    EXPECT_TRUE(stage.correspond(reference, frame, prepared, away, 1).empty());
     away.translation() << 50, 0, 0;
-    EXPECT_TRUE(stage.correspond(reference, frame, away, 1).empty());
+    EXPECT_TRUE(stage.correspond(reference, frame, prepared, away, 1).empty());
 }
 
 TEST_P(PointStageTest, framesWithoutImageOrDepthHaveNoPoints)
 {
-    PointStage stage = PointStageTest::stage();
+    const PointStage stage = PointStageTest::stage();
     const RgbdFrame good = sequence().frame(0);
-    stage.prepare(good);
-    const PointReference reference = stage.makeReference(good);
+    const PreparedPoints ofGood = stage.prepare(good);
+    const PointReference reference = stage.makeReference(good, ofGood);
     RgbdFrame blind = good, blank = good, noDepth = good;
     blind.gray = cv::Mat();
     blank.gray = cv::Mat(good.gray.size(), CV_8UC1, cv::Scalar(90));
     noDepth.depth = cv::Mat(good.depth.size(), CV_32FC1, cv::Scalar(0));
     for (const RgbdFrame& frame : {blind, blank, noDepth})
     {
-        stage.prepare(frame);
-        const PointReference none = stage.makeReference(frame);
+        const PreparedPoints prepared = stage.prepare(frame);
+        const PointReference none = stage.makeReference(frame, prepared);
         EXPECT_TRUE(none.points.empty());
-        EXPECT_TRUE(stage.correspond(reference, frame, Eigen::Isometry3d::Identity(), 1).empty());
-        stage.prepare(good);
-        EXPECT_TRUE(stage.correspond(none, good, Eigen::Isometry3d::Identity(), 1).empty());
+        EXPECT_TRUE(
+            stage.correspond(reference, frame, prepared, Eigen::Isometry3d::Identity(), 1).empty());
+        EXPECT_TRUE(stage.correspond(none, good, ofGood, Eigen::Isometry3d::Identity(), 1).empty());
     }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/core/se3.h>
-#include <pointplane/odometry/Reference.h>
+#include <pointplane/odometry/ReferenceWindow.h>
 
 #include <stdexcept>
 #include <vector>

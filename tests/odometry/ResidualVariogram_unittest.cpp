@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/core/se3.h>
-#include <pointplane/odometry/ResidualVariogram.h>
+#include <pointplane/odometry/uncertainty/ResidualVariogram.h>
 
 #include <functional>
 #include <vector>
@@ -30,7 +30,7 @@ class Features
     }
 
     /** The next frame. */
-    std::vector<FeatureResidual> next(double views, const Eigen::Matrix3d& R_world_base)
+    std::vector<FeatureResidual> next(double views, const Eigen::Matrix3d& R_world_prev)
     {
         std::vector<FeatureResidual> out;
         for (size_t i = 0; i < covs_.size(); ++i)
@@ -40,8 +40,8 @@ class Features
             FeatureResidual f;
             f.reference = kReference;
             f.inReference = static_cast<int>(i);
-            f.r = R_world_base.transpose() * r;
-            f.curCov = R_world_base.transpose() * covs_[i] * R_world_base;
+            f.r = R_world_prev.transpose() * r;
+            f.curCov = R_world_prev.transpose() * covs_[i] * R_world_prev;
             out.push_back(f);
         }
         return out;
@@ -60,7 +60,7 @@ struct Scenario
     int frames{90};
     NoiseFactors residuals{};
     std::function<void(int frame, FeatureResidual&)> change{[](int, FeatureResidual&) {}};
-    std::function<Eigen::Matrix3d(int frame)> R_world_base{
+    std::function<Eigen::Matrix3d(int frame)> R_world_prev{
         [](int) { return Eigen::Matrix3d(Eigen::Matrix3d::Identity()); }};
 };
 
@@ -70,18 +70,18 @@ ResidualVariogram::Levels levelsOf(Features points, Features planes, const Scena
     ResidualVariogram out;
     for (int k = 0; k < run.frames; ++k)
     {
-        const Eigen::Matrix3d R = run.R_world_base(k);
-        PoseEstimate estimate;
-        estimate.pointResiduals = points.next(run.views, R);
-        estimate.planeResiduals = planes.next(run.views, R);
-        for (auto* residuals : {&estimate.pointResiduals, &estimate.planeResiduals})
+        const Eigen::Matrix3d R = run.R_world_prev(k);
+        PoseAnalysis analysis;
+        analysis.pointResiduals = points.next(run.views, R);
+        analysis.planeResiduals = planes.next(run.views, R);
+        for (auto* residuals : {&analysis.pointResiduals, &analysis.planeResiduals})
         {
             for (FeatureResidual& f : *residuals)
             {
                 run.change(k, f);
             }
         }
-        out.update(estimate, R, run.views, kFrame, run.residuals);
+        out.update(analysis, R, run.views, kFrame, run.residuals);
     }
     return out.levels();
 }
@@ -125,11 +125,11 @@ TEST(ResidualVariogram, wrongMatchesDoNotMatter)
     EXPECT_NEAR(levels.drift.points, 0.8, 0.25);
 }
 
-/** The base frame turns with the camera; features and their errors do not. */
+/** The previous frame turns with the camera; features and their errors do not. */
 TEST(ResidualVariogram, axesAreThoseOfTheWorld)
 {
     Scenario run;
-    run.R_world_base = [](int k) { return so3Exp(Eigen::Vector3d(0.1 * k, 0.2 * k, 0)); };
+    run.R_world_prev = [](int k) { return so3Exp(Eigen::Vector3d(0.1 * k, 0.2 * k, 0)); };
     const auto levels = levelsOf({8, 150, 0.5, 0.8}, kNone, run);
     EXPECT_NEAR(levels.white.points, 0.5, 0.08);
     EXPECT_NEAR(levels.drift.points, 0.8, 0.12);

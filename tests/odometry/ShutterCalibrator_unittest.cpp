@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pointplane/odometry/ShutterCalibrator.h>
+#include <pointplane/odometry/uncertainty/ShutterCalibrator.h>
 
 #include <stdexcept>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "frame_errors.h"
+#include "uncertainty/frame_errors.h"
 
 #include <cmath>
 
-#include "views.h"
+#include "uncertainty/views.h"
 #include <gtest/gtest.h>
 
 namespace pointplane
@@ -11,14 +11,21 @@ namespace pointplane
 namespace
 {
 /** Features of the given variances, all at the distance. */
-PoseEstimate estimate(double points, double planes, double distance = 1)
+struct Solved
 {
-    PoseEstimate out;
-    out.sensitivity.points = points * Matrix12d::Identity();
-    out.sensitivity.planes = planes * Matrix12d::Identity();
+    PoseEstimate estimate;
+    Sensitivity of;
+};
+
+Solved estimate(double points, double planes, double distance = 1)
+{
+    Solved solved;
+    solved.of.points = points * Matrix12d::Identity();
+    solved.of.planes = planes * Matrix12d::Identity();
+    PoseEstimate& out = solved.estimate;
     out.infoPoints.setIdentity();
     out.infoPoints.bottomRightCorner<3, 3>() *= 2 * distance * distance;
-    return out;
+    return solved;
 }
 
 JointCovariance::TParams params()
@@ -31,9 +38,9 @@ JointCovariance::TParams params()
 }
 
 JointCovariance::Measurement errors(
-    const PoseEstimate& e, NoiseFactors white = {}, NoiseFactors drift = {}, double views = 0.15)
+    const Solved& e, NoiseFactors white = {}, NoiseFactors drift = {}, double views = 0.15)
 {
-    return frameErrors(e, {white, drift}, views, params());
+    return frameErrors(e.estimate, e.of, {white, drift}, views, params());
 }
 }  // namespace
 
@@ -49,7 +56,7 @@ TEST(frameErrors, byHand)
 
 TEST(frameErrors, eachKindHasItsLevels)
 {
-    const PoseEstimate e = estimate(1e-3, 2e-3);
+    const Solved e = estimate(1e-3, 2e-3);
     EXPECT_NEAR(errors(e, {3, 5}).noise(0, 0), 0.5 * (3 * 1e-3 + 5 * 2e-3), 1e-12);
     EXPECT_NEAR(
         errors(e, {}, {3, 5}).drift(0, 0),
@@ -64,8 +71,8 @@ TEST(frameErrors, whatIsInCommonGrowsWithTheDistance)
     const auto common = [](double distance) { return errors(estimate(0, 0, distance)).drift; };
     EXPECT_NEAR(common(3)(0, 0), 27 * common(1)(0, 0), 1e-12);
     EXPECT_NEAR(common(3)(5, 5), 9 * common(1)(5, 5), 1e-12);
-    PoseEstimate nothing = estimate(0, 0);
-    nothing.infoPoints.setZero();
+    Solved nothing = estimate(0, 0);
+    nothing.estimate.infoPoints.setZero();
     EXPECT_TRUE(errors(nothing).drift.isApprox(common(1)));
 }
 
@@ -78,7 +85,7 @@ TEST(frameErrors, featuresThatAFrameLacksSayNothing)
 
 TEST(frameErrors, driftGrowsWithTheMotion)
 {
-    const PoseEstimate e = estimate(1e-3, 2e-3);
+    const Solved e = estimate(1e-3, 2e-3);
     EXPECT_EQ(errors(e, {}, {}, 0).drift.norm(), 0);
     EXPECT_TRUE(errors(e, {}, {}, 0.3).drift.isApprox(2 * errors(e).drift));
     EXPECT_EQ(errors(e, {}, {}, 0.3).noise, errors(e).noise);

@@ -17,7 +17,7 @@ test::PairWorld world(unsigned seed)
     test::PairWorld out(seed);
     out.addPoints(40);
     out.addPlanes(6);
-    out.T_base_cur = out.randomMotion(0.03, 0.035);
+    out.T_prev_cur = out.randomMotion(0.03, 0.035);
     return out;
 }
 
@@ -36,13 +36,18 @@ struct Ratios
     double points{0}, planes{0};
 };
 
+PoseAnalysis analyse(const PoseProblem& problem)
+{
+    const PoseSolver solver(test::gaussianSolver());
+    return solver.analyse(problem, solver.solve(problem, {}));
+}
+
 /** Mean disagreement of two references over the expected one.
  * \param noise scale of sigma over the claimed one
  * \param sigmaCommon [m, rad] of an error of pose that all points of a reference have in common */
 Ratios disagreement(unsigned seed, double noise, double sigmaCommon)
 {
     test::PairWorld w = world(seed);
-    const PoseSolver solver(test::gaussianSolver());
     Disagreement points, planes;
     for (int run = 0; run < kRuns; ++run)
     {
@@ -55,10 +60,9 @@ Ratios disagreement(unsigned seed, double noise, double sigmaCommon)
             se3Exp(sigmaCommon * w.sampler().vector<6>())};
         for (PointPair& pair : pointPairs)
         {
-            pair.base.mean = errors[pair.reference] * pair.base.mean;
+            pair.ref.mean = errors[pair.reference] * pair.ref.mean;
         }
-        const PoseEstimate e =
-            solver.solve(pointPairs, planePairs, Eigen::Isometry3d::Identity(), std::nullopt);
+        const PoseAnalysis e = analyse(test::atRest(pointPairs, planePairs));
         points.observed += e.pointDisagreement.observed;
         points.expected += e.pointDisagreement.expected;
         planes.observed += e.planeDisagreement.observed;
@@ -92,8 +96,7 @@ TEST(Disagreement, showsErrorsThatPointsHaveInCommon)
 TEST(Disagreement, oneReferenceOfOneKindHasNothingToCompareWith)
 {
     test::PairWorld w = world(74);
-    const PoseEstimate e = PoseSolver(test::gaussianSolver())
-                               .solve(w.drawPoints(), {}, Eigen::Isometry3d::Identity(), {});
+    const PoseAnalysis e = analyse(test::atRest(w.drawPoints(), {}));
     EXPECT_EQ(e.pointDisagreement.expected, 0);
     EXPECT_EQ(e.planeDisagreement.expected, 0);
 }
@@ -101,9 +104,7 @@ TEST(Disagreement, oneReferenceOfOneKindHasNothingToCompareWith)
 TEST(Disagreement, pointsAndPlanesOfOneReferenceAreCompared)
 {
     test::PairWorld w = world(75);
-    const PoseEstimate e =
-        PoseSolver(test::gaussianSolver())
-            .solve(w.drawPoints(), w.drawPlanes(), Eigen::Isometry3d::Identity(), {});
+    const PoseAnalysis e = analyse(test::atRest(w.drawPoints(), w.drawPlanes()));
     EXPECT_GT(e.pointDisagreement.expected, 0);
     EXPECT_GT(e.planeDisagreement.expected, 0);
 }

@@ -65,7 +65,7 @@ TEST(MotionPrior, residualIsTheDeviationFromIt)
     const Vector6d xi = 0.1 * sampler.vector<6>(), dV = sampler.vector<6>();
     Vector12d expected;
     expected << xi, dV;
-    const Motion motion{se3Exp(-xi) * prior.mean.T_base_cur, prior.mean.velocity - dV};
+    const Motion motion{se3Exp(-xi) * prior.mean.T_prev_cur, prior.mean.velocity - dV};
     EXPECT_THAT(prior.residual(motion), test::IsMatrixNear(expected, 1e-12));
 }
 }  // namespace pointplane

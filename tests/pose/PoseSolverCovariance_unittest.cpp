@@ -42,12 +42,12 @@ Consistency consistency(
         {
             // truth = exp(xi) * mean
             const Vector6d xi = world.sampler().sample(*priorCov);
-            prior.mean.T_base_cur = se3Exp(-xi) * world.T_base_cur;
+            prior.mean.T_prev_cur = se3Exp(-xi) * world.T_prev_cur;
             prior.pose = priorCov->inverse();
         }
         const PoseEstimate e = solver.solve(
             world.drawPoints(noiseScale), world.drawPlanes(noiseScale), prior.mean, prior, noise);
-        errors.push_back(leftError(world.T_base_cur, e.pose().mean));
+        errors.push_back(leftError(world.T_prev_cur, e.pose().mean));
         out.nees += errors.back().dot(e.pose().cov.ldlt().solve(errors.back())) / kRuns;
         meanCov += e.pose().cov / kRuns;
     }
@@ -69,7 +69,7 @@ test::PairWorld makeWorld(unsigned seed, int points, int planes)
     test::PairWorld world(seed);
     world.addPoints(points);
     world.addPlanes(planes);
-    world.T_base_cur = world.randomMotion(0.03, 0.035);
+    world.T_prev_cur = world.randomMotion(0.03, 0.035);
     return world;
 }
 }  // namespace
@@ -163,7 +163,7 @@ TEST(PoseSolverCovariance, ofPoseAndVelocityTogether)
     for (int i = 0; i < kRuns; ++i)
     {
         const Vector12d deviation = world.sampler().sample(predicted.cov);
-        predicted.mean.T_base_cur = se3Exp(-deviation.head<6>()) * world.T_base_cur;
+        predicted.mean.T_prev_cur = se3Exp(-deviation.head<6>()) * world.T_prev_cur;
         const Vector6d velocity = predicted.mean.velocity + deviation.tail<6>();
         auto points = world.drawPoints();
         for (size_t k = 0; k < points.size(); ++k)
@@ -176,10 +176,10 @@ TEST(PoseSolverCovariance, ofPoseAndVelocityTogether)
             points[k].dCur_dV = D;
             points[k].cur.mean -= D * velocity;
         }
-        const PoseEstimate e =
-            solver.solve(points, world.drawPlanes(), predicted.mean, MotionPrior::from(predicted));
+        const PoseEstimate e = solver.solve(
+            {points, world.drawPlanes(), MotionPrior::from(predicted), {}}, predicted.mean);
         Vector12d error;
-        error << leftError(world.T_base_cur, e.pose().mean), velocity - e.motion.mean.velocity;
+        error << leftError(world.T_prev_cur, e.pose().mean), velocity - e.motion.mean.velocity;
         c.nees += error.dot(e.motion.cov.ldlt().solve(error)) / kRuns;
         velocityNees += error.tail<6>().dot(
                             e.motion.cov.bottomRightCorner<6, 6>().ldlt().solve(error.tail<6>())) /

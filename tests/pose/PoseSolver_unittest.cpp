@@ -29,7 +29,7 @@ PoseEstimate solve(
     const std::vector<PlanePair>& planes,
     const std::optional<PoseGaussian>& prior = std::nullopt)
 {
-    return PoseSolver(params).solve(points, planes, kStart, prior);
+    return PoseSolver(params).solve(test::atRest(points, planes, kStart, prior), {});
 }
 
 /** Root of the mean squared tangent error over runs. */
@@ -39,7 +39,7 @@ double rms(PairWorld& world, const PoseSolver::TParams& params, int runs)
     for (int i = 0; i < runs; ++i)
     {
         const PoseEstimate e = solve(params, world.drawPoints(), world.drawPlanes());
-        sum += leftError(world.T_base_cur, e.pose().mean).squaredNorm();
+        sum += leftError(world.T_prev_cur, e.pose().mean).squaredNorm();
     }
     return std::sqrt(sum / runs);
 }
@@ -78,12 +78,12 @@ TEST(PoseSolver, recoversExactMotionFromFiveDegreesAndFiveCentimetres)
                 params.maxIterations = 100;
                 for (int i = 0; i < 5; ++i)
                 {
-                    world.T_base_cur = world.randomMotion(0.05, kFiveDeg);
+                    world.T_prev_cur = world.randomMotion(0.05, kFiveDeg);
                     const PoseEstimate estimate =
                         solve(params, world.drawPoints(0), world.drawPlanes(0));
                     EXPECT_TRUE(estimate.converged);
                     EXPECT_THAT(
-                        estimate.pose().mean, test::IsNearPose(world.T_base_cur, 1e-6, 1e-6));
+                        estimate.pose().mean, test::IsNearPose(world.T_prev_cur, 1e-6, 1e-6));
                 }
             }
         }
@@ -95,16 +95,18 @@ TEST(PoseSolver, anyStartWithinFiveDegreesAndFiveCentimetresGivesTheSameAnswer)
     PairWorld world(8);
     world.addPoints(50);
     world.addPlanes(4);
-    world.T_base_cur = world.randomMotion(0.03, 0.02);
+    world.T_prev_cur = world.randomMotion(0.03, 0.02);
     const auto points = world.drawPoints();
     const auto planes = world.drawPlanes();
     const PoseSolver solver({});
-    const PoseEstimate reference = solver.solve(points, planes, world.T_base_cur, std::nullopt);
+    const PoseEstimate reference =
+        solver.solve(test::atRest(points, planes), {world.T_prev_cur, Vector6d::Zero()});
     EXPECT_TRUE(reference.converged);
     for (int i = 0; i < 50; ++i)
     {
-        const Eigen::Isometry3d start = world.randomMotion(0.05, kFiveDeg) * world.T_base_cur;
-        const PoseEstimate estimate = solver.solve(points, planes, start, std::nullopt);
+        const Eigen::Isometry3d start = world.randomMotion(0.05, kFiveDeg) * world.T_prev_cur;
+        const PoseEstimate estimate =
+            solver.solve(test::atRest(points, planes), {start, Vector6d::Zero()});
         EXPECT_TRUE(estimate.converged);
         EXPECT_THAT(estimate.pose().mean, test::IsNearPose(reference.pose().mean, 1e-5, 1e-5));
     }
@@ -118,7 +120,7 @@ TEST(PoseSolver, gradientOfThePapersCostVanishes)
         PairWorld world(9);
         world.addPoints(20);
         world.addPlanes(5);
-        world.T_base_cur = world.randomMotion(0.03, 0.03);
+        world.T_prev_cur = world.randomMotion(0.03, 0.03);
         PoseSolver::TParams params = test::gaussianSolver();
         params.weighting = weighting;
         params.planeResidual = "closestPoint";
@@ -155,15 +157,15 @@ TEST(PoseSolver, inliersArePairsOfMoreThanHalfTheirWeight)
 {
     PairWorld world(3);
     world.addPoints(60);
-    world.T_base_cur = world.randomMotion(0.05, kFiveDeg);
+    world.T_prev_cur = world.randomMotion(0.05, kFiveDeg);
     const PoseSolver::TParams params;
     for (const auto& [share, expected] : {std::pair(0.45, 60), std::pair(0.65, 59)})
     {
         std::vector<PointPair> pairs = world.drawPoints(0);
         const Eigen::Matrix3d cov =
-            pointResidual(pairs[0], Motion{world.T_base_cur, Vector6d::Zero()}).cov;
+            pointResidual(pairs[0], Motion{world.T_prev_cur, Vector6d::Zero()}).cov;
         const Eigen::Vector3d sigmas = Eigen::Matrix3d(cov.llt().matrixL()).col(0);
-        pairs[0].base.mean += share * params.tukeySigmas * sigmas;
+        pairs[0].ref.mean += share * params.tukeySigmas * sigmas;
         EXPECT_EQ(solve(params, pairs, {}).numPointInliers, expected) << share;
     }
 }
@@ -175,7 +177,7 @@ TEST(PoseSolver, fullAndDiagonalWeightsAgreeOnDiagonalCovariances)
     auto points = world.drawPoints();
     for (PointPair& pair : points)
     {
-        pair.base.cov = 1e-4 * Eigen::Matrix3d::Identity();
+        pair.ref.cov = 1e-4 * Eigen::Matrix3d::Identity();
         pair.cur.cov = 2e-4 * Eigen::Matrix3d::Identity();
     }
     PoseSolver::TParams full = test::gaussianSolver(), diagonal = test::gaussianSolver();
@@ -206,7 +208,7 @@ TEST(PoseSolver, moreOfTheCovarianceGivesMoreAccuracy)
 {
     PairWorld world(12);
     world.addPoints(40);
-    world.T_base_cur = world.randomMotion(0.02, 0.02);
+    world.T_prev_cur = world.randomMotion(0.02, 0.02);
     PoseSolver::TParams params = test::gaussianSolver();
     const double full = rms(world, params, 200);
     params.weighting = "diagonal";
@@ -258,9 +260,9 @@ TEST(PoseSolver, noiseFactorsScaleTheCovariance)
     const auto planes = world.drawPlanes();
     PoseSolver::TParams params = test::gaussianSolver();
     const PoseEstimate one = solve(params, points, planes);
-    const Motion start;
-    const PoseEstimate scaled = PoseSolver(params).solve(
-        points, planes, start, MotionPrior::fixedVelocity(start), {25, 25});
+    PoseProblem noisier = test::atRest(points, planes);
+    noisier.noise = {25, 25};
+    const PoseEstimate scaled = PoseSolver(params).solve(noisier, {});
     EXPECT_THAT(scaled.pose().mean, test::IsNearPose(one.pose().mean, 1e-6, 1e-6));
     EXPECT_LT(test::whitenedDifference(scaled.pose().cov, (25 * one.pose().cov).eval()), 1e-3);
 }
@@ -269,14 +271,14 @@ TEST(PoseSolver, tukeyIgnoresThirtyPercentOfOutliers)
 {
     PairWorld world(16);
     world.addPoints(100);
-    world.T_base_cur = world.randomMotion(0.03, 0.02);
+    world.T_prev_cur = world.randomMotion(0.03, 0.02);
     PoseSolver::TParams plain = test::gaussianSolver();
     double clean = 0, robust = 0, harmed = 0;
     for (int run = 0; run < 50; ++run)
     {
         auto points = world.drawPoints();
         const auto error = [&](const PoseEstimate& e)
-        { return leftError(world.T_base_cur, e.pose().mean).squaredNorm(); };
+        { return leftError(world.T_prev_cur, e.pose().mean).squaredNorm(); };
         clean += error(solve(plain, points, {}));
         for (size_t i = 0; i < 30; ++i)
         {
@@ -297,18 +299,18 @@ TEST(PoseSolver, fewPointsThatTellADirectionAreBelieved)
     // moved by seven sigma more than was foreseen; and one that is none and stays where it was.
     PairWorld world(11);
     world.addPoints(60);
-    world.T_base_cur.translation() << 0, 0.02, 0;
+    world.T_prev_cur.translation() << 0, 0.02, 0;
     std::vector<PointPair> points = world.drawPoints(0);
     for (size_t i = 0; i < points.size(); ++i)
     {
         PointPair& pair = points[i];
         const double alongEdge = i < 9 ? 0.002 : 4;
-        pair.base.cov = pair.cur.cov =
+        pair.ref.cov = pair.cur.cov =
             Eigen::Vector3d(0.002, alongEdge, 0.01).cwiseAbs2().asDiagonal();
     }
     points[8].cur.mean.y() += 0.02;
     const PoseEstimate estimate = solve({}, points, {}, loosePrior());
-    EXPECT_THAT(estimate.pose().mean, test::IsNearPose(world.T_base_cur, 1e-3, 1e-3));
+    EXPECT_THAT(estimate.pose().mean, test::IsNearPose(world.T_prev_cur, 1e-3, 1e-3));
     EXPECT_EQ(estimate.numPointInliers, 59);
 }
 
@@ -322,7 +324,7 @@ TEST(PoseSolver, studentTBearsAWrongPlane)
         auto planes = world.drawPlanes();
         planes[3].cur.theta_m *= 1.05;  // 5 cm per metre
         const auto error = [&](const PoseSolver::TParams& params) {
-            return leftError(world.T_base_cur, solve(params, {}, planes).pose().mean).squaredNorm();
+            return leftError(world.T_prev_cur, solve(params, {}, planes).pose().mean).squaredNorm();
         };
         robust += error({});
         harmed += error(test::gaussianSolver());
@@ -349,7 +351,7 @@ TEST(PoseSolver, withoutAnythingTheStartRemainsAndNothingIsKnown)
 {
     PairWorld world(19);
     const Eigen::Isometry3d start = world.randomMotion(0.1, 0.1);
-    const PoseEstimate e = PoseSolver({}).solve({}, {}, start, std::nullopt);
+    const PoseEstimate e = PoseSolver({}).solve({}, {start, Vector6d::Zero()});
     EXPECT_THAT(e.pose().mean, test::IsNearPose(start, 1e-12, 1e-12));
     EXPECT_TRUE(isPositiveDefinite(e.pose().cov));
     EXPECT_GT(e.pose().cov.diagonal().minCoeff(), 1e6);

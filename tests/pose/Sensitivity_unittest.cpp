@@ -13,27 +13,27 @@ namespace pointplane
 {
 namespace
 {
-/** Of two references, with a prior and a rolling shutter. */
-struct Problem
+struct Solved
 {
-    std::vector<PointPair> points;
-    std::vector<PlanePair> planes;
-    MotionPrior prior;
-
-    [[nodiscard]] PoseEstimate solve() const
-    {
-        PoseSolver solver(test::gaussianSolver());
-        return solver.solve(points, planes, prior.mean, prior, {2, 3});
-    }
+    PoseEstimate estimate;
+    PoseAnalysis analysis;
 };
 
-Problem makeProblem(unsigned seed)
+Solved solve(const PoseProblem& problem)
+{
+    const PoseSolver solver(test::gaussianSolver());
+    const PoseEstimate estimate = solver.solve(problem, problem.prior.mean);
+    return {estimate, solver.analyse(problem, estimate)};
+}
+
+/** Of two references, with a prior and a rolling shutter. */
+PoseProblem makeProblem(unsigned seed)
 {
     test::PairWorld world(seed);
     world.addPoints(30);
     world.addPlanes(4);
-    world.T_base_cur = world.randomMotion(0.03, 0.035);
-    Problem out{world.drawPoints(0), world.drawPlanes(0), {}};
+    world.T_prev_cur = world.randomMotion(0.03, 0.035);
+    PoseProblem out{world.drawPoints(0), world.drawPlanes(0), {}, {2, 3}};
     for (size_t i = 0; i < out.points.size(); ++i)
     {
         out.points[i].reference = i % 2 == 0 ? 1 : 2;
@@ -44,7 +44,7 @@ Problem makeProblem(unsigned seed)
         out.planes[i].reference = i % 2 == 0 ? 1 : 2;
     }
     MotionGaussian predicted;
-    predicted.mean.T_base_cur = world.T_base_cur;
+    predicted.mean.T_prev_cur = world.T_prev_cur;
     predicted.cov = world.sampler().covariance<12>(1e-5, 1e-4);
     out.prior = MotionPrior::from(predicted);
     return out;
@@ -88,7 +88,7 @@ class Leftover
 Vector12d change(const PoseEstimate& before, const PoseEstimate& after)
 {
     Vector12d out;
-    out << leftError(after.motion.mean.T_base_cur, before.motion.mean.T_base_cur),
+    out << leftError(after.motion.mean.T_prev_cur, before.motion.mean.T_prev_cur),
         after.motion.mean.velocity - before.motion.mean.velocity;
     return out;
 }
@@ -96,47 +96,51 @@ Vector12d change(const PoseEstimate& before, const PoseEstimate& after)
 
 TEST(Sensitivity, toTheReferences)
 {
-    const Problem problem = makeProblem(81);
-    const PoseEstimate estimate = problem.solve();
-    ASSERT_EQ(estimate.sensitivity.references.size(), 2U);
+    const PoseProblem problem = makeProblem(81);
+    const Solved solved = solve(problem);
+    ASSERT_EQ(solved.analysis.sensitivity.references.size(), 2U);
     for (int axis = 0; axis < 6; ++axis)
     {
-        Problem moved = problem;
+        PoseProblem moved = problem;
         const Vector6d xi = 1e-3 * Vector6d::Unit(axis);
         for (PointPair& pair : moved.points)
         {
-            pair.base.mean = pair.reference == 2 ? se3Exp(xi) * pair.base.mean : pair.base.mean;
+            pair.ref.mean = pair.reference == 2 ? se3Exp(xi) * pair.ref.mean : pair.ref.mean;
         }
         for (PlanePair& pair : moved.planes)
         {
-            pair.base.theta_m = pair.reference == 2 ? transformed(se3Exp(xi), pair.base).theta_m
-                                                    : pair.base.theta_m;
+            pair.ref.theta_m =
+                pair.reference == 2 ? transformed(se3Exp(xi), pair.ref).theta_m : pair.ref.theta_m;
         }
-        const Vector12d expected = estimate.sensitivity.references.at(2) * xi;
-        EXPECT_THAT(change(estimate, moved.solve()), test::IsMatrixNear(expected, 4e-5)) << axis;
+        const Vector12d expected = solved.analysis.sensitivity.references.at(2) * xi;
+        EXPECT_THAT(
+            change(solved.estimate, solve(moved).estimate), test::IsMatrixNear(expected, 4e-5))
+            << axis;
         EXPECT_GT(expected.norm(), 2e-4);
     }
 }
 
 TEST(Sensitivity, toThePrior)
 {
-    const Problem problem = makeProblem(82);
-    const PoseEstimate estimate = problem.solve();
+    const PoseProblem problem = makeProblem(82);
+    const Solved solved = solve(problem);
     for (int axis = 0; axis < 12; ++axis)
     {
-        Problem moved = problem;
+        PoseProblem moved = problem;
         const Vector12d x = 1e-3 * Vector12d::Unit(axis);
         Motion& mean = moved.prior.mean;
-        mean.T_base_cur = se3Exp(x.head<6>()) * mean.T_base_cur;
+        mean.T_prev_cur = se3Exp(x.head<6>()) * mean.T_prev_cur;
         mean.velocity += x.tail<6>();
-        const Vector12d expected = estimate.sensitivity.prior * x;
-        EXPECT_THAT(change(estimate, moved.solve()), test::IsMatrixNear(expected, 4e-5)) << axis;
+        const Vector12d expected = solved.analysis.sensitivity.prior * x;
+        EXPECT_THAT(
+            change(solved.estimate, solve(moved).estimate), test::IsMatrixNear(expected, 4e-5))
+            << axis;
     }
 }
 
 TEST(Sensitivity, toErrorsOfTheCamera)
 {
-    Problem problem = makeProblem(85);
+    PoseProblem problem = makeProblem(85);
     test::GaussianSampler sampler(86);
     const auto by = [&](double scale) {
         return ByCamera(
@@ -144,28 +148,30 @@ TEST(Sensitivity, toErrorsOfTheCamera)
     };
     for (size_t i = 0; i < problem.points.size(); i += 3)
     {
-        problem.points[i].dBase_dCamera = by(0.1);
+        problem.points[i].dRef_dCamera = by(0.1);
         problem.points[i].dCur_dCamera = by(0.1);
     }
-    problem.planes[1].dBase_dCamera = by(0.02);
+    problem.planes[1].dRef_dCamera = by(0.02);
     problem.planes[2].dCur_dCamera = by(0.02);
-    const PoseEstimate estimate = problem.solve();
+    const Solved solved = solve(problem);
     for (int k = 0; k < kNumCameraErrors; ++k)
     {
         const Eigen::Vector4d camera = 0.01 * Eigen::Vector4d::Unit(k);
-        Problem displaced = problem;
+        PoseProblem displaced = problem;
         for (PointPair& pair : displaced.points)
         {
-            pair.base.mean += pair.dBase_dCamera * camera;
+            pair.ref.mean += pair.dRef_dCamera * camera;
             pair.cur.mean += pair.dCur_dCamera * camera;
         }
         for (PlanePair& pair : displaced.planes)
         {
-            pair.base.theta_m += pair.dBase_dCamera * camera;
+            pair.ref.theta_m += pair.dRef_dCamera * camera;
             pair.cur.theta_m += pair.dCur_dCamera * camera;
         }
-        const Vector12d expected = estimate.sensitivity.camera * camera;
-        EXPECT_THAT(change(estimate, displaced.solve()), test::IsMatrixNear(expected, 2e-5)) << k;
+        const Vector12d expected = solved.analysis.sensitivity.camera * camera;
+        EXPECT_THAT(
+            change(solved.estimate, solve(displaced).estimate), test::IsMatrixNear(expected, 2e-5))
+            << k;
         EXPECT_GT(expected.head<6>().norm(), 1e-4);
     }
 }
@@ -173,9 +179,9 @@ TEST(Sensitivity, toErrorsOfTheCamera)
 /** All that the estimate depends on moves: so does the estimate. */
 TEST(Sensitivity, toAllTogetherIsOne)
 {
-    const PoseEstimate estimate = makeProblem(83).solve();
-    Matrix6d sum = estimate.sensitivity.prior.topLeftCorner<6, 6>();
-    for (const auto& [reference, gain] : estimate.sensitivity.references)
+    const Solved solved = solve(makeProblem(83));
+    Matrix6d sum = solved.analysis.sensitivity.prior.topLeftCorner<6, 6>();
+    for (const auto& [reference, gain] : solved.analysis.sensitivity.references)
     {
         sum += gain.topRows<6>();
     }
@@ -187,7 +193,7 @@ TEST(Sensitivity, toAllTogetherIsOne)
 TEST(Sensitivity, noiseOfTheCurrentFrame)
 {
     constexpr int kRuns = 2000;
-    Problem problem = makeProblem(84);
+    PoseProblem problem = makeProblem(84);
     const size_t numPoints = problem.points.size(), numPlanes = problem.planes.size();
     for (size_t i = 0; i < numPoints; ++i)
     {
@@ -203,14 +209,14 @@ TEST(Sensitivity, noiseOfTheCurrentFrame)
         problem.points.begin(),
         problem.points.begin() + static_cast<std::ptrdiff_t>(numPoints / 2));
     problem.planes.push_back(problem.planes.front());
-    const PoseEstimate estimate = problem.solve();
+    const Solved solved = solve(problem);
 
     test::GaussianSampler sampler(85);
     std::vector<Vector6d> errors;
-    Leftover points(estimate.pointResiduals), planes(estimate.planeResiduals);
+    Leftover points(solved.analysis.pointResiduals), planes(solved.analysis.planeResiduals);
     for (int run = 0; run < kRuns; ++run)
     {
-        Problem noisy = problem;
+        PoseProblem noisy = problem;
         std::vector<Eigen::Vector3d> noise;
         for (size_t i = 0; i < numPoints; ++i)
         {
@@ -229,12 +235,13 @@ TEST(Sensitivity, noiseOfTheCurrentFrame)
         {
             pair.cur.theta_m += noise[static_cast<size_t>(pair.feature)];
         }
-        const PoseEstimate solved = noisy.solve();
-        errors.push_back(change(estimate, solved).head<6>());
-        points.add(solved.pointResiduals);
-        planes.add(solved.planeResiduals);
+        const Solved after = solve(noisy);
+        errors.push_back(change(solved.estimate, after.estimate).head<6>());
+        points.add(after.analysis.pointResiduals);
+        planes.add(after.analysis.planeResiduals);
     }
-    const Matrix12d expected = estimate.sensitivity.points + estimate.sensitivity.planes;
+    const Matrix12d expected =
+        solved.analysis.sensitivity.points + solved.analysis.sensitivity.planes;
     // sqrt(42 / 2000) = 0.14 for a right covariance.
     EXPECT_LT(
         test::whitenedDifference(
@@ -242,6 +249,6 @@ TEST(Sensitivity, noiseOfTheCurrentFrame)
         0.25);
     points.expectAsPredicted(kRuns, 1, 1);
     planes.expectAsPredicted(kRuns, 1, 1);
-    EXPECT_LT(estimate.planeResiduals[0].own, 0.9) << "the estimate follows it";
+    EXPECT_LT(solved.analysis.planeResiduals[0].own, 0.9) << "the estimate follows it";
 }
 }  // namespace pointplane

@@ -66,7 +66,7 @@ void expectJacobians(const Pair& pair, const Motion& motion, const F& residual)
 {
     const auto r = [&](const Vector12d& dx) -> Eigen::Vector3d
     {
-        const Eigen::Isometry3d T = se3Exp(dx.head<6>()) * motion.T_base_cur;
+        const Eigen::Isometry3d T = se3Exp(dx.head<6>()) * motion.T_prev_cur;
         return residual(pair, Motion{T, motion.velocity + dx.tail<6>()}).r;
     };
     Eigen::Matrix<double, 3, 12> J;
@@ -78,8 +78,8 @@ void expectJacobians(const Pair& pair, const Motion& motion, const F& residual)
 TEST(Residuals, pointByHand)
 {
     PointPair pair;
-    pair.base.mean << 1.5, 3, 2;
-    pair.base.cov = Eigen::Vector3d(1, 2, 3).asDiagonal();
+    pair.ref.mean << 1.5, 3, 2;
+    pair.ref.cov = Eigen::Vector3d(1, 2, 3).asDiagonal();
     pair.cur.mean << 1, 0, 0;
     pair.cur.cov = Eigen::Vector3d(4, 5, 6).asDiagonal();
     // R P + t = (0, 1, 0) + (1, 2, 3); the turn swaps the first two variances.
@@ -94,9 +94,9 @@ TEST(Residuals, pointByHand)
 
 TEST(Residuals, planesByHand)
 {
-    // The wall z = 2 seen after 5 cm forward is at 1.95; the pair says 2.1 in base.
+    // The wall z = 2 seen after 5 cm forward is at 1.95; the pair says 2.1 in the previous frame.
     PlanePair pair;
-    pair.base.theta_m << 0, 0, -1 / 2.1;
+    pair.ref.theta_m << 0, 0, -1 / 2.1;
     pair.cur.theta_m << 0, 0, -1 / 2.0;
     Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
     T.translation().z() = 0.05;
@@ -128,12 +128,12 @@ TEST(Residuals, vanishAtTheTruth)
     const Eigen::Isometry3d T = randomPose(sampler);
     PointPair points = randomPointPair(sampler);
     const Motion motion{T, sampler.vector<6>()};
-    points.base.mean = T * (points.cur.mean + points.dCur_dV * motion.velocity);
+    points.ref.mean = T * (points.cur.mean + points.dCur_dV * motion.velocity);
     EXPECT_LT(pointResidual(points, motion).r.norm(), 1e-14);
     PlanePair planes = randomPlanePair(sampler);
     PlaneGaussian atRest = planes.cur;
     atRest.theta_m += planes.dCur_dV * motion.velocity;
-    planes.base.theta_m = transformed(T, atRest).theta_m;
+    planes.ref.theta_m = transformed(T, atRest).theta_m;
     EXPECT_LT(planeResidualMinimal(planes, motion).r.norm(), 1e-14);
     EXPECT_LT(planeResidualClosestPoint(planes, motion).r.norm(), 1e-13);
 }
@@ -159,12 +159,12 @@ TEST(Residuals, changeWithTheCamera)
     const auto check = [&](auto pair, auto residual, auto&& meanOf)
     {
         constexpr double kStep = 1e-5;
-        pair.dBase_dCamera = sampler.vector<3>() * sampler.vector<4>().transpose();
+        pair.dRef_dCamera = sampler.vector<3>() * sampler.vector<4>().transpose();
         pair.dCur_dCamera = sampler.vector<3>() * sampler.vector<4>().transpose();
         const auto with = [&](const Eigen::Vector4d& camera)
         {
             auto moved = pair;
-            meanOf(moved.base) += pair.dBase_dCamera * camera;
+            meanOf(moved.ref) += pair.dRef_dCamera * camera;
             meanOf(moved.cur) += pair.dCur_dCamera * camera;
             return residual(moved, motion).r;
         };
@@ -196,11 +196,11 @@ TEST(Residuals, covariancesAreThoseOfMonteCarlo)
     for (int i = 0; i < 20000; ++i)
     {
         PointPair p = points;
-        p.base.mean += sampler.sample(p.base.cov);
+        p.ref.mean += sampler.sample(p.ref.cov);
         p.cur.mean += sampler.sample(p.cur.cov);
         point.emplace_back(pointResidual(p, T).r - pointMean);
         PlanePair m = planes;
-        m.base.theta_m += sampler.sample(m.base.cov_m);
+        m.ref.theta_m += sampler.sample(m.ref.cov_m);
         m.cur.theta_m += sampler.sample(m.cur.cov_m);
         minimal.emplace_back(planeResidualMinimal(m, T).r - minimalMean);
         closest.emplace_back(planeResidualClosestPoint(m, T).r - closestMean);

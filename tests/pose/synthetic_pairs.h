@@ -6,6 +6,9 @@
 #include <pointplane/pose/pairs.h>
 #include <pointplane/pose/residuals.h>
 
+#include <Eigen/LU>
+
+#include <optional>
 #include <vector>
 
 #include "monte_carlo.h"
@@ -22,18 +25,34 @@ inline PoseSolver::TParams gaussianSolver()
     return params;
 }
 
-/** True points and planes in the base frame, each with the covariances that a Kinect's features
+/** The pose alone, pairs taken at rest. \param prior what is known of it without the pairs */
+inline PoseProblem atRest(
+    const std::vector<PointPair>& points,
+    const std::vector<PlanePair>& planes,
+    const Eigen::Isometry3d& start = Eigen::Isometry3d::Identity(),
+    const std::optional<PoseGaussian>& prior = std::nullopt)
+{
+    PoseProblem out{points, planes, MotionPrior::fixedVelocity({start, Vector6d::Zero()}), {}};
+    if (prior)
+    {
+        out.prior.mean.T_prev_cur = prior->mean;
+        out.prior.pose = prior->cov.inverse();
+    }
+    return out;
+}
+
+/** True points and planes in the previous frame, each with the covariances that a Kinect's features
  * have; pairs are drawn from them. */
 class PairWorld
 {
  public:
     explicit PairWorld(unsigned seed) : sampler_(seed) {}
 
-    Eigen::Isometry3d T_base_cur{Eigen::Isometry3d::Identity()};  //!< truth
+    Eigen::Isometry3d T_prev_cur{Eigen::Isometry3d::Identity()};  //!< truth
 
-    void addPoint(const Eigen::Vector3d& p_base)
+    void addPoint(const Eigen::Vector3d& p_prev)
     {
-        points_.push_back({p_base, kinectCovariance(p_base), kinectCovariance(p_base)});
+        points_.push_back({p_prev, kinectCovariance(p_prev), kinectCovariance(p_prev)});
     }
 
     /** Points in a camera's view, 1 to 4 m away. */
@@ -75,7 +94,7 @@ class PairWorld
         {
             out.push_back(
                 {{p.mean + scale * sampler_.sample(p.covBase), p.covBase},
-                 {T_base_cur.inverse() * p.mean + scale * sampler_.sample(p.covCur), p.covCur}});
+                 {T_prev_cur.inverse() * p.mean + scale * sampler_.sample(p.covCur), p.covCur}});
         }
         return out;
     }
@@ -86,7 +105,7 @@ class PairWorld
         for (const PlaneTruth& p : planes_)
         {
             const PlaneGaussian inCur =
-                transformed(T_base_cur.inverse(), PlaneGaussian{p.theta, {}});
+                transformed(T_prev_cur.inverse(), PlaneGaussian{p.theta, {}});
             out.push_back(
                 {{p.theta + scale * sampler_.sample(p.covBase), p.covBase},
                  {inCur.theta_m + scale * sampler_.sample(p.covCur), p.covCur}});

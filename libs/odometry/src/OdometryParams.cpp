@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/core/check.h>
+#include <pointplane/core/choice.h>
 #include <pointplane/odometry/OdometryParams.h>
 
 #include <stdexcept>
@@ -7,12 +8,15 @@
 
 namespace pointplane
 {
+bool PipelineParams::fuses() const
+{
+    return chosen<bool>("degeneracy", degeneracy, {{"fuse", true}, {"gate", false}});
+}
+
 void PipelineParams::check() const
 {
     POINTPLANE_CHECK(usePoints || usePlanes, "usePoints and usePlanes are both off");
-    POINTPLANE_CHECK(
-        degeneracy == "fuse" || degeneracy == "gate",
-        "degeneracy = " << degeneracy << " is neither fuse nor gate");
+    (void)fuses();
     POINTPLANE_CHECK(gateSigma > 0, "gateSigma = " << gateSigma << " is not positive");
     POINTPLANE_CHECK(maxPointChi2 > 0, "maxPointChi2 = " << maxPointChi2 << " is not positive");
     POINTPLANE_CHECK(maxGap > 0, "maxGap = " << maxGap << " is not positive");

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/core/covariance.h>
 #include <pointplane/odometry/PairBuilder.h>
-#include <pointplane/odometry/ShutterCalibrator.h>
-#include <pointplane/odometry/camera_errors.h>
+#include <pointplane/odometry/ShutterCorrection.h>
+#include <pointplane/odometry/uncertainty/ShutterCalibrator.h>
+#include <pointplane/odometry/uncertainty/camera_errors.h>
 #include <pointplane/pose/residuals.h>
 
 #include <cmath>
@@ -31,12 +32,13 @@ void PairBuilder::build(
 {
     points.clear();
     planes.clear();
-    const ShutterCorrection current(shutter.complete(current_.shutter), camera_.height);
+    const PinholeCamera& camera = current_.frame.camera;
+    const ShutterCorrection current(shutter.complete(current_.frame.shutter), camera.height);
     for (const Association& association : associations)
     {
         const Reference& reference = *association.reference;
-        const ShutterCorrection past(shutter.complete(reference.shutter), camera_.height);
-        const Eigen::Isometry3d T_base_ref =
+        const ShutterCorrection past(shutter.complete(reference.shutter), camera.height);
+        const Eigen::Isometry3d T_prev_ref =
             previous_.T_world_cam.inverse() * reference.T_world_cam;
         for (const PlaneMatch& match : association.planes)
         {
@@ -45,12 +47,12 @@ void PairBuilder::build(
             PlaneGaussian past_ref = ref.plane_cam;
             past_ref.theta_m += past.planeJacobian(ref) * reference.velocity;
             planes.push_back(
-                {transformed(T_base_ref, past_ref),
+                {transformed(T_prev_ref, past_ref),
                  cur.plane_cam,
                  current.planeJacobian(cur),
-                 transformJacobian(T_base_ref, past_ref.theta_m) *
-                     planeByCamera(past_ref.theta_m, camera_),
-                 planeByCamera(cur.plane_cam.theta_m, camera_),
+                 transformJacobian(T_prev_ref, past_ref.theta_m) *
+                     planeByCamera(past_ref.theta_m, camera),
+                 planeByCamera(cur.plane_cam.theta_m, camera),
                  reference.id,
                  match.ref,
                  match.cur});
@@ -60,13 +62,13 @@ void PairBuilder::build(
             const PointFeature& ref = reference.points.points[static_cast<size_t>(track.ref)];
             const PointFeature& cur = track.cur;
             PointPair pair;
-            pair.base.mean =
-                T_base_ref * (ref.p_cam.mean + past.pointJacobian(ref) * reference.velocity);
-            pair.base.cov = propagate(T_base_ref.linear(), ref.p_cam.cov);
+            pair.ref.mean =
+                T_prev_ref * (ref.p_cam.mean + past.pointJacobian(ref) * reference.velocity);
+            pair.ref.cov = propagate(T_prev_ref.linear(), ref.p_cam.cov);
             pair.cur = cur.p_cam;
             pair.dCur_dV = current.pointJacobian(cur);
-            pair.dBase_dCamera = T_base_ref.linear() * pointByCamera(ref.p_cam.mean, camera_);
-            pair.dCur_dCamera = pointByCamera(cur.p_cam.mean, camera_);
+            pair.dRef_dCamera = T_prev_ref.linear() * pointByCamera(ref.p_cam.mean, camera);
+            pair.dCur_dCamera = pointByCamera(cur.p_cam.mean, camera);
             pair.dCur_dCamera.col(0) = cur.ofVignetting_m;
             pair.reference = reference.id;
             pair.inReference = track.ref;

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pointplane/core/check.h>
+#include <pointplane/core/choice.h>
 #include <pointplane/odometry/PointStage.h>
 
 #include <limits>
 
 namespace pointplane
 {
-void PointStage::TParams::check() const
+bool PointStage::TParams::tracks() const
 {
-    POINTPLANE_CHECK(
-        method == "track" || method == "match",
-        "method = " << method << " is neither track nor match");
+    return chosen<bool>("method", method, {{"track", true}, {"match", false}});
 }
+
+void PointStage::TParams::check() const { (void)tracks(); }
 
 PointStage::PointStage(
     const TParams& params,
@@ -20,47 +20,50 @@ PointStage::PointStage(
     const PointMatcher::TParams& matcher,
     const PointLifter::TParams& lifter,
     const DepthNoise& noise)
-    : params_(params),
+    : tracks_(params.tracks()),
       tracker_(tracker, lifter, noise),
       detector_(detector),
       matcher_(matcher),
       lifter_(lifter, noise)
 {
-    params_.check();
 }
 
-void PointStage::prepare(const RgbdFrame& frame)
+PreparedPoints PointStage::prepare(const RgbdFrame& frame) const
 {
-    if (tracks())
+    PreparedPoints out;
+    if (tracks_)
     {
-        pyramid_ = tracker_.pyramid(frame.gray);
-        return;
+        out.pyramid = tracker_.pyramid(frame.gray);
+        return out;
     }
     const DetectedPoints detected = detector_.detect(frame.gray);
     LiftedPoints lifted = lifter_.liftAll(frame, detected.uv_px);
-    described_.points = std::move(lifted.points);
-    described_.descriptors.release();
+    out.described.points = std::move(lifted.points);
     for (const int i : lifted.index)
     {
-        described_.descriptors.push_back(detected.descriptors.row(i));
+        out.described.descriptors.push_back(detected.descriptors.row(i));
     }
+    return out;
 }
 
-PointReference PointStage::makeReference(const RgbdFrame& frame) const
+PointReference PointStage::makeReference(
+    const RgbdFrame& frame, const PreparedPoints& prepared) const
 {
-    return tracks() ? tracker_.makeReference(frame) : described_;
+    return tracks_ ? tracker_.makeReference(frame) : prepared.described;
 }
 
 std::vector<PointTrack> PointStage::correspond(
     const PointReference& reference,
     const RgbdFrame& frame,
+    const PreparedPoints& prepared,
     const Eigen::Isometry3d& T_cur_ref,
     double radiusFactor) const
 {
-    if (tracks())
+    if (tracks_)
     {
-        return tracker_.track(reference, frame, pyramid_, T_cur_ref, radiusFactor);
+        return tracker_.track(reference, frame, prepared.pyramid, T_cur_ref, radiusFactor);
     }
+    const PointReference& described = prepared.described;
     std::vector<Eigen::Vector2d> predicted, current;
     for (const PointFeature& point : reference.points)
     {
@@ -69,7 +72,7 @@ std::vector<PointTrack> PointStage::correspond(
             p_cur.z() > 0.1 ? frame.camera.project(p_cur)
                             : Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN()));
     }
-    for (const PointFeature& point : described_.points)
+    for (const PointFeature& point : described.points)
     {
         current.push_back(point.uv_px);
     }
@@ -79,9 +82,9 @@ std::vector<PointTrack> PointStage::correspond(
         return out;
     }
     for (const PointMatch& match :
-         matcher_.match(predicted, reference.descriptors, current, described_.descriptors))
+         matcher_.match(predicted, reference.descriptors, current, described.descriptors))
     {
-        out.push_back({match.ref, described_.points[static_cast<size_t>(match.cur)]});
+        out.push_back({match.ref, described.points[static_cast<size_t>(match.cur)]});
     }
     return out;
 }

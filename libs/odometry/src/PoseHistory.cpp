@@ -20,13 +20,13 @@ void PoseHistory::predict(const PoseGaussian& increment)
 }
 
 void PoseHistory::measure(
-    const Eigen::Isometry3d& T_first_base,
-    const Eigen::Isometry3d& T_base_cur,
+    const Eigen::Isometry3d& T_world_prev,
+    const Eigen::Isometry3d& T_prev_cur,
     double dt,
     const JointCovariance::Measurement& errors)
 {
-    joint_.measure(++latestFrame_, T_first_base, dt, errors);
-    poses_.push_front(T_first_base * T_base_cur);
+    joint_.measure(++latestFrame_, T_world_prev, dt, errors);
+    poses_.push_front(T_world_prev * T_prev_cur);
 }
 
 void PoseHistory::keep(const std::vector<int>& references, std::optional<int> frame)
@@ -42,9 +42,9 @@ PoseGaussian PoseHistory::pose() const
 
 PoseGaussian PoseHistory::since(int framesAgo) const
 {
-    const Eigen::Isometry3d& T_first_past = poses_[static_cast<size_t>(framesAgo)];
-    const Matrix6d cov = joint_.relative(latestFrame_ - framesAgo, T_first_past);
-    return {T_first_past.inverse() * poses_.front(), strictlyPositive(cov)};
+    const Eigen::Isometry3d& T_world_past = poses_[static_cast<size_t>(framesAgo)];
+    const Matrix6d cov = joint_.relative(latestFrame_ - framesAgo, T_world_past);
+    return {T_world_past.inverse() * poses_.front(), strictlyPositive(cov)};
 }
 
 std::vector<PoseGaussian> PoseHistory::sinceAll() const

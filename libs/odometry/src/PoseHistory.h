@@ -2,7 +2,7 @@
 #pragma once
 
 #include <pointplane/core/PoseGaussian.h>
-#include <pointplane/odometry/JointCovariance.h>
+#include <pointplane/odometry/uncertainty/JointCovariance.h>
 
 #include <deque>
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace pointplane
 {
-/** Poses T_first_k of the latest frames, measured or predicted, and their joint covariance. Every
+/** Poses T_world_k of the latest frames, measured or predicted, and their joint covariance. Every
  * frame is told once, by its number: 1, 2, 3, ... */
 class PoseHistory
 {
@@ -21,10 +21,10 @@ class PoseHistory
     void predict(const PoseGaussian& increment);
 
     /** The next frame was measured.
-     * \param T_first_base pose of the latest measured frame \param dt [s] since that */
+     * \param T_world_prev pose of the latest measured frame \param dt [s] since that */
     void measure(
-        const Eigen::Isometry3d& T_first_base,
-        const Eigen::Isometry3d& T_base_cur,
+        const Eigen::Isometry3d& T_world_prev,
+        const Eigen::Isometry3d& T_prev_cur,
         double dt,
         const JointCovariance::Measurement& errors);
 
@@ -38,7 +38,7 @@ class PoseHistory
     [[nodiscard]] const Eigen::Isometry3d& latest() const { return poses_.front(); }
     [[nodiscard]] int latestFrame() const { return latestFrame_; }
 
-    /** T_first_latest. */
+    /** T_world_latest. */
     [[nodiscard]] PoseGaussian pose() const;
 
     /** T_past_latest. \pre that frame is in the history */

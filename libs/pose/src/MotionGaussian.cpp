@@ -39,7 +39,7 @@ MotionPrior MotionPrior::fixedVelocity(const Motion& motion)
 Vector12d MotionPrior::residual(const Motion& motion) const
 {
     Vector12d out;
-    out << se3Log(mean.T_base_cur * motion.T_base_cur.inverse()), mean.velocity - motion.velocity;
+    out << se3Log(mean.T_prev_cur * motion.T_prev_cur.inverse()), mean.velocity - motion.velocity;
     return out;
 }
 }  // namespace pointplane

@@ -4,7 +4,6 @@
 #include <pointplane/pose/PoseSolver.h>
 #include <pointplane/pose/residuals.h>
 
-#include <map>
 #include <utility>
 #include <vector>
 
@@ -24,15 +23,13 @@ struct FeatureSum
 using Matrix312d = Eigen::Matrix<double, 3, 12>;
 using Matrix123d = Eigen::Matrix<double, 12, 3>;
 
-/** All residuals of a set of pairs at a motion. */
+/** All residuals of a problem's pairs at a motion: those of the points, then those of the planes.
+ */
 class NormalEquations
 {
  public:
-    NormalEquations(
-        const PoseSolver::TParams& params,
-        const std::vector<PointPair>& points,
-        const std::vector<PlanePair>& planes,
-        const NoiseFactors& noise);
+    /** \param solver, problem must live as long as this */
+    NormalEquations(const PoseSolver::Settings& solver, const PoseProblem& problem);
 
     /** Residuals and sums at this motion; the robust scale of the points is estimated from it.
      * \param widening of that scale */
@@ -41,9 +38,9 @@ class NormalEquations
     /** Cost of all pairs at another motion, with the robust scale of the latest evaluate(). */
     [[nodiscard]] double costAt(const Motion& motion) const;
 
-    /** Cost at the latest evaluate(). */
-    [[nodiscard]] double cost() const { return pointSum_.cost + planeSum_.cost; }
+    // At the latest evaluate():
 
+    [[nodiscard]] double cost() const { return pointSum_.cost + planeSum_.cost; }
     [[nodiscard]] const FeatureSum& points() const { return pointSum_; }
     [[nodiscard]] const FeatureSum& planes() const { return planeSum_; }
 
@@ -52,25 +49,17 @@ class NormalEquations
     [[nodiscard]] double pointVariance() const;
     [[nodiscard]] double planeVariance() const;
 
-    /** The share of each reference frame in points() and planes(). */
-    [[nodiscard]] std::map<int, FeatureSum> pointsByReference() const;
-    [[nodiscard]] std::map<int, FeatureSum> planesByReference() const;
+    /** Adds one residual to a sum. */
+    void add(FeatureSum& sum, size_t i) const;
+
+    [[nodiscard]] const Residual& residual(size_t i) const { return residuals_[i].residual; }
+    [[nodiscard]] Matrix312d jacobian(size_t i) const;
+
+    /** How the gradient changes with the residual. */
+    [[nodiscard]] Matrix123d influence(size_t i) const;
 
     /** How the gradient changes with errors of the camera. */
     [[nodiscard]] Matrix124d cameraInfluence() const;
-
-    /** Residuals at the latest evaluate() with what noise of the current frame does to them.
-     * \param ofPoints covariance of the solution that comes from currentPointNoise()
-     * \param ofPlanes from currentPlaneNoise() */
-    [[nodiscard]] std::vector<FeatureResidual> pointResiduals(
-        const Matrix12d& H_inverse, const Matrix12d& ofPoints, const Matrix12d& ofPlanes) const;
-    [[nodiscard]] std::vector<FeatureResidual> planeResiduals(
-        const Matrix12d& H_inverse, const Matrix12d& ofPoints, const Matrix12d& ofPlanes) const;
-
-    /** Covariance of the sums' gradient g by the current frame's features, as propagated. A feature
-     * that is compared with several references errs in all these pairs alike. */
-    [[nodiscard]] Matrix12d currentPointNoise() const;
-    [[nodiscard]] Matrix12d currentPlaneNoise() const;
 
  private:
     /** A residual, the weight matrix that it is given, and its squared norm by that. */
@@ -83,25 +72,11 @@ class NormalEquations
 
     [[nodiscard]] Weighted weighted(size_t i, const Motion& motion) const;
     [[nodiscard]] double gain(size_t i) const;
-    void add(FeatureSum& sum, size_t i) const;
     [[nodiscard]] bool isPoint(size_t i) const { return i < points_.size(); }
-    template <class Pairs>
-    [[nodiscard]] std::map<int, FeatureSum> byReference(const Pairs& pairs, size_t offset) const;
-    template <class Pairs>
-    [[nodiscard]] Matrix12d currentNoise(const Pairs& pairs, size_t offset) const;
-    template <class Pairs>
-    [[nodiscard]] std::vector<FeatureResidual> featureResiduals(
-        const Pairs& pairs,
-        size_t offset,
-        const Matrix12d& H_inverse,
-        const Matrix12d& ofPoints,
-        const Matrix12d& ofPlanes) const;
-    [[nodiscard]] Matrix312d jacobian(size_t i) const;
-    [[nodiscard]] Matrix123d influence(size_t i) const;
     [[nodiscard]] std::pair<double, double> robust(double squaredNorm, bool isPoint) const;
     [[nodiscard]] double relativeMedian(size_t begin, size_t end) const;
 
-    const PoseSolver::TParams& params_;
+    const PoseSolver::Settings& solver_;
     const std::vector<PointPair>& points_;
     const std::vector<PlanePair>& planes_;
     NoiseFactors noise_;

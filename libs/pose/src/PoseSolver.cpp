@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/core/check.h>
+#include <pointplane/core/choice.h>
 #include <pointplane/core/covariance.h>
 #include <pointplane/core/se3.h>
 #include <pointplane/pose/PoseSolver.h>
@@ -10,7 +11,7 @@
 #include <cmath>
 
 #include "NormalEquations.h"
-#include "disagreement.h"
+#include "SolutionAnalysis.h"
 
 namespace pointplane
 {
@@ -91,7 +92,7 @@ class Descent
             damped.diagonal() += lambda_ * H.diagonal() + Vector12d::Constant(kDamping);
             const Vector12d step = -damped.ldlt().solve(g);
             const Motion candidate{
-                se3Exp(step.head<6>()) * motion_.T_base_cur, motion_.velocity + step.tail<6>()};
+                se3Exp(step.head<6>()) * motion_.T_prev_cur, motion_.velocity + step.tail<6>()};
             accepted = step.allFinite() &&
                        equations_.costAt(candidate) + prior_.cost(candidate) <= cost * (1 + 1e-12);
             converged_ = (step.head<3>().norm() < kStepTolerance &&
@@ -100,7 +101,7 @@ class Descent
             lambda_ = accepted ? std::max(kLeastDamped, lambda_ * 0.1) : lambda_ * 10;
             if (accepted)
             {
-                motion_ = {orthonormalised(candidate.T_base_cur), candidate.velocity};
+                motion_ = {orthonormalised(candidate.T_prev_cur), candidate.velocity};
             }
         }
         return !isDone();
@@ -123,16 +124,44 @@ class Descent
     int iterations_{0};
     bool converged_{false};
 };
+
+/** Normal equations of pairs and prior at a motion. */
+struct Linearised
+{
+    Linearised(NormalEquations& equations, const RobustPrior& prior, const Motion& motion)
+    {
+        equations.evaluate(motion);
+        known = prior.information(motion) + kDamping * Matrix12d::Identity();
+        H = equations.points().H + equations.planes().H + known;
+        H_inverse = H.ldlt().solve(Matrix12d::Identity());
+    }
+    Matrix12d known;  //!< the prior's part of H
+    Matrix12d H, H_inverse;
+};
+
+PoseSolver::Weighting weightingOf(const PoseSolver::TParams& params)
+{
+    using Weighting = PoseSolver::Weighting;
+    return chosen<Weighting>(
+        "weighting",
+        params.weighting,
+        {{"full", Weighting::Full}, {"diagonal", Weighting::Diagonal}, {"none", Weighting::None}});
+}
+
+PoseSolver::PlaneResidual planeResidualOf(const PoseSolver::TParams& params)
+{
+    using PlaneResidual = PoseSolver::PlaneResidual;
+    return chosen<PlaneResidual>(
+        "planeResidual",
+        params.planeResidual,
+        {{"minimal", PlaneResidual::Minimal}, {"closestPoint", PlaneResidual::ClosestPoint}});
+}
 }  // namespace
 
 void PoseSolver::TParams::check() const
 {
-    POINTPLANE_CHECK(
-        weighting == "full" || weighting == "diagonal" || weighting == "none",
-        "weighting = " << weighting << " is none of full, diagonal, none");
-    POINTPLANE_CHECK(
-        planeResidual == "minimal" || planeResidual == "closestPoint",
-        "planeResidual = " << planeResidual << " is neither minimal nor closestPoint");
+    (void)weightingOf(*this);
+    (void)planeResidualOf(*this);
     POINTPLANE_CHECK(alpha >= 0, "alpha = " << alpha << " is negative");
     POINTPLANE_CHECK(tukeySigmas >= 0, "tukeySigmas = " << tukeySigmas << " is negative");
     POINTPLANE_CHECK(
@@ -144,82 +173,59 @@ void PoseSolver::TParams::check() const
         "maxIterations = " << maxIterations << " is not in 1..1000");
 }
 
-PoseSolver::PoseSolver(const TParams& params) : params_(params) { params_.check(); }
-
-PoseEstimate PoseSolver::solve(
-    const std::vector<PointPair>& points,
-    const std::vector<PlanePair>& planes,
-    const Eigen::Isometry3d& start,
-    const std::optional<PoseGaussian>& prior) const
+PoseSolver::PoseSolver(const TParams& params)
+    : settings_{params, weightingOf(params), planeResidualOf(params)}
 {
-    MotionPrior motionPrior = MotionPrior::fixedVelocity({start, Vector6d::Zero()});
-    if (prior)
-    {
-        motionPrior.mean.T_base_cur = prior->mean;
-        motionPrior.pose = prior->cov.ldlt().solve(Matrix6d::Identity());
-    }
-    return solve(points, planes, Motion{start, Vector6d::Zero()}, motionPrior);
+    params.check();
 }
 
-PoseEstimate PoseSolver::solve(
-    const std::vector<PointPair>& points,
-    const std::vector<PlanePair>& planes,
-    const Motion& start,
-    const MotionPrior& motionPrior,
-    const NoiseFactors& noise) const
+PoseEstimate PoseSolver::solve(const PoseProblem& problem, const Motion& start) const
 {
-    const RobustPrior prior{motionPrior, params_.priorStudentDof};
-    NormalEquations equations(params_, points, planes, noise);
-    Descent descent(equations, prior, start, params_.maxIterations);
+    const RobustPrior prior{problem.prior, settings_.params.priorStudentDof};
+    NormalEquations equations(settings_, problem);
+    Descent descent(equations, prior, start, settings_.params.maxIterations);
     descent.step(kStartWidening);
     while (descent.step(1))
     {
     }
     const Motion& x = descent.motion();
-    equations.evaluate(x);
+    const Linearised at(equations, prior, x);
+    const FeatureSum& p = equations.points();
+    const FeatureSum& m = equations.planes();
     PoseEstimate out;
     out.iterations = descent.iterations();
     out.converged = descent.converged();
-    const FeatureSum& p = equations.points();
-    const FeatureSum& m = equations.planes();
-    const Matrix12d known = prior.information(x) + kDamping * Matrix12d::Identity();
-    const Matrix12d H = p.H + m.H + known;
-    const Matrix12d H_inverse = H.ldlt().solve(Matrix12d::Identity());
-    out.motion = {x, propagate(H_inverse, p.M + m.M + known)};
+    out.motion = {x, propagate(at.H_inverse, p.M + m.M + at.known)};
     out.infoPoints = p.H.topLeftCorner<6, 6>();
     out.infoPlanes = m.H.topLeftCorner<6, 6>();
-    if (params_.alpha > 0)
+    if (settings_.params.alpha > 0)
     {
-        out.infoPlanes /= params_.alpha;
+        out.infoPlanes /= settings_.params.alpha;
     }
     out.pointChi2PerDof = p.weightSum > 0 ? p.weightedChi2 / (3 * p.weightSum) : 0;
     out.planeChi2PerDof = m.weightSum > 0 ? m.weightedChi2 / (3 * m.weightSum) : 0;
+    out.numPointInliers = p.numInliers;
+    return out;
+}
+
+PoseAnalysis PoseSolver::analyse(const PoseProblem& problem, const PoseEstimate& solution) const
+{
+    const RobustPrior prior{problem.prior, settings_.params.priorStudentDof};
+    NormalEquations equations(settings_, problem);
+    const Linearised at(equations, prior, solution.motion.mean);
+    const SolutionAnalysis analysis(equations, problem, at.H, at.H_inverse);
+    PoseAnalysis out;
+    out.sensitivity = analysis.sensitivity();
+    out.sensitivity.prior = at.H_inverse * at.known;
     out.pointVariance = equations.pointVariance();
     out.planeVariance = equations.planeVariance();
-    const std::map<int, FeatureSum> pointGroups = equations.pointsByReference();
-    const std::map<int, FeatureSum> planeGroups = equations.planesByReference();
-    if (pointGroups.size() + planeGroups.size() > 1)
+    if (analysis.numGroups() > 1)
     {
-        out.pointDisagreement = disagreementOf(pointGroups, H, H_inverse, out.motion.cov);
-        out.planeDisagreement = disagreementOf(planeGroups, H, H_inverse, out.motion.cov);
+        out.pointDisagreement = analysis.pointDisagreement(solution.motion.cov);
+        out.planeDisagreement = analysis.planeDisagreement(solution.motion.cov);
     }
-    out.sensitivity.prior = H_inverse * known;
-    for (const auto* groups : {&pointGroups, &planeGroups})
-    {
-        for (const auto& [reference, group] : *groups)
-        {
-            const auto it = out.sensitivity.references.emplace(reference, Matrix126d::Zero()).first;
-            it->second += (H_inverse * group.H).leftCols<6>();
-        }
-    }
-    out.sensitivity.points = propagate(H_inverse, equations.currentPointNoise());
-    out.sensitivity.planes = propagate(H_inverse, equations.currentPlaneNoise());
-    out.pointResiduals =
-        equations.pointResiduals(H_inverse, out.sensitivity.points, out.sensitivity.planes);
-    out.planeResiduals =
-        equations.planeResiduals(H_inverse, out.sensitivity.points, out.sensitivity.planes);
-    out.sensitivity.camera = -H_inverse * equations.cameraInfluence();
-    out.numPointInliers = p.numInliers;
+    out.pointResiduals = analysis.pointResiduals(out.sensitivity);
+    out.planeResiduals = analysis.planeResiduals(out.sensitivity);
     return out;
 }
 }  // namespace pointplane

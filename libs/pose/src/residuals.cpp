@@ -47,15 +47,15 @@ Matrix36d jacobianOfTransform(const Eigen::Vector3d& theta_a)
 Residual pointResidual(const PointPair& pair, const Motion& motion)
 {
     Residual out;
-    const Eigen::Matrix3d R = motion.T_base_cur.linear();
-    const Eigen::Vector3d p_base =
-        motion.T_base_cur * (pair.cur.mean + pair.dCur_dV * motion.velocity);
-    out.r = pair.base.mean - p_base;  // [P17 Eq. 8]
+    const Eigen::Matrix3d R = motion.T_prev_cur.linear();
+    const Eigen::Vector3d p_prev =
+        motion.T_prev_cur * (pair.cur.mean + pair.dCur_dV * motion.velocity);
+    out.r = pair.ref.mean - p_prev;  // [P17 Eq. 8]
     out.curCov = propagate(R, pair.cur.cov);
-    out.cov = pair.base.cov + out.curCov;
-    out.J << -Eigen::Matrix3d::Identity(), hat(p_base);
+    out.cov = pair.ref.cov + out.curCov;
+    out.J << -Eigen::Matrix3d::Identity(), hat(p_prev);
     out.J_V = -R * pair.dCur_dV;
-    out.ofCamera = pair.dBase_dCamera - R * pair.dCur_dCamera;
+    out.ofCamera = pair.dRef_dCamera - R * pair.dCur_dCamera;
     return out;
 }
 
@@ -72,30 +72,30 @@ Eigen::Matrix3d transformJacobian(const Eigen::Isometry3d& T_a_b, const Eigen::V
 
 Residual planeResidualMinimal(const PlanePair& pair, const Motion& motion)
 {
-    const PlaneTransform cur(motion.T_base_cur, pair.cur.theta_m + pair.dCur_dV * motion.velocity);
+    const PlaneTransform cur(motion.T_prev_cur, pair.cur.theta_m + pair.dCur_dV * motion.velocity);
     Residual out;
-    out.r = pair.base.theta_m - cur.theta;
+    out.r = pair.ref.theta_m - cur.theta;
     out.curCov = propagate(cur.J, pair.cur.cov_m);
-    out.cov = pair.base.cov_m + out.curCov;
+    out.cov = pair.ref.cov_m + out.curCov;
     out.J = -jacobianOfTransform(cur.theta);
     out.J_V = -cur.J * pair.dCur_dV;
-    out.ofCamera = pair.dBase_dCamera - cur.J * pair.dCur_dCamera;
+    out.ofCamera = pair.dRef_dCamera - cur.J * pair.dCur_dCamera;
     return out;
 }
 
 Residual planeResidualClosestPoint(const PlanePair& pair, const Motion& motion)
 {
     const Residual minimal = planeResidualMinimal(pair, motion);
-    const Eigen::Vector3d theta_cur = pair.base.theta_m - minimal.r;
-    const ClosestPoint measured(theta_cur), reference(pair.base.theta_m);
+    const Eigen::Vector3d theta_cur = pair.ref.theta_m - minimal.r;
+    const ClosestPoint measured(theta_cur), reference(pair.ref.theta_m);
     Residual out;
     out.r = reference.C - measured.C;  // [P17 Eq. 9], up to the sign of both
     out.curCov = propagate(measured.J, minimal.curCov);
-    out.cov = propagate(reference.J, pair.base.cov_m) + out.curCov;
+    out.cov = propagate(reference.J, pair.ref.cov_m) + out.curCov;
     out.J = measured.J * minimal.J;
     out.J_V = measured.J * minimal.J_V;
     out.ofCamera =
-        reference.J * pair.dBase_dCamera + measured.J * (minimal.ofCamera - pair.dBase_dCamera);
+        reference.J * pair.dRef_dCamera + measured.J * (minimal.ofCamera - pair.dRef_dCamera);
     return out;
 }
 }  // namespace pointplane

@@ -2,12 +2,12 @@
 #pragma once
 
 #include <pointplane/core/Parameters.h>
-#include <pointplane/odometry/JointCovariance.h>
-#include <pointplane/odometry/MotionModel.h>
-#include <pointplane/odometry/NoiseScale.h>
 #include <pointplane/odometry/PointStage.h>
-#include <pointplane/odometry/Reference.h>
-#include <pointplane/odometry/ShutterCalibrator.h>
+#include <pointplane/odometry/ReferenceWindow.h>
+#include <pointplane/odometry/uncertainty/JointCovariance.h>
+#include <pointplane/odometry/uncertainty/MotionModel.h>
+#include <pointplane/odometry/uncertainty/NoiseScale.h>
+#include <pointplane/odometry/uncertainty/ShutterCalibrator.h>
 #include <pointplane/planes/PlaneExtractor.h>
 #include <pointplane/planes/PlaneMatcher.h>
 #include <pointplane/pose/PoseSolver.h>
@@ -55,6 +55,7 @@ struct PipelineParams
     }
     /** \throws std::invalid_argument naming the key */
     void check() const;
+    [[nodiscard]] bool fuses() const;  //!< or gates
 };
 
 /** All parameters of the odometry, one ini section a group. */

@@ -46,7 +46,7 @@ struct OdometryResult
     std::string reason;      //!< why not tracked, or empty; one clause without full stop
     double stamp{0};         //!< of the frame [s]
     PoseGaussian increment;  //!< T_prev_cur, camera optical frames; strictly positive definite
-    PoseGaussian pose;       //!< T_first_cur, accumulated
+    PoseGaussian pose;       //!< T_world_cur, accumulated
     /** T_past_cur since 1, 2, ... frames ago, whatever became of these, back to
      * OdometryParams::covariance.history or the first frame. Composed increments have the same mean
      * but not this covariance: errors of frames that were compared with the same references do not

@@ -12,6 +12,13 @@
 
 namespace pointplane
 {
+/** A frame in which points can be found. */
+struct PreparedPoints
+{
+    std::vector<cv::Mat> pyramid;  //!< tracking: of the image
+    PointReference described;      //!< matching: key points with descriptors
+};
+
 /** Points of a frame and their correspondences, by one of two methods behind one interface: `track`
  * (corners of the reference are searched for in the current image) or `match` (key points of both
  * images are matched by descriptor, as in [P17]). */
@@ -32,6 +39,7 @@ class PointStage
               "descriptor)");
         }
         void check() const;
+        [[nodiscard]] bool tracks() const;  //!< or matches
     };
 
     PointStage(
@@ -42,29 +50,27 @@ class PointStage
         const PointLifter::TParams& lifter,
         const DepthNoise& noise);
 
-    /** Prepares the current frame: image pyramid, or key points with descriptors. */
-    void prepare(const RgbdFrame& frame);
+    [[nodiscard]] PreparedPoints prepare(const RgbdFrame& frame) const;
 
-    /** Makes a reference of the frame that was prepared last. */
-    [[nodiscard]] PointReference makeReference(const RgbdFrame& frame) const;
+    /** \param prepared of the same frame */
+    [[nodiscard]] PointReference makeReference(
+        const RgbdFrame& frame, const PreparedPoints& prepared) const;
 
-    /** Points of the reference found in the frame that was prepared last.
-     * \param T_cur_ref predicted motion \param radiusFactor widens the search (tracking only) */
+    /** Points of the reference found in the current frame.
+     * \param prepared of that frame \param T_cur_ref predicted motion
+     * \param radiusFactor widens the search (tracking only) */
     [[nodiscard]] std::vector<PointTrack> correspond(
         const PointReference& reference,
         const RgbdFrame& frame,
+        const PreparedPoints& prepared,
         const Eigen::Isometry3d& T_cur_ref,
         double radiusFactor) const;
 
  private:
-    [[nodiscard]] bool tracks() const { return params_.method == "track"; }
-
-    TParams params_;
+    bool tracks_;  //!< or matches
     PointTracker tracker_;
     PointDetector detector_;
     PointMatcher matcher_;
     PointLifter lifter_;
-    std::vector<cv::Mat> pyramid_;  //!< of the prepared frame
-    PointReference described_;      //!< key points of the prepared frame
 };
 }  // namespace pointplane

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pointplane/core/Parameters.h>
-#include <pointplane/odometry/ShutterCorrection.h>
+#include <pointplane/core/types.h>
 #include <pointplane/planes/PlaneFeature.h>
+#include <pointplane/planes/PlaneMatcher.h>
 #include <pointplane/points/PointTracker.h>
+#include <pointplane/sensor/RgbdFrame.h>
 
-#include <deque>
-#include <string>
 #include <vector>
 
 namespace pointplane
@@ -15,7 +14,7 @@ namespace pointplane
 /** A past frame that the current one is aligned with. */
 struct Reference
 {
-    int id{0};
+    int id{0};        //!< number of the frame
     double stamp{0};  //!< [s]
     Eigen::Isometry3d T_world_cam{Eigen::Isometry3d::Identity()};
     Vector6d velocity{Vector6d::Zero()};  //!< body velocity at stamp [m/s, rad/s]
@@ -24,67 +23,11 @@ struct Reference
     PointReference points;  //!< empty for a frame that is not a key frame
 };
 
-/** Which frames the current one is aligned with, and when to make a key frame. */
-class ReferenceWindow
+/** What one reference and the current frame have in common. */
+struct Association
 {
- public:
-    struct TParams
-    {
-        std::string reference{"keyframes"};
-        int maxKeyframes{4};
-        double keyframeDistance{0.15};
-        double keyframeAngleDeg{10.0};
-        double keyframeMinOverlap{0.35};
-
-        template <class V>
-        void visit(V&& v)
-        {
-            v("reference",
-              reference,
-              "-",
-              "keyframes (key frames, and the previous frame's planes) or previous (frame to "
-              "frame)");
-            v("maxKeyframes", maxKeyframes, "-", "that are kept; the oldest is dropped");
-            v("keyframeDistance", keyframeDistance, "m", "new key frame after this translation");
-            v("keyframeAngleDeg", keyframeAngleDeg, "deg", "or after this rotation");
-            v("keyframeMinOverlap",
-              keyframeMinOverlap,
-              "-",
-              "or when less than this fraction of the newest one's points or planes is found "
-              "again");
-        }
-        void check() const;
-    };
-
-    explicit ReferenceWindow(const TParams& params);
-
-    [[nodiscard]] bool empty() const { return !hasPrevious_; }
-    [[nodiscard]] const Reference& previous() const { return previous_; }
-
-    /** The previous frame first, then the key frames, newest first. */
-    [[nodiscard]] std::vector<const Reference*> active() const;
-
-    /** Frame whose points tell the overlap: the newest with points. */
-    [[nodiscard]] bool isNewest(const Reference& reference) const;
-
-    /** \param overlap of the frame with the newest key frame, in [0, 1] */
-    [[nodiscard]] bool needsKeyframe(const Eigen::Isometry3d& T_world_cam, double overlap) const;
-
-    /** Corrects the velocity of the previous frame, now that the next one is known. */
-    void refinePreviousVelocity(const Vector6d& velocity);
-
-    /** Takes in which points of a frame in the window have been found again. */
-    void notePoints(int id, const std::vector<PointTrack>& tracks);
-
-    void add(Reference frame, bool isKeyframe);
-
-    /** Forgets all; the next frame starts a new window. */
-    void clear();
-
- private:
-    TParams params_;
-    bool hasPrevious_{false};
-    Reference previous_;
-    std::deque<Reference> keyframes_;  //!< oldest first
+    const Reference* reference{nullptr};
+    std::vector<PlaneMatch> planes;
+    std::vector<PointTrack> points;
 };
 }  // namespace pointplane

@@ -8,7 +8,7 @@ namespace pointplane
 /** Pose of the current camera and its velocity at that instant. */
 struct Motion
 {
-    Eigen::Isometry3d T_base_cur{Eigen::Isometry3d::Identity()};
+    Eigen::Isometry3d T_prev_cur{Eigen::Isometry3d::Identity()};
     Vector6d velocity{Vector6d::Zero()};  //!< body velocity [m/s, rad/s]
 };
 
@@ -19,7 +19,7 @@ struct MotionGaussian
     Motion mean;
     Matrix12d cov{Matrix12d::Zero()};
 
-    [[nodiscard]] PoseGaussian pose() const { return {mean.T_base_cur, cov.topLeftCorner<6, 6>()}; }
+    [[nodiscard]] PoseGaussian pose() const { return {mean.T_prev_cur, cov.topLeftCorner<6, 6>()}; }
 };
 
 /** What is known of a motion without the current frame, with e = [log(T_mean T^-1); V_mean - V] and

@@ -3,10 +3,9 @@
 
 #include <pointplane/core/Parameters.h>
 #include <pointplane/pose/MotionGaussian.h>
+#include <pointplane/pose/PoseAnalysis.h>
 #include <pointplane/pose/pairs.h>
 
-#include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,41 +18,13 @@ struct NoiseFactors
     double planes{1};
 };
 
-/** How far groups of features, those of each reference frame, draw the pose away from where all
- * together put it. */
-struct Disagreement
+/** What a motion is estimated from. */
+struct PoseProblem
 {
-    double observed{0};  //!< squared, in units of the covariances
-    double expected{0};  //!< were errors as claimed and independent; 0 = nothing to compare
-};
-
-/** On what an estimate of pose (left perturbation) and velocity depends, to first order. */
-struct Sensitivity
-{
-    /** By reference frame: change of the estimate with a change of that frame's pose (left
-     * perturbation in the base frame). */
-    std::map<int, Matrix126d> references;
-    /** Change with that of the prior's mean, in the order of MotionPrior::residual(). */
-    Matrix12d prior{Matrix12d::Zero()};
-    /** Covariance that comes from the current frame's points and planes, as propagated: without
-     * the noise factors, and without the references' own errors. */
-    Matrix12d points{Matrix12d::Zero()}, planes{Matrix12d::Zero()};
-    /** Change with errors of the camera, by which all features err together. */
-    Matrix124d camera{Matrix124d::Zero()};
-};
-
-/** How far a feature is from where the estimate puts it, and how far noise of the current frame
- * puts it there: own * w + ofPoints * w_points + ofPlanes * w_planes times curCov on average over
- * the directions, if the variance of features is w (of its kind), w_points, w_planes over curCov.
- */
-struct FeatureResidual
-{
-    int reference{0}, inReference{-1};                //!< as in the pair
-    Eigen::Vector3d r{0, 0, 0};                       //!< in the base frame [m] or [1/m]
-    Eigen::Matrix3d curCov{Eigen::Matrix3d::Zero()};  //!< of the current feature, in r
-    double own{1};       //!< of the feature itself, less what the estimate follows it
-    double ofPoints{0};  //!< of all points, by the estimate
-    double ofPlanes{0};  //!< of all planes, by the estimate
+    std::vector<PointPair> points;
+    std::vector<PlanePair> planes;
+    MotionPrior prior;  //!< what is known without the pairs
+    NoiseFactors noise;
 };
 
 /** What the solver found. */
@@ -66,13 +37,7 @@ struct PoseEstimate
     Matrix6d infoPlanes{Matrix6d::Zero()};  //!< of the planes, alpha not included
     double pointChi2PerDof{0};  //!< mean squared Mahalanobis norm / 3 of points, Tukey-weighted
     double planeChi2PerDof{0};  //!< mean squared Mahalanobis norm / 3 of planes
-    double pointVariance{0};    //!< of points over the propagated one, from the median; 0 = none
-    double planeVariance{0};    //!< of planes, likewise
-    Disagreement pointDisagreement;  //!< of the references' points, with all other features
-    Disagreement planeDisagreement;  //!< of their planes, likewise
-    Sensitivity sensitivity;
-    std::vector<FeatureResidual> pointResiduals, planeResiduals;  //!< of the pairs
-    int numPointInliers{0};  //!< points with a Tukey weight above 1/2
+    int numPointInliers{0};     //!< points with a Tukey weight above 1/2
     int iterations{0};
     bool converged{false};
 };
@@ -83,6 +48,18 @@ struct PoseEstimate
 class PoseSolver
 {
  public:
+    enum class Weighting
+    {
+        Full,
+        Diagonal,
+        None
+    };
+    enum class PlaneResidual
+    {
+        Minimal,
+        ClosestPoint
+    };
+
     struct TParams
     {
         std::string weighting{"full"};
@@ -127,29 +104,27 @@ class PoseSolver
     explicit PoseSolver(const TParams& params);
 
     /** Residuals are in units of their covariances. */
-    [[nodiscard]] bool isWeighted() const { return params_.weighting != "none"; }
+    [[nodiscard]] bool isWeighted() const { return settings_.weighting != Weighting::None; }
 
-    /** Pose and velocity. \param start initial motion \param prior what is known without the pairs
+    /** Pose and velocity. \param start initial motion
      * \pre prior and pairs must fix all directions or the covariance is that of a minimally damped
      * system */
-    [[nodiscard]] PoseEstimate solve(
-        const std::vector<PointPair>& points,
-        const std::vector<PlanePair>& planes,
-        const Motion& start,
-        const MotionPrior& prior,
-        const NoiseFactors& noise = {}) const;
+    [[nodiscard]] PoseEstimate solve(const PoseProblem& problem, const Motion& start) const;
 
-    /** The pose alone, pairs taken at rest. \param start initial T_base_cur
-     * \param prior what is known without the pairs (left covariance); absent = nothing
-     * \pre without a prior, pairs must fix all six directions or the covariance is that of a
-     * minimally damped system */
-    [[nodiscard]] PoseEstimate solve(
-        const std::vector<PointPair>& points,
-        const std::vector<PlanePair>& planes,
-        const Eigen::Isometry3d& start,
-        const std::optional<PoseGaussian>& prior) const;
+    /** What a solution depends on and what it leaves unexplained.
+     * \param solution of the same problem */
+    [[nodiscard]] PoseAnalysis analyse(
+        const PoseProblem& problem, const PoseEstimate& solution) const;
+
+    /** Parameters with their words as enumerators. */
+    struct Settings
+    {
+        TParams params;
+        Weighting weighting;
+        PlaneResidual planeResidual;
+    };
 
  private:
-    TParams params_;
+    Settings settings_;
 };
 }  // namespace pointplane

@@ -18,26 +18,26 @@ using Matrix124d = Eigen::Matrix<double, 12, kNumCameraErrors>;  //!< pose and v
  * on its body velocity V [m/s, rad/s], to first order by dCur_dV. */
 struct PointPair
 {
-    PointGaussian base;                        //!< from a reference frame, in the base frame [m]
-    PointGaussian cur;                         //!< in the current camera, were it at rest [m]
-    Matrix36d dCur_dV{Matrix36d::Zero()};      //!< rolling shutter: cur is at cur.mean + dCur_dV V
-    ByCamera dBase_dCamera{ByCamera::Zero()};  //!< error of base with those of the camera [m]
-    ByCamera dCur_dCamera{ByCamera::Zero()};   //!< of cur, likewise
-    int reference{0};                          //!< which of the frames that cur is compared with
-    int inReference{-1};                       //!< which of that frame's points base is
-    int feature{-1};                           //!< pairs of equal ones err together; -1: of its own
+    PointGaussian ref;                        //!< from a reference frame, in the previous frame [m]
+    PointGaussian cur;                        //!< in the current camera, were it at rest [m]
+    Matrix36d dCur_dV{Matrix36d::Zero()};     //!< rolling shutter: cur is at cur.mean + dCur_dV V
+    ByCamera dRef_dCamera{ByCamera::Zero()};  //!< error of ref with those of the camera [m]
+    ByCamera dCur_dCamera{ByCamera::Zero()};  //!< of cur, likewise
+    int reference{0};                         //!< which of the frames that cur is compared with
+    int inReference{-1};                      //!< which of that frame's points ref is
+    int feature{-1};                          //!< pairs of equal ones err together; -1: of its own
 };
 
 /** The same plane seen twice. */
 struct PlanePair
 {
-    PlaneGaussian base;                        //!< from a reference frame, in the base frame
-    PlaneGaussian cur;                         //!< in the current camera, were it at rest
-    Matrix36d dCur_dV{Matrix36d::Zero()};      //!< rolling shutter: cur is at theta_m + dCur_dV V
-    ByCamera dBase_dCamera{ByCamera::Zero()};  //!< error of base with those of the camera [1/m]
-    ByCamera dCur_dCamera{ByCamera::Zero()};   //!< of cur, likewise
-    int reference{0};                          //!< which of the frames that cur is compared with
-    int inReference{-1};                       //!< which of that frame's planes base is
-    int feature{-1};                           //!< pairs of equal ones err together; -1: of its own
+    PlaneGaussian ref;                        //!< from a reference frame, in the previous frame
+    PlaneGaussian cur;                        //!< in the current camera, were it at rest
+    Matrix36d dCur_dV{Matrix36d::Zero()};     //!< rolling shutter: cur is at theta_m + dCur_dV V
+    ByCamera dRef_dCamera{ByCamera::Zero()};  //!< error of ref with those of the camera [1/m]
+    ByCamera dCur_dCamera{ByCamera::Zero()};  //!< of cur, likewise
+    int reference{0};                         //!< which of the frames that cur is compared with
+    int inReference{-1};                      //!< which of that frame's planes ref is
+    int feature{-1};                          //!< pairs of equal ones err together; -1: of its own
 };
 }  // namespace pointplane

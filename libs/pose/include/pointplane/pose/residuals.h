@@ -7,7 +7,7 @@
 
 namespace pointplane
 {
-/** A 3-vector residual at a motion, linearised for the LEFT perturbation exp(xi) T_base_cur, xi =
+/** A 3-vector residual at a motion, linearised for the LEFT perturbation exp(xi) T_prev_cur, xi =
  * [translation; rotation], and for a change of the velocity. */
 struct Residual
 {
@@ -19,7 +19,7 @@ struct Residual
     ByCamera ofCamera{ByCamera::Zero()};  //!< change with errors of the camera
 };
 
-/** r = P' - (R P + t) [P17 Eq. 8]: P' in base, P in the current camera [m]. */
+/** r = P' - (R P + t) [P17 Eq. 8]: P' in the previous frame, P in the current camera [m]. */
 [[nodiscard]] Residual pointResidual(const PointPair& pair, const Motion& motion);
 
 /** Transforms the minimal form: theta_a = R theta_b / (1 - (R theta_b) . t), and its covariance. */
@@ -30,7 +30,7 @@ struct Residual
 [[nodiscard]] Eigen::Matrix3d transformJacobian(
     const Eigen::Isometry3d& T_a_b, const Eigen::Vector3d& theta_b);
 
-/** r = theta_m' - theta_m(T): difference of the minimal forms in base [1/m]. */
+/** r = theta_m' - theta_m(T): difference of the minimal forms in the previous frame [1/m]. */
 [[nodiscard]] Residual planeResidualMinimal(const PlanePair& pair, const Motion& motion);
 
 /** r = C' - C(T) in metres, C = d n being the plane's point closest to the origin up to sign

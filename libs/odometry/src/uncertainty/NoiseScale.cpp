@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/core/check.h>
-#include <pointplane/odometry/NoiseScale.h>
+#include <pointplane/odometry/uncertainty/NoiseScale.h>
 
 #include <algorithm>
 #include <cmath>
@@ -39,24 +39,24 @@ NoiseScale::NoiseScale(const TParams& params) : params_(params)
     }
 }
 
-void NoiseScale::update(const PoseEstimate& estimate, double dt)
+void NoiseScale::update(const PoseAnalysis& analysis, double dt)
 {
     if (!params_.adaptive)
     {
         return;
     }
-    pointResiduals_.follow(estimate.pointVariance, dt, params_.timeConstant);
-    planeResiduals_.follow(estimate.planeVariance, dt, params_.timeConstant);
+    pointResiduals_.follow(analysis.pointVariance, dt, params_.timeConstant);
+    planeResiduals_.follow(analysis.planeVariance, dt, params_.timeConstant);
 
     // The solver was told common_ times the constant factor, which is not for this.
     const auto needed = [](const Disagreement& d, double told)
     { return d.expected > 0 ? told * d.observed / d.expected : 0; };
     pointCommon_.follow(
-        needed(estimate.pointDisagreement, pointCommon_.cautious * params_.pointFactor),
+        needed(analysis.pointDisagreement, pointCommon_.cautious * params_.pointFactor),
         dt,
         params_.agreementTimeConstant);
     planeCommon_.follow(
-        needed(estimate.planeDisagreement, planeCommon_.cautious * params_.planeFactor),
+        needed(analysis.planeDisagreement, planeCommon_.cautious * params_.planeFactor),
         dt,
         params_.agreementTimeConstant);
 }

@@ -38,11 +38,11 @@ double commonOf(double drift, double power, const Matrix12d& sensitivity)
 
 JointCovariance::Measurement frameErrors(
     const PoseEstimate& estimate,
+    const Sensitivity& of,
     const ResidualVariogram::Levels& levels,
     double views,
     const JointCovariance::TParams& params)
 {
-    const Sensitivity& of = estimate.sensitivity;
     const auto& [white, drift] = levels;
     JointCovariance::Measurement out;
     out.references = of.references;

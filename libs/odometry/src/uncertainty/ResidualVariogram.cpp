@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pointplane/odometry/ResidualVariogram.h>
+#include <pointplane/odometry/uncertainty/ResidualVariogram.h>
 #include <pointplane/pose/median_variance.h>
 
 #include <Eigen/LU>
@@ -39,16 +39,16 @@ constexpr double kMinVariogram = 0.003, kMaxVariogram = 1000;
 }  // namespace
 
 void ResidualVariogram::update(
-    const PoseEstimate& estimate,
-    const Eigen::Matrix3d& R_world_base,
+    const PoseAnalysis& analysis,
+    const Eigen::Matrix3d& R_world_prev,
     double views,
     double dt,
     const NoiseFactors& residuals)
 {
     views_.push_front(views);
     const double kept = std::exp(-dt / kTimeConstant);
-    Snapshot points = snapshot(estimate.pointResiduals, R_world_base, points_.white);
-    Snapshot planes = snapshot(estimate.planeResiduals, R_world_base, planes_.white);
+    Snapshot points = snapshot(analysis.pointResiduals, R_world_prev, points_.white);
+    Snapshot planes = snapshot(analysis.planeResiduals, R_world_prev, planes_.white);
     update(points_, std::move(points), kLeastPoints, kept, residuals.points);
     update(planes_, std::move(planes), kLeastPlanes, kept, residuals.planes);
     views_.resize(std::min(views_.size(), kLag));
@@ -56,7 +56,7 @@ void ResidualVariogram::update(
 
 ResidualVariogram::Snapshot ResidualVariogram::snapshot(
     const std::vector<FeatureResidual>& residuals,
-    const Eigen::Matrix3d& R_world_base,
+    const Eigen::Matrix3d& R_world_prev,
     double ownWhite) const
 {
     Snapshot out;
@@ -66,8 +66,8 @@ ResidualVariogram::Snapshot ResidualVariogram::snapshot(
         const double ofOthers = points_.white * f.ofPoints + planes_.white * f.ofPlanes;
         out.push_back(
             {{f.reference, f.inReference},
-             R_world_base * f.r,
-             R_world_base * f.curCov * R_world_base.transpose(),
+             R_world_prev * f.r,
+             R_world_prev * f.curCov * R_world_prev.transpose(),
              f.own + ofOthers / ownWhite});
     }
     std::sort(out.begin(), out.end(), [](const Entry& a, const Entry& b) { return a.key < b.key; });

@@ -80,9 +80,10 @@ class JointCovariance
         }
         /** \throws std::invalid_argument naming the key */
         void check() const;
+        [[nodiscard]] bool isJoint() const;  //!< or of independent increments
     };
 
-    /** On what pose (left perturbation in the base frame, that of the latest measured frame) and
+    /** On what pose (left perturbation in the previous measured frame) and
      * velocity of a measured frame depend. */
     struct Measurement
     {
@@ -91,7 +92,7 @@ class JointCovariance
         Matrix12d noise{Matrix12d::Zero()};       //!< of the frame's own features
         Matrix12d priorNoise{Matrix12d::Zero()};  //!< of the predicted motion, without the velocity
         Matrix124d camera{Matrix124d::Zero()};    //!< change with errors of the camera
-        Matrix6d drift{Matrix6d::Zero()};         //!< gained by each reference since the base
+        Matrix6d drift{Matrix6d::Zero()};  //!< gained by each reference since the previous frame
     };
 
     explicit JointCovariance(const TParams& params);
@@ -103,18 +104,18 @@ class JointCovariance
      * \param cov of the motion from there (left perturbation in its frame) */
     void predict(int frame, const Eigen::Isometry3d& T_world_latest, const Matrix6d& cov);
 
-    /** A frame whose pose is known becomes the base and the only reference. */
+    /** A frame whose pose is known becomes the previous one and the only reference. */
     void restart(int frame);
 
-    /** A measured frame: the next base, and a reference.
-     * \param T_world_base pose of the base \param dt [s] since the base */
+    /** A measured frame: the next previous one, and a reference.
+     * \param T_world_prev pose of the previous measured frame \param dt [s] since that */
     void measure(
         int frame,
-        const Eigen::Isometry3d& T_world_base,
+        const Eigen::Isometry3d& T_world_prev,
         double dt,
         const Measurement& measurement);
 
-    /** Forgets all other references, and poses beyond the history but the base and `pose`. */
+    /** Forgets all other references, and poses beyond the history but the previous and `pose`. */
     void keep(const std::vector<int>& references, std::optional<int> pose = {});
 
     /** Of the latest pose; positive semidefinite. */
@@ -152,6 +153,6 @@ class JointCovariance
     TParams params_;
     std::vector<Block> blocks_;  //!< poses newest first
     Eigen::MatrixXd cov_;        //!< six rows per block
-    int base_{0};
+    int previous_{0};
 };
 }  // namespace pointplane

@@ -48,7 +48,7 @@ class NoiseScale
     explicit NoiseScale(const TParams& params);
 
     /** Takes in a measured frame, `dt` [s] after the one before. */
-    void update(const PoseEstimate& estimate, double dt);
+    void update(const PoseAnalysis& analysis, double dt);
 
     /** For the solver, whose features have to stand beside a predicted motion. */
     [[nodiscard]] NoiseFactors factors() const;

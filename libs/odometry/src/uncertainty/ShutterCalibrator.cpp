@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/core/check.h>
 #include <pointplane/core/covariance.h>
-#include <pointplane/odometry/ShutterCalibrator.h>
+#include <pointplane/odometry/uncertainty/ShutterCalibrator.h>
 #include <pointplane/pose/residuals.h>
 
 #include <Eigen/Cholesky>

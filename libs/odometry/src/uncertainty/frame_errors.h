@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pointplane/odometry/JointCovariance.h>
-#include <pointplane/odometry/ResidualVariogram.h>
+#include <pointplane/odometry/uncertainty/JointCovariance.h>
+#include <pointplane/odometry/uncertainty/ResidualVariogram.h>
 #include <pointplane/pose/PoseSolver.h>
 
 namespace pointplane
@@ -14,6 +14,7 @@ namespace pointplane
  * \param views since the previous measured frame (numViews()) */
 [[nodiscard]] JointCovariance::Measurement frameErrors(
     const PoseEstimate& estimate,
+    const Sensitivity& of,
     const ResidualVariogram::Levels& levels,
     double views,
     const JointCovariance::TParams& params);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/core/check.h>
+#include <pointplane/core/choice.h>
 #include <pointplane/core/covariance.h>
 #include <pointplane/core/se3.h>
-#include <pointplane/odometry/JointCovariance.h>
+#include <pointplane/odometry/uncertainty/JointCovariance.h>
 
 #include <algorithm>
 
@@ -17,11 +18,14 @@ constexpr double kOwnErrorKept = 0.5;
 constexpr Eigen::Index kSize = 6;
 }  // namespace
 
+bool JointCovariance::TParams::isJoint() const
+{
+    return chosen<bool>("model", model, {{"joint", true}, {"independent", false}});
+}
+
 void JointCovariance::TParams::check() const
 {
-    POINTPLANE_CHECK(
-        model == "joint" || model == "independent",
-        "model = " << model << " is neither joint nor independent");
+    (void)isJoint();
     POINTPLANE_CHECK(noise > 0, "noise = " << noise << " is not positive");
     POINTPLANE_CHECK(drift >= 0, "drift = " << drift << " is negative");
     POINTPLANE_CHECK(driftSigma >= 0, "driftSigma = " << driftSigma << " is negative");
@@ -57,21 +61,21 @@ void JointCovariance::predict(
 void JointCovariance::restart(int frame)
 {
     keep({});
-    base_ = frame;
+    previous_ = frame;
     Eigen::MatrixXd A = Eigen::MatrixXd::Zero(kSize, cov_.cols());
     A.middleCols<kSize>(find(Kind::Pose, frame)).setIdentity();
     prepend({{Kind::Reference, frame}}, A, Matrix6d::Zero());
 }
 
-/** Of pose and velocity on all blocks so far. The predicted motion starts at the base with its
- * velocity: an error of that moves it by dt times as much. */
+/** Of pose and velocity on all blocks so far. The predicted motion starts at the previous frame
+ * with its velocity: an error of that moves it by dt times as much. */
 Eigen::MatrixXd JointCovariance::dependence(
     const Matrix6d& Ad, double dt, const Measurement& measurement) const
 {
     const Matrix6d Ad_inverse = Ad.inverse();
     Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * kSize, cov_.cols());
     const auto prior = measurement.prior.leftCols<kSize>();
-    A.middleCols<kSize>(find(Kind::Pose, base_)) += prior * Ad_inverse;
+    A.middleCols<kSize>(find(Kind::Pose, previous_)) += prior * Ad_inverse;
     A.middleCols<kSize>(find(Kind::Velocity, 0)) +=
         dt * prior + measurement.prior.rightCols<kSize>();
     for (const auto& [frame, change] : measurement.references)
@@ -84,9 +88,9 @@ Eigen::MatrixXd JointCovariance::dependence(
 }
 
 void JointCovariance::measure(
-    int frame, const Eigen::Isometry3d& T_world_base, double dt, const Measurement& measurement)
+    int frame, const Eigen::Isometry3d& T_world_prev, double dt, const Measurement& measurement)
 {
-    const Matrix6d Ad = adjoint(T_world_base);
+    const Matrix6d Ad = adjoint(T_world_prev);
     const Matrix6d drift = propagate(Ad, measurement.drift);
     for (size_t k = 0; k < blocks_.size(); ++k)
     {
@@ -121,7 +125,7 @@ void JointCovariance::measure(
         }
     }
     select(kept);
-    base_ = frame;
+    previous_ = frame;
 }
 
 void JointCovariance::keep(const std::vector<int>& references, std::optional<int> pose)
@@ -134,7 +138,7 @@ void JointCovariance::keep(const std::vector<int>& references, std::optional<int
         bool isWanted = true;
         if (kind == Kind::Pose)
         {
-            isWanted = numPoses++ <= params_.history || frame == base_ || frame == pose;
+            isWanted = numPoses++ <= params_.history || frame == previous_ || frame == pose;
         }
         else if (kind == Kind::Reference)
         {

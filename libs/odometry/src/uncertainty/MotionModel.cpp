@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/core/check.h>
 #include <pointplane/core/se3.h>
-#include <pointplane/odometry/MotionModel.h>
+#include <pointplane/odometry/uncertainty/MotionModel.h>
 
 #include <Eigen/Cholesky>
 
@@ -110,7 +110,7 @@ Vector6d MotionModel::update(const MotionGaussian& measured, double dt)
     const double t = std::min(dt, kLongestStep);
     const MotionGaussian predicted = predict(t);
     Vector12d innovation;
-    innovation << leftError(measured.mean.T_base_cur, predicted.mean.T_base_cur),
+    innovation << leftError(measured.mean.T_prev_cur, predicted.mean.T_prev_cur),
         measured.mean.velocity - predicted.mean.velocity;
     const auto solver = predicted.cov.ldlt();
 
@@ -132,7 +132,7 @@ Vector6d MotionModel::update(const MotionGaussian& measured, double dt)
     cov_ = measuredCov_ = measured.cov.bottomRightCorner<6, 6>();
     coasting_ = 0;
     const Increment increment{
-        se3Log(measured.mean.T_base_cur) / t, t, measured.cov.diagonal().head<6>()};
+        se3Log(measured.mean.T_prev_cur) / t, t, measured.cov.diagonal().head<6>()};
     const Vector6d out = betweenIncrements(increment, smoothed);
     atIncrementsEnd_.reset();
     if (increment_ && increment_->dt + t < kLongestIncrements)

@@ -1,18 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/core/check.h>
+#include <pointplane/core/choice.h>
 #include <pointplane/core/se3.h>
-#include <pointplane/odometry/Reference.h>
+#include <pointplane/odometry/ReferenceWindow.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 namespace pointplane
 {
+bool ReferenceWindow::TParams::isFrameToFrame() const
+{
+    return chosen<bool>("reference", reference, {{"keyframes", false}, {"previous", true}});
+}
+
 void ReferenceWindow::TParams::check() const
 {
-    POINTPLANE_CHECK(
-        reference == "keyframes" || reference == "previous",
-        "reference = " << reference << " is neither keyframes nor previous");
+    (void)isFrameToFrame();
     POINTPLANE_CHECK(
         maxKeyframes >= 1 && maxKeyframes <= 50,
         "maxKeyframes = " << maxKeyframes << " is not in 1..50");
@@ -25,7 +30,11 @@ void ReferenceWindow::TParams::check() const
         "keyframeMinOverlap = " << keyframeMinOverlap << " is not in [0, 1)");
 }
 
-ReferenceWindow::ReferenceWindow(const TParams& params) : params_(params) { params_.check(); }
+ReferenceWindow::ReferenceWindow(const TParams& params)
+    : params_(params), isFrameToFrame_(params.isFrameToFrame())
+{
+    params_.check();
+}
 
 std::vector<const Reference*> ReferenceWindow::active() const
 {
@@ -50,9 +59,26 @@ bool ReferenceWindow::isNewest(const Reference& reference) const
     return reference.id == (keyframes_.empty() ? previous_.id : keyframes_.back().id);
 }
 
+double ReferenceWindow::overlap(const std::vector<Association>& associations) const
+{
+    const auto fraction = [](size_t found, size_t all)
+    { return all > 0 ? static_cast<double>(found) / static_cast<double>(all) : 1.0; };
+    double out = associations.empty() ? 0 : 1;
+    for (const Association& a : associations)
+    {
+        if (isNewest(*a.reference))
+        {
+            out = std::min(
+                fraction(a.points.size(), a.reference->points.points.size()),
+                fraction(a.planes.size(), a.reference->planes.planes.size()));
+        }
+    }
+    return out;
+}
+
 bool ReferenceWindow::needsKeyframe(const Eigen::Isometry3d& T_world_cam, double overlap) const
 {
-    if (params_.reference == "previous" || keyframes_.empty())
+    if (isFrameToFrame_ || keyframes_.empty())
     {
         return true;
     }
@@ -86,7 +112,7 @@ void ReferenceWindow::add(Reference frame, bool isKeyframe)
 {
     hasPrevious_ = true;
     previous_ = std::move(frame);
-    if (isKeyframe && params_.reference == "keyframes")
+    if (isKeyframe && !isFrameToFrame_)
     {
         keyframes_.push_back(previous_);
         while (keyframes_.size() > static_cast<size_t>(params_.maxKeyframes))

@@ -28,12 +28,12 @@ class ResidualVariogram
     };
 
     /** Takes in a measured frame.
-     * \param R_world_base orientation of the base frame of its residuals
+     * \param R_world_prev orientation of the previous frame, that of its residuals
      * \param views since the measured frame before, `dt` [s] earlier
      * \param residuals variance of all residuals; the levels are guessed from it at first */
     void update(
-        const PoseEstimate& estimate,
-        const Eigen::Matrix3d& R_world_base,
+        const PoseAnalysis& analysis,
+        const Eigen::Matrix3d& R_world_prev,
         double views,
         double dt,
         const NoiseFactors& residuals);
@@ -64,7 +64,7 @@ class ResidualVariogram
 
     [[nodiscard]] Snapshot snapshot(
         const std::vector<FeatureResidual>& residuals,
-        const Eigen::Matrix3d& R_world_base,
+        const Eigen::Matrix3d& R_world_prev,
         double ownWhite) const;
     [[nodiscard]] static std::optional<double> variogram(
         const Snapshot& now, const Snapshot& then, size_t least);

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <initializer_list>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace pointplane
+{
+/** The enumerator that a parameter's word stands for.
+ * \throws std::invalid_argument naming the key and the words that it may have */
+template <class Enum>
+[[nodiscard]] Enum chosen(
+    const std::string& key,
+    const std::string& word,
+    std::initializer_list<std::pair<const char*, Enum>> choices)
+{
+    std::string words;
+    for (const auto& [name, value] : choices)
+    {
+        if (word == name)
+        {
+            return value;
+        }
+        words += (words.empty() ? "" : ", ") + std::string(name);
+    }
+    throw std::invalid_argument(key + " = " + word + " is none of " + words);
+}
+}  // namespace pointplane

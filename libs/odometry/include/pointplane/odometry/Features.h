@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pointplane/odometry/PointStage.h>
+#include <pointplane/planes/PlaneFeature.h>
+#include <pointplane/sensor/RgbdFrame.h>
+
+namespace pointplane
+{
+/** What the current frame shows: all that is ever asked of its images, and nothing of other frames.
+ */
+struct Features
+{
+    RgbdFrame frame;  //!< its pixels are shared, not copied
+    PlaneSet planes;
+    PreparedPoints points;  //!< ready for correspondences
+};
+}  // namespace pointplane

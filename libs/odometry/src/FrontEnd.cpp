@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FrontEnd.h"
+
+#include <future>
+
+#include "Stopwatch.h"
+
+namespace pointplane
+{
+FrontEnd::FrontEnd(const OdometryParams& params)
+    : params_(params.pipeline),
+      planeExtractor_(params.planeExtractor, params.depthNoise),
+      planeMatcher_(params.planeMatcher),
+      pointStage_(
+          params.points,
+          params.pointTracker,
+          params.pointDetector,
+          params.pointMatcher,
+          params.pointLifter,
+          params.depthNoise)
+{
+}
+
+Features FrontEnd::extract(const RgbdFrame& frame, FrameDiagnostics& diagnostics)
+{
+    Features out;
+    out.frame = frame;
+    const auto points = [&]
+    {
+        const Stopwatch watch;
+        if (params_.usePoints)
+        {
+            out.points = pointStage_.prepare(frame);
+        }
+        return watch.ms();
+    };
+    std::future<double> pointsMs =
+        std::async(params_.numThreads > 1 ? std::launch::async : std::launch::deferred, points);
+    const Stopwatch watch;
+    if (params_.usePlanes)
+    {
+        out.planes = planeExtractor_.extract(frame.depth, frame.camera);
+    }
+    diagnostics.msPlanes = watch.ms();
+    diagnostics.msPoints = pointsMs.get();
+    diagnostics.numPlanes = static_cast<int>(out.planes.planes.size());
+    return out;
+}
+
+PointReference FrontEnd::pointReference(const Features& features) const
+{
+    return params_.usePoints ? pointStage_.makeReference(features.frame, features.points)
+                             : PointReference();
+}
+
+Association FrontEnd::associate(
+    const Reference& reference,
+    const Features& current,
+    const Eigen::Isometry3d& T_cur_ref,
+    double radiusFactor) const
+{
+    Association out;
+    out.reference = &reference;
+    if (params_.usePlanes)
+    {
+        out.planes =
+            planeMatcher_.match(reference.planes, current.planes, current.frame.camera, T_cur_ref);
+    }
+    if (params_.usePoints && !reference.points.points.empty())
+    {
+        out.points = pointStage_.correspond(
+            reference.points, current.frame, current.points, T_cur_ref, radiusFactor);
+    }
+    return out;
+}
+}  // namespace pointplane

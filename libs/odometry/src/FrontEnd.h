@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pointplane/odometry/Features.h>
+#include <pointplane/odometry/OdometryParams.h>
+#include <pointplane/odometry/OdometryResult.h>
+#include <pointplane/odometry/Reference.h>
+
+namespace pointplane
+{
+/** From images to points and planes, and to what two frames have in common. Knows no history: the
+ * same frames give the same answers in any order. */
+class FrontEnd
+{
+ public:
+    explicit FrontEnd(const OdometryParams& params);
+
+    [[nodiscard]] Features extract(const RgbdFrame& frame, FrameDiagnostics& diagnostics);
+
+    /** The points by which later frames can be compared with this one. Takes time. */
+    [[nodiscard]] PointReference pointReference(const Features& features) const;
+
+    /** What of the reference is found again.
+     * \param T_cur_ref where to look \param radiusFactor above 1 looks farther, less thoroughly */
+    [[nodiscard]] Association associate(
+        const Reference& reference,
+        const Features& current,
+        const Eigen::Isometry3d& T_cur_ref,
+        double radiusFactor) const;
+
+ private:
+    PipelineParams params_;
+    PlaneExtractor planeExtractor_;
+    PlaneMatcher planeMatcher_;
+    PointStage pointStage_;
+};
+}  // namespace pointplane

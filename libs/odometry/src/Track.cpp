@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Track.h"
+
+#include <pointplane/core/covariance.h>
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "frame_checks.h"
+
+namespace pointplane
+{
+namespace
+{
+/** First frame's covariance: strictly positive definite, yet nothing. */
+constexpr double kFirstSigma = 1e-6;
+
+/** Elapsed between two frames whose stamps do not tell. */
+constexpr double kUnknownStep = 1.0 / 30;  // [s]
+}  // namespace
+
+Track::Track(const OdometryParams& params)
+    : maxGap_(params.pipeline.maxGap),
+      fuses_(params.pipeline.fuses()),
+      isFrameToFrame_(params.reference.isFrameToFrame()),
+      motion_(params.motionModel),
+      history_(params.covariance),
+      window_(params.reference)
+{
+}
+
+bool Track::needsKeyframe(const Eigen::Isometry3d& T_prev_cur, double overlap) const
+{
+    return window_.needsKeyframe(previous().T_world_cam * T_prev_cur, overlap);
+}
+
+std::string Track::interruption(double stamp, const PinholeCamera& camera) const
+{
+    if (stamp <= latestStamp_)
+    {
+        return "the clock has been set back";
+    }
+    return sameCamera(camera_, camera) ? "" : "the camera's size or calibration has changed";
+}
+
+bool Track::isLate(double stamp)
+{
+    if (stamp > latestStamp_)
+    {
+        lateStamp_.reset();
+        return false;
+    }
+    const bool clockWasSet = lateStamp_ && stamp > *lateStamp_;
+    lateStamp_ = stamp;
+    return !clockWasSet;
+}
+
+Prediction Track::prediction(double stamp)
+{
+    Prediction out;
+    out.dt = stamp - previous().stamp;
+    if (out.dt > maxGap_)
+    {
+        motion_.reset();
+    }
+    out.motion = motion_.predict(out.dt);
+    out.pose = out.motion.pose();
+    out.pose.cov += motion_.jerk(out.dt);
+    out.prior = priorFrom(out.motion, out.pose);
+    return out;
+}
+
+/** The velocity follows the pose as motions do, but the pose is hardly pulled to the predicted one:
+ * a jerk must not be smoothed away. The paper's gate wants to know what the frame alone says. */
+MotionPrior Track::priorFrom(const MotionGaussian& motion, const PoseGaussian& pose) const
+{
+    if (!fuses_)
+    {
+        return MotionPrior::fixedVelocity(motion.mean);
+    }
+    MotionPrior prior = MotionPrior::from(motion);
+    prior.pose = pose.cov.ldlt().solve(Matrix6d::Identity());
+    return prior;
+}
+
+PoseGaussian Track::restart(Reference frame, const PinholeCamera& camera)
+{
+    PoseGaussian increment;
+    increment.cov = Matrix6d::Identity() * (kFirstSigma * kFirstSigma);
+    if (started_)
+    {
+        increment = predict(frame.stamp);
+    }
+    else
+    {
+        history_.predict(increment);
+    }
+    history_.restart(history_.latestFrame());
+    window_.clear();
+    unmatched_.reset();
+    started_ = true;
+    camera_ = camera;
+    latestStamp_ = frame.stamp;
+    lateStamp_.reset();
+    add(std::move(frame), true);
+    return increment;
+}
+
+void Track::measure(Measured measured)
+{
+    const Vector6d previousVelocity = follow(measured.motion, measured.dt);
+    window_.refinePreviousVelocity(previousVelocity);
+    for (const Association& association : measured.associations)
+    {
+        window_.notePoints(association.reference->id, association.points);
+    }
+    history_.measure(
+        previous().T_world_cam, measured.motion.mean.T_prev_cur, measured.dt, measured.errors);
+    unmatched_.reset();
+    latestStamp_ = measured.frame.stamp;
+    measured.frame.velocity = motion_.velocity();
+    add(std::move(measured.frame), measured.isKeyframe);
+}
+
+Vector6d Track::follow(const MotionGaussian& motion, double dt)
+{
+    if (!fuses_)
+    {
+        motion_.follow(motion.mean.T_prev_cur, dt);
+        return motion_.velocity();
+    }
+    const Vector6d previousVelocity = motion_.update(motion, dt);
+    if (isFrameToFrame_)
+    {
+        motion_.followIncrements();
+    }
+    return previousVelocity;
+}
+
+PoseGaussian Track::predict(double stamp, std::optional<Reference> unmatched)
+{
+    const double step = stamp - latestStamp_;
+    const bool known = started_ && step >= 0 && std::isfinite(step);
+    const double dt = known ? std::max(step, 1e-3) : kUnknownStep;
+    if (dt > maxGap_)
+    {
+        motion_.reset();
+    }
+    PoseGaussian increment = motion_.predict(dt).pose();
+    increment.cov = strictlyPositive(Matrix6d(increment.cov + motion_.jerk(dt)));
+    motion_.coast(dt);
+    history_.predict(increment);
+    if (started_ && std::isfinite(stamp))
+    {
+        latestStamp_ = std::max(latestStamp_, stamp);
+    }
+    if (unmatched)
+    {
+        unmatched_ = std::move(unmatched);
+        unmatched_->id = history_.latestFrame();
+        unmatched_->T_world_cam = history_.latest();
+    }
+    forgetOthers();
+    return increment;
+}
+
+bool Track::restartAtUnmatched()
+{
+    if (!unmatched_)
+    {
+        return false;
+    }
+    window_.clear();
+    history_.restart(unmatched_->id);
+    window_.add(std::move(*unmatched_), true);
+    unmatched_.reset();
+    return true;
+}
+
+/** The latest frame becomes the previous one. */
+void Track::add(Reference frame, bool isKeyframe)
+{
+    frame.id = history_.latestFrame();
+    frame.T_world_cam = history_.latest();
+    window_.add(std::move(frame), isKeyframe);
+    forgetOthers();
+}
+
+/** Keeps what the next frame will be compared with, and the history. */
+void Track::forgetOthers()
+{
+    std::vector<int> references;
+    for (const Reference* reference : window_.active())
+    {
+        references.push_back(reference->id);
+    }
+    history_.keep(references, unmatched_ ? std::optional(unmatched_->id) : std::nullopt);
+}
+}  // namespace pointplane

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SolutionAnalysis.h"
+
+#include <pointplane/core/covariance.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <utility>
+
+namespace pointplane
+{
+namespace
+{
+/** Of a direction about which a group knows less than this, as a part of what all know, it says
+ * nothing. */
+constexpr double kLeastShare = 0.03;
+
+/** Feature and index of all pairs, those of the same feature one after the other. */
+template <class Pairs>
+std::vector<std::pair<int, size_t>> sortedByFeature(const Pairs& pairs)
+{
+    std::vector<std::pair<int, size_t>> out;
+    out.reserve(pairs.size());
+    for (size_t i = 0; i < pairs.size(); ++i)
+    {
+        const int own = -1 - static_cast<int>(i);
+        out.emplace_back(pairs[i].feature < 0 ? own : pairs[i].feature, i);
+    }
+    std::sort(out.begin(), out.end());
+    return out;
+}
+}  // namespace
+
+SolutionAnalysis::SolutionAnalysis(
+    const NormalEquations& equations,
+    const PoseProblem& problem,
+    const Matrix12d& H,
+    const Matrix12d& H_inverse)
+    : equations_(equations),
+      problem_(problem),
+      H_(H),
+      H_inverse_(H_inverse),
+      pointGroups_(byReference(problem.points, 0)),
+      planeGroups_(byReference(problem.planes, problem.points.size()))
+{
+}
+
+template <class Pairs>
+SolutionAnalysis::Groups SolutionAnalysis::byReference(const Pairs& pairs, size_t offset) const
+{
+    Groups out;
+    for (size_t i = 0; i < pairs.size(); ++i)
+    {
+        equations_.add(out[pairs[i].reference], offset + i);
+    }
+    return out;
+}
+
+Sensitivity SolutionAnalysis::sensitivity() const
+{
+    Sensitivity out;
+    for (const auto* groups : {&pointGroups_, &planeGroups_})
+    {
+        for (const auto& [reference, group] : *groups)
+        {
+            const auto it = out.references.emplace(reference, Matrix126d::Zero()).first;
+            it->second += (H_inverse_ * group.H).leftCols<6>();
+        }
+    }
+    out.points = propagate(H_inverse_, currentNoise(problem_.points, 0));
+    out.planes = propagate(H_inverse_, currentNoise(problem_.planes, problem_.points.size()));
+    out.camera = -H_inverse_ * equations_.cameraInfluence();
+    return out;
+}
+
+/** Covariance of the gradient by the current frame's features, as propagated. A feature that is
+ * compared with several references errs in all these pairs alike. */
+template <class Pairs>
+Matrix12d SolutionAnalysis::currentNoise(const Pairs& pairs, size_t offset) const
+{
+    const auto order = sortedByFeature(pairs);
+    Matrix12d out = Matrix12d::Zero();
+    for (auto it = order.begin(); it != order.end();)
+    {
+        const int feature = it->first;
+        Matrix123d ofUnitNoise = Matrix123d::Zero();
+        for (; it != order.end() && it->first == feature; ++it)
+        {
+            const size_t i = offset + it->second;
+            const Eigen::LLT<Eigen::Matrix3d> root(equations_.residual(i).curCov);
+            if (root.info() == Eigen::Success)
+            {
+                ofUnitNoise += equations_.influence(i) * Eigen::Matrix3d(root.matrixL());
+            }
+        }
+        out += ofUnitNoise * ofUnitNoise.transpose();
+    }
+    return out;
+}
+
+Disagreement SolutionAnalysis::pointDisagreement(const Matrix12d& cov) const
+{
+    return disagreementOf(pointGroups_, cov);
+}
+
+Disagreement SolutionAnalysis::planeDisagreement(const Matrix12d& cov) const
+{
+    return disagreementOf(planeGroups_, cov);
+}
+
+/** With scores s_g of covariance M_g, the solution leaves each group the gradient
+ * g_g = s_g - H_g H^-1 sum(s), whose covariance is
+ * M_g - H_g H^-1 M_g - M_g H^-1 H_g + H_g Sigma H_g (docs/theory.md, Noise). */
+Disagreement SolutionAnalysis::disagreementOf(const Groups& groups, const Matrix12d& cov) const
+{
+    Disagreement out;
+    for (const auto& [reference, group] : groups)
+    {
+        const Matrix12d shared = group.H * H_inverse_ * group.M;
+        const Matrix12d covOfGradient =
+            group.M - shared - shared.transpose() + group.H * cov * group.H;
+        const Eigen::LDLT<Matrix6d> known((group.H + kLeastShare * H_).topLeftCorner<6, 6>());
+        const Vector6d gradient = group.g.head<6>();
+        out.observed += gradient.dot(known.solve(gradient));
+        out.expected += known.solve(Matrix6d(covOfGradient.topLeftCorner<6, 6>())).trace();
+    }
+    return out;
+}
+
+std::vector<FeatureResidual> SolutionAnalysis::pointResiduals(const Sensitivity& of) const
+{
+    return residuals(problem_.points, 0, of);
+}
+
+std::vector<FeatureResidual> SolutionAnalysis::planeResiduals(const Sensitivity& of) const
+{
+    return residuals(problem_.planes, problem_.points.size(), of);
+}
+
+template <class Pairs>
+std::vector<FeatureResidual> SolutionAnalysis::residuals(
+    const Pairs& pairs, size_t offset, const Sensitivity& of) const
+{
+    std::vector<FeatureResidual> out(pairs.size());
+    const auto order = sortedByFeature(pairs);
+    for (auto it = order.begin(); it != order.end();)
+    {
+        const auto begin = it;
+        Matrix123d sum = Matrix123d::Zero();
+        for (; it != order.end() && it->first == begin->first; ++it)
+        {
+            sum += equations_.influence(offset + it->second);
+        }
+        const Matrix123d follows = H_inverse_ * sum;  // the estimate, the feature
+        for (auto member = begin; member != it; ++member)
+        {
+            const auto& pair = pairs[member->second];
+            const Residual& residual = equations_.residual(offset + member->second);
+            const Matrix312d J = equations_.jacobian(offset + member->second);
+            const Eigen::Matrix3d information = residual.curCov.inverse();
+            const Matrix123d seen = J.transpose() * information / 3;
+            out[member->second] = {
+                pair.reference,
+                pair.inReference,
+                residual.r,
+                residual.curCov,
+                1 - 2.0 / 3 * J.cwiseProduct(follows.transpose()).sum(),
+                seen.cwiseProduct(of.points * J.transpose()).sum(),
+                seen.cwiseProduct(of.planes * J.transpose()).sum()};
+        }
+    }
+    return out;
+}
+}  // namespace pointplane

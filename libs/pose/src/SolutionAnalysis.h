@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pointplane/pose/PoseSolver.h>
+
+#include <map>
+#include <vector>
+
+#include "NormalEquations.h"
+
+namespace pointplane
+{
+/** What the residuals at a solution say beside the motion. Derivations in docs/theory.md. */
+class SolutionAnalysis
+{
+ public:
+    /** \param equations evaluated at the solution of the problem
+     * \param H of all pairs and the prior */
+    SolutionAnalysis(
+        const NormalEquations& equations,
+        const PoseProblem& problem,
+        const Matrix12d& H,
+        const Matrix12d& H_inverse);
+
+    /** Of references, features and camera; not of the prior. */
+    [[nodiscard]] Sensitivity sensitivity() const;
+
+    /** References with points and references with planes. */
+    [[nodiscard]] size_t numGroups() const { return pointGroups_.size() + planeGroups_.size(); }
+
+    /** Whether the references draw the pose apart by more than their covariances allow.
+     * \param cov of the solution */
+    [[nodiscard]] Disagreement pointDisagreement(const Matrix12d& cov) const;
+    [[nodiscard]] Disagreement planeDisagreement(const Matrix12d& cov) const;
+
+    /** Residuals with what noise of the current frame does to them. */
+    [[nodiscard]] std::vector<FeatureResidual> pointResiduals(const Sensitivity& of) const;
+    [[nodiscard]] std::vector<FeatureResidual> planeResiduals(const Sensitivity& of) const;
+
+ private:
+    using Groups = std::map<int, FeatureSum>;  //!< by reference
+
+    /** \param offset of the pairs' first residual */
+    template <class Pairs>
+    [[nodiscard]] Groups byReference(const Pairs& pairs, size_t offset) const;
+    template <class Pairs>
+    [[nodiscard]] Matrix12d currentNoise(const Pairs& pairs, size_t offset) const;
+    template <class Pairs>
+    [[nodiscard]] std::vector<FeatureResidual> residuals(
+        const Pairs& pairs, size_t offset, const Sensitivity& of) const;
+    [[nodiscard]] Disagreement disagreementOf(const Groups& groups, const Matrix12d& cov) const;
+
+    const NormalEquations& equations_;
+    const PoseProblem& problem_;
+    const Matrix12d& H_;
+    const Matrix12d& H_inverse_;
+    Groups pointGroups_, planeGroups_;
+};
+}  // namespace pointplane
