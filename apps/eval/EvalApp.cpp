@@ -2,6 +2,8 @@
 #include "EvalApp.h"
 
 #include <algorithm>
+#include <cctype>
+#include <cstring>
 #include <ostream>
 
 #include "command.h"
@@ -20,11 +22,40 @@ std::string withHyphens(std::string arg)
     }
     return arg;
 }
+
+/** Quoted for a shell where that is needed. */
+std::string quoted(const std::string& arg)
+{
+    const auto isPlain = [](char c)
+    { return std::isalnum(static_cast<unsigned char>(c)) != 0 || std::strchr("_-+=./,:@%", c); };
+    if (!arg.empty() && std::all_of(arg.begin(), arg.end(), isPlain))
+    {
+        return arg;
+    }
+    std::string out = "'";
+    for (const char c : arg)
+    {
+        out += c == '\'' ? "'\\''" : std::string(1, c);
+    }
+    return out + "'";
+}
 }  // namespace
+
+void CommandContext::hint(const std::string& text)
+{
+    if (!text.empty())
+    {
+        err << "pointplane-eval: hint: " << text << "\n";
+    }
+}
 
 int runEval(const std::vector<std::string>& args, std::ostream& out, std::ostream& err)
 {
-    CommandContext context{out, err};
+    CommandContext context{out, err, "pointplane-eval"};
+    for (const std::string& arg : args)
+    {
+        context.commandLine += " " + quoted(arg);
+    }
     CLI::App app{
         "Scores trajectories and their covariances against ground truth.", "pointplane-eval"};
     app.set_version_flag("--version", POINTPLANE_VERSION);

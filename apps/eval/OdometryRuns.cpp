@@ -136,11 +136,16 @@ WorkDirectory::~WorkDirectory()
 
 std::string scoreText(const OdometryScore& score)
 {
-    return score.rpe ? format(
-                           "%.1f mm / %.2f deg",
-                           1000 * score.rpe->translation.rmse,
-                           kDegreesPerRadian * score.rpe->rotation.rmse)
-                     : "failed";
+    if (!score.rpe)
+    {
+        return "failed";
+    }
+    const std::size_t lost = score.rpe->coverage.lost;
+    return format(
+               "%.1f mm / %.2f deg",
+               1000 * score.rpe->translation.rmse,
+               kDegreesPerRadian * score.rpe->rotation.rmse) +
+           (lost > 0 ? format(" (%zu lost)", lost) : "");
 }
 
 void OdometryRunner::addTo(CLI::App& command)

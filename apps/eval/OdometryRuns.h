@@ -64,6 +64,6 @@ class WorkDirectory
     bool temporary_;
 };
 
-/** "12.3 mm / 0.456 deg", or "failed". */
+/** "12.3 mm / 0.46 deg", with " (9 lost)" where frames were lost, or "failed". */
 [[nodiscard]] std::string scoreText(const OdometryScore& score);
 }  // namespace pointplane

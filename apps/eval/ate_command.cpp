@@ -5,6 +5,7 @@
 #include <memory>
 #include <ostream>
 
+#include "OutputGuard.h"
 #include "command.h"
 #include "input_options.h"
 #include "result_output.h"
@@ -55,7 +56,7 @@ void AteCommand::addTo(CLI::App& command)
     command.add_flag("--verbose", verbose, "Print the lines of evaluate_ate.py --verbose instead")
         ->group("Output");
     input.addTo(command);
-    files.addTo(command);
+    files.addTo(command, "pose");
     report.addTo(command);
 }
 
@@ -71,31 +72,58 @@ void printScriptLines(const Statistics& s, std::ostream& out)
         << format("absolute_translational_error.max %f m\n", s.max);
 }
 
+/** The errors pose by pose, CSV; x, y, z in the ground truth's world. */
+std::string singlesOf(const Trajectory& estimate, const AteResult& result)
+{
+    std::string out = "stamp,translation_m,x_m,y_m,z_m\n";
+    for (const AteError& error : result.errors)
+    {
+        const Eigen::Vector3d& d = error.difference;
+        out += format(
+            "%.9f,%.9g,%.9g,%.9g,%.9g\n",
+            estimate.stamps[error.estimate],
+            error.translation,
+            d.x(),
+            d.y(),
+            d.z());
+    }
+    return out;
+}
+
 void AteCommand::run(CommandContext& context) const
 {
+    OutputGuard guard;
+    guard.addInput(groundTruth);
+    guard.addInput(estimate);
+    files.guardedBy(guard);
+    report.guardedBy(guard);
     ReportedRun run;
     run.groundTruth = input.loadTruth(groundTruth, context);
     run.estimate = input.loadEstimate(estimate, context);
     run.rpe.offset = run.nees.offset = options.offset;
     run.rpe.scale = options.scale;
+    run.rpe.fixedDelta = true;
+    run.ate = options;
     run.nees.T_truth_body = input.T_truth_body();
     run.intervals = {{1, DeltaUnit::Frames}, {1, DeltaUnit::Seconds}};
+    const Trajectory measured = withoutLost(run.estimate);
     const AteResult result = absoluteTrajectoryError(
-        withBody(run.groundTruth, run.nees.T_truth_body), run.estimate, options);
+        withBody(run.groundTruth, run.nees.T_truth_body), measured, options);
 
     ScoredResult scored;
     scored.title = "Absolute trajectory error";
-    scored.protocol = describe(options, result, run.estimate.size());
+    scored.protocol = describe(options, result, measured.size());
     scored.groundTruth = groundTruth;
     scored.estimate = estimate;
     scored.rows = {{"translation", "m", result.translation}};
     scored.details = {
         {"poses", result.errors.size()},
-        {"estimatePoses", run.estimate.size()},
-        {"coverage", result.coverage},
+        {"estimatePoses", measured.size()},
+        {"coverage", toJson(result.coverage)},
         {"maxDifference", options.maxDifference},
         {"offset", options.offset},
         {"scale", options.scale}};
+    scored.singles = singlesOf(measured, result);
     if (verbose)
     {
         printScriptLines(result.translation, context.out);
@@ -103,7 +131,7 @@ void AteCommand::run(CommandContext& context) const
     writeResult(scored, files, context.out, !verbose);
     if (!report.directory.empty())
     {
-        context.err << "report: " << writeTrajectoryReport(run, report) << "\n";
+        writeTrajectoryReport(run, report, context);
     }
     checkThreshold("RMSE", scored.rows[0], maxRmse, context);
 }

@@ -4,6 +4,7 @@
 #include <pointplane/mrpt_io/errors.h>
 
 #include <iosfwd>
+#include <string>
 
 #include <CLI/CLI.hpp>
 
@@ -12,9 +13,13 @@ namespace pointplane
 /** Where a command writes, and the exit code it leaves behind. */
 struct CommandContext
 {
-    std::ostream& out;      //!< results
-    std::ostream& err;      //!< warnings and progress
-    int exitCode{kExitOk};  //!< kExitIncomplete: gate exceeded, or damaged input
+    std::ostream& out;        //!< results
+    std::ostream& err;        //!< warnings and progress
+    std::string commandLine;  //!< as a shell would take it, for reports
+    int exitCode{kExitOk};    //!< kExitIncomplete: gate exceeded, or damaged input
+
+    /** A line to the user, unless it is empty. */
+    void hint(const std::string& text);
 };
 
 /** @name The subcommands: each adds itself to the command line and runs as its callback.

@@ -6,6 +6,7 @@
 #include <memory>
 #include <ostream>
 
+#include "OutputGuard.h"
 #include "command.h"
 #include "input_options.h"
 #include "result_output.h"
@@ -42,7 +43,7 @@ void CompareCommand::addTo(CLI::App& command)
         ->check(CLI::Range(100, 1000000))
         ->group("Protocol");
     input.addTo(command);
-    files.addTo(command);
+    files.addTo(command, "");
     command.add_option("--report", report, "Write DIR/index.html: one file, with charts")
         ->type_name("DIR")
         ->group("Output");
@@ -98,7 +99,7 @@ void printTable(const Comparison& c, const std::string& protocol, std::ostream& 
             1000 * r.ate.translation.rmse,
             k == c.bestAte ? "*" : " ",
             r.rpe.translation.count,
-            100 * r.rpe.coverage);
+            100 * r.rpe.coverage.share);
     }
 }
 
@@ -124,7 +125,7 @@ nlohmann::ordered_json toJson(const Comparison& c, const std::string& protocol)
         nlohmann::ordered_json run;
         run["name"] = r.name;
         run["pairs"] = r.rpe.translation.count;
-        run["coverage"] = r.rpe.coverage;
+        run["coverage"] = toJson(r.rpe.coverage);
         run["rpeTranslation"] = intervalJson(r.translation, 1);
         run["rpeRotation"] = intervalJson(r.rotation, kDegreesPerRadian);
         run["ate"] = r.ate.translation.rmse;
@@ -151,7 +152,7 @@ std::string toCsv(const Comparison& c)
         out += csvField(r.name) + format(
                                       ",%zu,%.6g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n",
                                       r.rpe.translation.count,
-                                      r.rpe.coverage,
+                                      r.rpe.coverage.share,
                                       r.translation.value,
                                       r.translation.lower,
                                       r.translation.upper,
@@ -163,7 +164,7 @@ std::string toCsv(const Comparison& c)
     return out;
 }
 
-std::string toHtml(
+HtmlReport reportOf(
     const Comparison& c,
     const std::string& protocol,
     const RpeOptions& rpe,
@@ -172,9 +173,8 @@ std::string toHtml(
 {
     HtmlReport report(format("Comparison of %zu runs", c.runs.size()), protocol);
     std::vector<std::vector<std::string>> rows;
-    std::vector<Chart> paths;
-    Chart translation;
-    Chart rotation;
+    std::vector<DrawnPath> paths;
+    std::vector<Chart> errors;
     for (std::size_t k = 0; k < c.runs.size(); ++k)
     {
         const ComparedRun& r = c.runs[k];
@@ -185,48 +185,45 @@ std::string toHtml(
              format("%.4f", kDegreesPerRadian * r.rotation.value),
              behindText(r.rotationBehindBest, k == c.bestRotation, kDegreesPerRadian),
              format("%.3f", 1000 * r.ate.translation.rmse),
-             format("%.1f %%", 100 * r.rpe.coverage)});
-        const Chart errors = relativeErrorChart(estimates[k], rpe, r.rpe);
-        translation.title = errors.title + ", translation";
-        rotation.title = errors.title + ", rotation";
-        translation.xLabel = rotation.xLabel = errors.xLabel;
-        translation.yLabel = errors.yLabel;
-        rotation.yLabel = errors.yRightLabel;
-        translation.series.push_back(errors.series[0]);
-        rotation.series.push_back(errors.series[1]);
-        rotation.series.back().rightAxis = false;
-        translation.series.back().name = rotation.series.back().name = r.name;
-
-        Trajectory withoutEllipses = estimates[k];
-        withoutEllipses.covs.clear();
-        const std::vector<Chart> path = pathCharts(truth, withoutEllipses, r.ate);
-        paths = k == 0 ? path : paths;
-        for (std::size_t p = 0; p < path.size(); ++p)
+             format("%.1f %%", 100 * r.rpe.coverage.share)});
+        paths.push_back({r.name, estimates[k], r.ate, rpe.scale});
+        const std::vector<Chart> ofRun = relativeErrorCharts(estimates[k], rpe, r.rpe);
+        for (std::size_t n = 0; n < ofRun.size(); ++n)
         {
             if (k == 0)
             {
-                paths[p].series.pop_back();
+                errors.push_back(ofRun[n]);
+                errors[n].series.clear();
             }
-            paths[p].series.push_back(path[p].series.back());
-            paths[p].series.back().name = r.name;
-            paths[p].series.back().colour.clear();  // one of the palette for each run
+            errors[n].series.push_back(ofRun[n].series.front());
+            errors[n].series.back().name = r.name;
         }
     }
     report.addTable(
         "RPE and ATE RMSE",
         {"run", "mm", "behind the best", "deg", "behind the best", "ATE mm", "coverage"},
         rows);
-    for (const Chart& path : paths)
+    for (const Chart& chart : pathCharts(truth, paths))
     {
-        report.addChart(path);
+        report.addChart(chart);
     }
-    report.addChart(translation);
-    report.addChart(rotation);
-    return report.html();
+    for (const Chart& chart : errors)
+    {
+        report.addChart(chart);
+    }
+    return report;
 }
 
 void CompareCommand::run(CommandContext& context)
 {
+    OutputGuard guard;
+    guard.addInput(groundTruth);
+    for (const std::string& path : estimates)
+    {
+        guard.addInput(path);
+    }
+    files.guardedBy(guard);
+    guardReport(guard, report);
     rpe.rpe.fixedDelta = true;  // the bootstrap needs pairs in time order
     RpeOptions resolved = rpe.resolved();
     AteOptions ate;
@@ -238,7 +235,7 @@ void CompareCommand::run(CommandContext& context)
     std::vector<Trajectory> loaded;
     for (const std::string& path : estimates)
     {
-        loaded.push_back(input.loadEstimate(path, context));
+        loaded.push_back(withoutLost(input.loadEstimate(path, context)));
     }
     const Comparison comparison = compareRuns(truth, loaded, resolved, ate, bootstrap);
     const std::string protocol = describe(resolved, comparison.runs.front().rpe) +
@@ -250,11 +247,10 @@ void CompareCommand::run(CommandContext& context)
     {
         printTable(comparison, protocol, context.out);
     }
-    files.write(toJson(comparison, protocol), toCsv(comparison), context.out);
+    files.write(toJson(comparison, protocol), toCsv(comparison), "", context.out);
     if (!report.empty())
     {
-        const std::string html = toHtml(comparison, protocol, resolved, truth, loaded);
-        context.err << "report: " << writeReportFile(html, report) << "\n";
+        writeReportFile(reportOf(comparison, protocol, resolved, truth, loaded), report, context);
     }
 }
 }  // namespace

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "load_trajectory.h"
+#include "result_output.h"
 
 namespace pointplane
 {
@@ -66,6 +67,30 @@ Eigen::Isometry3d InputOptions::T_truth_body() const
 {
     return bodyFromTruth.empty() ? Eigen::Isometry3d::Identity()
                                  : poseFromOption(bodyFromTruth).inverse();
+}
+
+std::string hintAtAxes(
+    const InputOptions& input,
+    const Trajectory& estimate,
+    double score,
+    double share,
+    const std::string& name,
+    const std::function<double(const Eigen::Isometry3d& T_truth_body)>& scoreWith)
+{
+    if (!input.bodyFromTruth.empty() || estimate.covs.empty())  // not out of MRPT's files
+    {
+        return "";
+    }
+    const double optical = scoreWith(poseFromOption("optical").inverse());
+    return optical < share * score
+               ? format(
+                     "with --body-from-gt optical the %s would be %.6g instead of %.6g; are the "
+                     "poses of '%s' in other axes than the ground truth?",
+                     name.c_str(),
+                     optical,
+                     score,
+                     estimate.name.c_str())
+               : "";
 }
 
 Trajectory InputOptions::loadTruth(const std::string& path, CommandContext& context) const

@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,18 @@ struct InputOptions
         const std::string& path, CommandContext& context) const;
     [[nodiscard]] Trajectory loadEstimate(const std::string& path, CommandContext& context) const;
 };
+
+/** Poses of a rawlog are usually in MRPT's axes and TUM ground truth in optical ones; forgetting
+ * --body-from-gt then gives errors that look like a bad odometry.
+ * \param scoreWith the score (the less the better) with another body of the ground truth
+ * \return a hint for the user if the optical one makes the score less than `share` of what it is */
+[[nodiscard]] std::string hintAtAxes(
+    const InputOptions& input,
+    const Trajectory& estimate,
+    double score,
+    double share,
+    const std::string& name,
+    const std::function<double(const Eigen::Isometry3d& T_truth_body)>& scoreWith);
 
 /** Numbers from "a,b,c"; none when the text is anything else. */
 [[nodiscard]] std::vector<double> numbersFromOption(const std::string& text);

@@ -9,6 +9,7 @@
 #include <mrpt/maps/CSimpleMap.h>
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CActionRobotMovement3D.h>
+#include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/poses/CPose3DPDF.h>
@@ -25,7 +26,7 @@ namespace
 {
 StampedPose stamped(double stamp, const PoseGaussian& pose)
 {
-    return {stamp, pose.mean, pose.cov, {}};
+    return {stamp, pose.mean, pose.cov, {}, FrameStatus::Tracked};
 }
 
 /** What the label of a motion since an earlier frame says, LABEL_since_N beside LABEL_pose. */
@@ -44,6 +45,35 @@ std::optional<Since> sinceOf(const std::string& label)
         return std::nullopt;
     }
     return Since{match.str(1) + "_pose", std::stoul(match.str(2))};
+}
+
+/** What a comment says about the frame of a camera that was not tracked; docs/rawlogs.md. */
+struct FrameMark
+{
+    std::string poseLabel;
+    FrameStatus status;
+};
+
+std::optional<FrameMark> markOf(const std::string& comment)
+{
+    static const std::regex pattern(
+        "pointplane-status label=(.*) frame=[0-9]+ (predicted|lost)(:.*)?");
+    std::smatch match;
+    if (!std::regex_match(comment, match, pattern))
+    {
+        return std::nullopt;
+    }
+    return FrameMark{
+        match.str(1) + "_pose",
+        match.str(2) == "lost" ? FrameStatus::Lost : FrameStatus::Predicted};
+}
+
+/** pointplane-odometry writes a pose for every frame of the camera LABEL, labelled LABEL_pose. */
+bool isOfOdometry(const std::string& label)
+{
+    static const std::string kEnding = "_pose";
+    return label.size() > kEnding.size() &&
+           label.compare(label.size() - kEnding.size(), kEnding.size(), kEnding) == 0;
 }
 
 /** Collects poses from the objects of a rawlog. */
@@ -67,12 +97,19 @@ class PoseCollector
         }
     }
 
-    [[nodiscard]] std::vector<StampedPose> result(
-        const std::string& path, const std::string& label) const;
+    /** Of the sensor `label`; empty: of the only one. \throws InputError */
+    [[nodiscard]] Trajectory result(const std::string& path, const std::string& label) const;
 
  private:
     void addObservation(const mrpt::obs::CObservation& observation)
     {
+        if (const auto* text = dynamic_cast<const mrpt::obs::CObservationComment*>(&observation))
+        {
+            if (const auto mark = markOf(text->text))
+            {
+                addMark(*mark);
+            }
+        }
         if (const auto* pose = dynamic_cast<const mrpt::obs::CObservationRobotPose*>(&observation))
         {
             const PoseGaussian gaussian = fromMrpt(pose->pose);
@@ -96,6 +133,16 @@ class PoseCollector
             poses->second.back().sinceCovs.size() + 1 == since.framesAgo)
         {
             poses->second.back().sinceCovs.push_back(cov);
+        }
+    }
+
+    /** It follows the pose that it is about. */
+    void addMark(const FrameMark& mark)
+    {
+        const auto poses = byLabel_.find(mark.poseLabel);
+        if (poses != byLabel_.end())
+        {
+            poses->second.back().status = mark.status;
         }
     }
 
@@ -126,8 +173,7 @@ class PoseCollector
     bool hasMovement_{false};
 };
 
-std::vector<StampedPose> PoseCollector::result(
-    const std::string& path, const std::string& label) const
+Trajectory PoseCollector::result(const std::string& path, const std::string& label) const
 {
     std::string labels;
     for (const auto& [name, poses] : byLabel_)
@@ -142,7 +188,7 @@ std::vector<StampedPose> PoseCollector::result(
                 "'" + path +
                 "' holds no poses: neither CObservationRobotPose nor CActionRobotMovement3D");
         }
-        return composed_;
+        return makeTrajectory(path, composed_);
     }
     if (label.empty() && byLabel_.size() > 1)
     {
@@ -156,7 +202,9 @@ std::vector<StampedPose> PoseCollector::result(
         throw InputError(
             "'" + path + "' holds no poses with sensor label '" + label + "', only " + labels);
     }
-    return found->second;
+    Trajectory trajectory = makeTrajectory(path, found->second);
+    trajectory.marksFrames = isOfOdometry(found->first);
+    return trajectory;
 }
 
 struct KeyFrame
@@ -194,7 +242,7 @@ Trajectory readRawlogTrajectory(const std::string& path, const std::string& sens
     {
         throw InputError(reader.ending().message);
     }
-    Trajectory trajectory = makeTrajectory(path, collector.result(path, sensorLabel));
+    Trajectory trajectory = collector.result(path, sensorLabel);
     if (damaged)
     {
         trajectory.incomplete = true;

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <memory>
 #include <ostream>
-#include <set>
 
+#include "OutputGuard.h"
 #include "command.h"
 #include "input_options.h"
 #include "nees_output.h"
@@ -92,8 +92,85 @@ void NeesCommand::addTo(CLI::App& command)
     command.add_option("--max-nees", maxNees, "Exit with 1 if a joint NEES per dof is above this")
         ->group("Gate");
     input.addTo(command);
-    output.addTo(command);
+    output.addTo(command, "increment");
     html.addTo(command);
+}
+
+/** Increments of one interval, of all runs. */
+struct Pool
+{
+    NeesInterval interval;
+    std::vector<NeesIncrement> increments;
+    std::size_t independent{0};
+};
+
+void poolRun(std::vector<Pool>& pools, const NeesRun& run)
+{
+    for (const NeesRun::Tested& tested : run.tested)
+    {
+        const std::string name = nameOf(tested.interval);
+        auto pool = std::find_if(
+            pools.begin(), pools.end(), [&](const Pool& p) { return nameOf(p.interval) == name; });
+        if (pool == pools.end())
+        {
+            pool = pools.insert(pools.end(), {tested.interval, {}, 0});
+        }
+        pool->independent += countIndependent(tested.increments);
+        pool->increments.insert(
+            pool->increments.end(), tested.increments.begin(), tested.increments.end());
+    }
+}
+
+double jointNees(const NeesRun::Tested& tested)
+{
+    return consistencyOf(tested.increments, countIndependent(tested.increments), tested.interval)
+        .joint.nees;
+}
+
+/** Whether the poses are of another body than the ground truth's. */
+std::string hintAtBody(
+    const InputOptions& input,
+    const Trajectory& truth,
+    const Trajectory& estimate,
+    const NeesRun& run,
+    NeesOptions options)
+{
+    return hintAtAxes(
+        input,
+        estimate,
+        jointNees(run.tested.front()),
+        0.25,
+        "NEES per degree of freedom",
+        [&](const Eigen::Isometry3d& T_truth_body)
+        {
+            options.T_truth_body = T_truth_body;
+            const auto other = neesRun(truth, estimate, {run.tested.front().interval}, options);
+            return jointNees(other.tested.front());
+        });
+}
+
+/** One line per increment: error, sigma and NEES. */
+std::string savedIncrements(const std::string& file, const Trajectory& estimate, const NeesRun& run)
+{
+    std::string out;
+    for (const NeesRun::Tested& tested : run.tested)
+    {
+        for (const NeesIncrement& increment : tested.increments)
+        {
+            out += csvField(file) + "," + nameOf(tested.interval) +
+                   format(",%.9f,%.9f", estimate.stamps[increment.i], estimate.stamps[increment.j]);
+            for (Eigen::Index k = 0; k < 6; ++k)
+            {
+                out += format(",%.9g", increment.error[k]);
+            }
+            for (Eigen::Index k = 0; k < 6; ++k)
+            {
+                out += format(",%.9g", std::sqrt(increment.cov(k, k)));
+            }
+            out += format(",%.9g\n", increment.nees);
+        }
+    }
+    return out;
 }
 
 void NeesCommand::run(CommandContext& context) const
@@ -107,6 +184,13 @@ void NeesCommand::run(CommandContext& context) const
     {
         throw std::invalid_argument("--report is of one run; give one ground truth and estimate");
     }
+    OutputGuard guard;
+    for (const std::string& file : files)
+    {
+        guard.addInput(file);
+    }
+    output.guardedBy(guard);
+    html.guardedBy(guard);
     NeesOptions resolved = options;
     resolved.truthSigmaRotation = sigmaFromOption(sigmaRotationDeg);
     resolved.truthAt = nearest ? TruthAt::NearestStamp : TruthAt::Interpolated;
@@ -117,38 +201,42 @@ void NeesCommand::run(CommandContext& context) const
     {
         lengths.push_back(neesIntervalFromName(name));
     }
-    std::vector<std::vector<NeesIncrement>> pooled(lengths.size());
-    std::vector<std::size_t> independent(lengths.size(), 0);
-    std::set<std::string> notes;
+    NeesReport report;
+    report.files = files;
+    report.options = resolved;
+    std::vector<Pool> pools;
+    std::string untold;
     for (std::size_t k = 0; k < files.size(); k += 2)
     {
         const Trajectory truth = input.loadTruth(files[k], context);
         const Trajectory estimate = input.loadEstimate(files[k + 1], context);
-        for (std::size_t m = 0; m < lengths.size(); ++m)
+        const NeesRun run = neesRun(truth, estimate, lengths, resolved);
+        poolRun(pools, run);
+        untold = run.untold.empty() ? untold : run.note;
+        report.coverages.push_back(coverageOf(truth, estimate, resolved.offset));
+        report.saved += savedIncrements(files[k + 1], estimate, run);
+        if (!run.note.empty())
         {
-            const auto increments = neesIncrements(truth, estimate, lengths[m], resolved);
-            independent[m] += countIndependent(increments);
-            notes.insert(noteOnUntold(estimate, increments));
-            pooled[m].insert(pooled[m].end(), increments.begin(), increments.end());
+            context.err << "pointplane-eval: note: " << run.note << "\n";
         }
+        const std::string hint = hintAtBody(input, truth, estimate, run, resolved);
+        context.hint(hint);
         if (!html.directory.empty())
         {
-            const ReportedRun reported{truth, estimate, RpeOptions(), resolved, lengths};
-            context.err << "report: " << writeTrajectoryReport(reported, html) << "\n";
+            ReportedRun reported{truth, estimate, {}, {}, resolved, lengths, hint};
+            reported.rpe.fixedDelta = true;
+            reported.rpe.offset = reported.ate.offset = resolved.offset;
+            writeTrajectoryReport(reported, html, context);
         }
     }
-    NeesReport report;
-    report.files = files;
-    report.options = resolved;
-    for (std::size_t m = 0; m < lengths.size(); ++m)
+    for (const Pool& pool : pools)
     {
-        report.results.push_back(consistencyOf(pooled[m], independent[m], lengths[m]));
+        report.results.push_back(consistencyOf(pool.increments, pool.independent, pool.interval));
     }
     writeReport(report, output, context.out);
-    notes.erase("");
-    for (const std::string& note : notes)
+    if (!untold.empty() && (minNees >= 0 || maxNees >= 0))
     {
-        context.err << "pointplane-eval: note: " << note << "\n";
+        throw InputError("the stated range of NEES cannot be checked: " + untold);
     }
     for (const NeesResult& result : report.results)
     {

@@ -59,8 +59,10 @@ nlohmann::ordered_json testJson(const ConsistencyTest& test)
 void printInterval(const NeesResult& r, std::ostream& out)
 {
     out << format(
-        "\nincrements of %s: %zu, of which %zu one after the other\n%-14s%12s%12s%12s%10s   %s\n",
-        nameOf(r.interval).c_str(),
+        "\n%s: %zu, of which %zu one after the other\n%-14s%12s%12s%12s%10s   %s\n",
+        (r.interval.sinceStart ? "poses since the first one"
+                               : "increments of " + nameOf(r.interval))
+            .c_str(),
         r.increments,
         r.independent,
         "",
@@ -117,7 +119,8 @@ void printTable(const NeesReport& report, std::ostream& out)
     out << "Covariance consistency: " << describe(report) << "\n";
     for (std::size_t k = 0; k + 1 < report.files.size(); k += 2)
     {
-        out << "ground truth " << report.files[k] << ", estimate " << report.files[k + 1] << "\n";
+        out << "ground truth " << report.files[k] << ", estimate " << report.files[k + 1] << "\n"
+            << describe(report.coverages[k / 2]) << "\n";
     }
     for (const NeesResult& result : report.results)
     {
@@ -131,6 +134,10 @@ nlohmann::ordered_json toJson(const NeesReport& report)
     json["title"] = "Covariance consistency";
     json["protocol"] = describe(report);
     json["files"] = report.files;
+    for (const Coverage& coverage : report.coverages)
+    {
+        json["coverage"].push_back(toJson(coverage));
+    }
     json["truthSigmaTranslation"] = report.options.truthSigmaTranslation;
     const Eigen::Vector3d& sigma = report.options.truthSigmaRotation;
     json["truthSigmaRotation"] = {sigma.x(), sigma.y(), sigma.z()};
@@ -191,6 +198,9 @@ void writeReport(const NeesReport& report, const OutputFiles& files, std::ostrea
     {
         printTable(report, out);
     }
-    files.write(toJson(report), toCsv(report), out);
+    const std::string header =
+        "estimate,interval,stamp_i,stamp_j,error_x_m,error_y_m,error_z_m,error_rx_rad,error_ry_rad,"
+        "error_rz_rad,sigma_x_m,sigma_y_m,sigma_z_m,sigma_rx_rad,sigma_ry_rad,sigma_rz_rad,nees\n";
+    files.write(toJson(report), toCsv(report), header + report.saved, out);
 }
 }  // namespace pointplane

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pointplane/evaluation/coverage.h>
 #include <pointplane/evaluation/nees.h>
 
 #include "result_output.h"
@@ -13,6 +14,8 @@ struct NeesReport
     std::vector<std::string> files;  //!< ground truth and estimate in turns
     NeesOptions options;
     std::vector<NeesResult> results;  //!< one per interval
+    std::vector<Coverage> coverages;  //!< one per run
+    std::string saved;                //!< lines of --save
 };
 
 /** "sigma 0.0001 m and 0.06 deg per axis and pose", or the three angles. */

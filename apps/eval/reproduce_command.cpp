@@ -7,6 +7,7 @@
 #include <ostream>
 
 #include "OdometryRuns.h"
+#include "OutputGuard.h"
 #include "command.h"
 #include "reproduce_output.h"
 #include "reproduce_plan.h"
@@ -61,7 +62,7 @@ void ReproduceCommand::addTo(CLI::App& command)
         ->type_name("PROGRAM")
         ->group("Runs");
     runner.addTo(command);
-    files.addTo(command);
+    files.addTo(command, "");
     command.add_option("--report", report, "Write DIR/index.html: one file, with the curves")
         ->type_name("DIR")
         ->group("Output");
@@ -120,6 +121,11 @@ void ReproduceCommand::convertAll(
 
 void ReproduceCommand::run(CommandContext& context) const
 {
+    OutputGuard guard;
+    guard.addInput(config);
+    guard.addInput(paperConfig);
+    files.guardedBy(guard);
+    guardReport(guard, report);
     Reproduction result;
     result.sequences = findSequences(directory);
     if (result.sequences.empty())
@@ -164,10 +170,10 @@ void ReproduceCommand::run(CommandContext& context) const
     {
         context.out << toMarkdown(result);
     }
-    files.write(toJson(result), toCsv(result), context.out);
+    files.write(toJson(result), toCsv(result), "", context.out);
     if (!report.empty())
     {
-        context.err << "report: " << writeReportFile(toHtml(result), report) << "\n";
+        writeReportFile(reportOf(result), report, context);
     }
     for (const OdometryScore& score : result.scores)
     {

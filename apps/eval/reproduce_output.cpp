@@ -131,7 +131,7 @@ nlohmann::ordered_json toJson(const Reproduction& result)
             run["translation"] = result.scores[k].rpe->translation.rmse;
             run["rotationDeg"] = result.scores[k].rpe->rotation.rmse * kDegreesPerRadian;
             run["pairs"] = result.scores[k].rpe->translation.count;
-            run["coverage"] = result.scores[k].rpe->coverage;
+            run["coverage"] = toJson(result.scores[k].rpe->coverage);
         }
         else
         {
@@ -155,7 +155,7 @@ std::string toCsv(const Reproduction& result)
                (score.rpe ? format(
                                 ",%zu,%.6g,%.9g,%.9g,\n",
                                 score.rpe->translation.count,
-                                score.rpe->coverage,
+                                score.rpe->coverage.share,
                                 score.rpe->translation.rmse,
                                 score.rpe->rotation.rmse * kDegreesPerRadian)
                           : ",,,,," + csvField(score.failure) + "\n");
@@ -163,7 +163,7 @@ std::string toCsv(const Reproduction& result)
     return out;
 }
 
-std::string toHtml(const Reproduction& result)
+HtmlReport reportOf(const Reproduction& result)
 {
     HtmlReport report("Reproduction of the paper's figures", intro(result));
     const std::string absent = missing(result);
@@ -201,6 +201,6 @@ std::string toHtml(const Reproduction& result)
     {
         report.addTable(table.caption, table.header, table.rows);
     }
-    return report.html();
+    return report;
 }
 }  // namespace pointplane

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pointplane/evaluation/HtmlReport.h>
+
 #include "reproduce_plan.h"
 #include <nlohmann/json.hpp>
 
@@ -24,5 +26,5 @@ struct Reproduction
 [[nodiscard]] std::string toMarkdown(const Reproduction& result);
 [[nodiscard]] nlohmann::ordered_json toJson(const Reproduction& result);
 [[nodiscard]] std::string toCsv(const Reproduction& result);
-[[nodiscard]] std::string toHtml(const Reproduction& result);
+[[nodiscard]] HtmlReport reportOf(const Reproduction& result);
 }  // namespace pointplane

@@ -3,23 +3,43 @@
 
 #include <cstdarg>
 #include <cstdio>
-#include <fstream>
 #include <ostream>
 
+#include "OutputGuard.h"
+#include "TextOutput.h"
 #include "command.h"
 
 namespace pointplane
 {
-void OutputFiles::addTo(CLI::App& command)
+void OutputFiles::addTo(CLI::App& command, const std::string& single)
 {
     command.add_option("--json", json, "Write the result as JSON ('-': to the standard output)")
         ->group("Output");
     command.add_option("--csv", csv, "Write the result as CSV ('-': to the standard output)")
         ->group("Output");
+    if (!single.empty())
+    {
+        command
+            .add_option(
+                "--save", save, "Write a line per " + single + " as CSV ('-': standard output)")
+            ->group("Output");
+    }
+}
+
+void OutputFiles::guardedBy(OutputGuard& guard) const
+{
+    const auto add = [&](const char* option, const std::string& path)
+    { guard.addOutput(option, path == "-" ? "" : path); };
+    add("--json", json);
+    add("--csv", csv);
+    add("--save", save);
 }
 
 void OutputFiles::write(
-    const nlohmann::ordered_json& asJson, const std::string& asCsv, std::ostream& out) const
+    const nlohmann::ordered_json& asJson,
+    const std::string& asCsv,
+    const std::string& singles,
+    std::ostream& out) const
 {
     if (!json.empty())
     {
@@ -28,6 +48,10 @@ void OutputFiles::write(
     if (!csv.empty())
     {
         writeText(asCsv, csv, out);
+    }
+    if (!save.empty())
+    {
+        writeText(singles, save, out);
     }
 }
 
@@ -108,6 +132,19 @@ nlohmann::ordered_json toJson(const ScoredResult& result)
     return json;
 }
 
+nlohmann::ordered_json toJson(const Coverage& coverage)
+{
+    nlohmann::ordered_json json{
+        {"share", coverage.share}, {"of", coverage.ofRecording ? "recording" : "groundTruth"}};
+    json["frames"] = coverage.ofRecording
+                         ? nlohmann::ordered_json{
+                               {"tracked", coverage.tracked},
+                               {"predicted", coverage.predicted},
+                               {"lost", coverage.lost}}
+                         : nlohmann::ordered_json();
+    return json;
+}
+
 std::string toCsv(const ScoredResult& result)
 {
     std::string out =
@@ -137,13 +174,9 @@ void writeText(const std::string& text, const std::string& path, std::ostream& o
         out << text;
         return;
     }
-    std::ofstream file(path);
-    file << text;
+    TextOutput file(path);
+    file.write(text);
     file.close();
-    if (!file)
-    {
-        throw EnvironmentError("cannot write '" + path + "'");
-    }
 }
 
 void writeResult(
@@ -153,7 +186,7 @@ void writeResult(
     {
         printTable(result, out);
     }
-    files.write(toJson(result), toCsv(result), out);
+    files.write(toJson(result), toCsv(result), result.singles, out);
 }
 
 void checkThreshold(

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <pointplane/evaluation/Statistics.h>
+#include <pointplane/evaluation/coverage.h>
 
 #include <iosfwd>
 #include <string>
@@ -13,6 +14,7 @@
 namespace pointplane
 {
 struct CommandContext;
+class OutputGuard;
 
 /** One line of a result table. */
 struct StatisticsRow
@@ -30,17 +32,24 @@ struct ScoredResult
     std::string groundTruth, estimate;
     std::vector<StatisticsRow> rows;
     nlohmann::ordered_json details;  //!< further members of the JSON object
+    std::string singles;             //!< the errors one by one, CSV
 };
 
-/** Options --json FILE and --csv FILE ("-" is the standard output, and replaces the table). */
+/** Options --json, --csv and --save FILE ("-" is the standard output, and replaces the table). */
 struct OutputFiles
 {
-    std::string json, csv;
-    void addTo(CLI::App& command);
-    [[nodiscard]] bool replaceTable() const { return json == "-" || csv == "-"; }
+    std::string json, csv, save;
+    /** \param single what --save writes a line of, e.g. "pair"; empty: there is no --save */
+    void addTo(CLI::App& command, const std::string& single);
+    /** Tells the guard what will be written. */
+    void guardedBy(OutputGuard& guard) const;
+    [[nodiscard]] bool replaceTable() const { return json == "-" || csv == "-" || save == "-"; }
     /** Writes what was asked for; throws EnvironmentError naming a file that cannot be written. */
     void write(
-        const nlohmann::ordered_json& asJson, const std::string& asCsv, std::ostream& out) const;
+        const nlohmann::ordered_json& asJson,
+        const std::string& asCsv,
+        const std::string& singles,
+        std::ostream& out) const;
 };
 
 void printTable(const ScoredResult& result, std::ostream& out);
@@ -59,6 +68,10 @@ void checkThreshold(
 
 /** Writes `text` to `path`, or to `out` for "-"; throws EnvironmentError naming the file. */
 void writeText(const std::string& text, const std::string& path, std::ostream& out);
+
+/** Share, what it is a share of, and the frames that were tracked, predicted and lost (null where
+ * the file does not mark them). */
+[[nodiscard]] nlohmann::ordered_json toJson(const Coverage& coverage);
 
 /** Field of a CSV file, quoted where needed. */
 [[nodiscard]] std::string csvField(const std::string& text);

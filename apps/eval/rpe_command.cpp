@@ -4,6 +4,7 @@
 #include <memory>
 #include <ostream>
 
+#include "OutputGuard.h"
 #include "command.h"
 #include "input_options.h"
 #include "result_output.h"
@@ -48,7 +49,7 @@ void RpeCommand::addTo(CLI::App& command)
     command.add_flag("--verbose", verbose, "Print the lines of evaluate_rpe.py --verbose instead")
         ->group("Output");
     input.addTo(command);
-    files.addTo(command);
+    files.addTo(command, "pair");
     report.addTo(command);
 }
 
@@ -69,37 +70,43 @@ void printScriptLines(const RpeResult& result, std::ostream& out)
     print("rotational_error", scaled(result.rotation, kDegreesPerRadian), "deg");
 }
 
-/** Poses of a rawlog are usually in MRPT's axes and TUM ground truth in optical ones; forgetting
- * --body-from-gt then gives errors that look like a bad odometry. */
-void hintAtAxes(
-    const ReportedRun& run, const RpeOptions& rpe, const RpeResult& result, std::ostream& err)
+/** The errors pair by pair, CSV. */
+std::string singlesOf(const Trajectory& estimate, const RpeResult& result)
 {
-    const Eigen::Isometry3d T_truth_optical = poseFromOption("optical").inverse();
-    const double optical =
-        relativePoseError(withBody(run.groundTruth, T_truth_optical), run.estimate, rpe)
-            .translation.rmse;
-    if (optical < 0.5 * result.translation.rmse)
+    std::string out = "stamp_i,stamp_j,translation_m,rotation_deg\n";
+    for (const RpePair& pair : result.pairs)
     {
-        err << format(
-            "pointplane-eval: hint: with --body-from-gt optical the RMSE would be %.6f m; are the "
-            "poses of '%s' in other axes than the ground truth?\n",
-            optical,
-            run.estimate.name.c_str());
+        out += format(
+            "%.9f,%.9f,%.9g,%.9g\n",
+            estimate.stamps[pair.i],
+            estimate.stamps[pair.j],
+            pair.translation,
+            pair.rotation * kDegreesPerRadian);
     }
+    return out;
 }
 
 void RpeCommand::run(CommandContext& context) const
 {
+    OutputGuard guard;
+    guard.addInput(groundTruth);
+    guard.addInput(estimate);
+    files.guardedBy(guard);
+    report.guardedBy(guard);
     const RpeOptions rpe = options.resolved();
     ReportedRun run;
     run.groundTruth = input.loadTruth(groundTruth, context);
     run.estimate = input.loadEstimate(estimate, context);
     run.rpe = rpe;
+    run.ate.offset = rpe.offset;
+    run.ate.scale = rpe.scale;
     run.nees.offset = rpe.offset;
     run.nees.T_truth_body = input.T_truth_body();
     run.intervals = {{1, DeltaUnit::Frames}, {1, DeltaUnit::Seconds}};
-    const RpeResult result =
-        relativePoseError(withBody(run.groundTruth, run.nees.T_truth_body), run.estimate, rpe);
+    const Trajectory measured = withoutLost(run.estimate);
+    const auto scoreWith = [&](const Eigen::Isometry3d& T_truth_body)
+    { return relativePoseError(withBody(run.groundTruth, T_truth_body), measured, rpe); };
+    const RpeResult result = scoreWith(run.nees.T_truth_body);
 
     ScoredResult scored;
     scored.title = "Relative pose error";
@@ -112,15 +119,24 @@ void RpeCommand::run(CommandContext& context) const
     scored.details = {
         {"pairs", result.translation.count},
         {"candidatePairs", result.candidatePairs},
-        {"coverage", result.coverage},
+        {"coverage", toJson(result.coverage)},
         {"fixedDelta", rpe.fixedDelta},
         {"delta", rpe.delta},
         {"deltaUnit", nameOf(rpe.unit)},
         {"offset", rpe.offset},
         {"scale", rpe.scale}};
-    if (input.bodyFromTruth.empty() && !run.estimate.covs.empty())  // out of MRPT's files
+    run.hint = hintAtAxes(
+        input,
+        measured,
+        result.translation.rmse,
+        0.5,
+        "translation RMSE in m",
+        [&](const auto& T_truth_body) { return scoreWith(T_truth_body).translation.rmse; });
+    context.hint(run.hint);
+    scored.singles = singlesOf(measured, result);
+    if (!files.save.empty() && result.pairs.empty())
     {
-        hintAtAxes(run, rpe, result, context.err);
+        throw InputError("--save: too many pairs to write; give --fixed-delta or --max-pairs");
     }
     if (verbose)
     {
@@ -129,7 +145,7 @@ void RpeCommand::run(CommandContext& context) const
     writeResult(scored, files, context.out, !verbose);
     if (!report.directory.empty())
     {
-        context.err << "report: " << writeTrajectoryReport(run, report) << "\n";
+        writeTrajectoryReport(run, report, context);
     }
     checkThreshold("translation RMSE", scored.rows[0], maxRmse, context);
     checkThreshold("rotation RMSE", scored.rows[1], maxRmseDeg, context);

@@ -50,6 +50,7 @@ std::vector<Chart> sweepCharts(
     charts[1].yLabel = "RPE RMSE [deg]";
     for (std::size_t c = 0; c < charts.size(); ++c)
     {
+        charts[c].yFromZero = true;
         charts[c].xLabel = parameter;
         charts[c].logX = axis == ValueAxis::Log && !named;
         if (named)

@@ -10,6 +10,7 @@
 #include <ostream>
 
 #include "OdometryRuns.h"
+#include "OutputGuard.h"
 #include "command.h"
 #include "result_output.h"
 #include "rpe_options.h"
@@ -75,7 +76,7 @@ void SweepCommand::addTo(CLI::App& command)
         ->group("Runs");
     runner.addTo(command);
     rpe.addTo(command);
-    files.addTo(command);
+    files.addTo(command, "");
     command.add_option("--report", report, "Write DIR/index.html: one file, with the curves")
         ->type_name("DIR")
         ->group("Output");
@@ -181,6 +182,7 @@ nlohmann::ordered_json toJson(const SweepResult& sweep)
                 item["translation"] = score.rpe->translation.rmse;
                 item["rotationDeg"] = score.rpe->rotation.rmse * kDegreesPerRadian;
                 item["pairs"] = score.rpe->translation.count;
+                item["coverage"] = toJson(score.rpe->coverage);
             }
             else
             {
@@ -194,7 +196,7 @@ nlohmann::ordered_json toJson(const SweepResult& sweep)
 
 std::string toCsv(const SweepResult& sweep)
 {
-    std::string out = "sequence,parameter,value,pairs,rpe_m,rpe_deg,failure\n";
+    std::string out = "sequence,parameter,value,pairs,lost,rpe_m,rpe_deg,failure\n";
     for (std::size_t s = 0; s < sweep.sequences.size(); ++s)
     {
         for (std::size_t v = 0; v < sweep.values.size(); ++v)
@@ -203,17 +205,18 @@ std::string toCsv(const SweepResult& sweep)
             out += csvField(sweep.sequences[s]) + "," + sweep.parameter + "," +
                    csvField(sweep.values[v]) +
                    (score.rpe ? format(
-                                    ",%zu,%.9g,%.9g,\n",
+                                    ",%zu,%zu,%.9g,%.9g,\n",
                                     score.rpe->translation.count,
+                                    score.rpe->coverage.lost,
                                     score.rpe->translation.rmse,
                                     score.rpe->rotation.rmse * kDegreesPerRadian)
-                              : ",,,," + csvField(score.failure) + "\n");
+                              : ",,,,," + csvField(score.failure) + "\n");
         }
     }
     return out;
 }
 
-std::string toHtml(const SweepResult& sweep, bool logarithmic)
+HtmlReport reportOf(const SweepResult& sweep, bool logarithmic)
 {
     HtmlReport report("Sweep of " + sweep.parameter, sweep.protocol);
     std::vector<Chart> charts = sweepCharts(
@@ -238,11 +241,24 @@ std::string toHtml(const SweepResult& sweep, bool logarithmic)
         }
     }
     report.addTable("RPE RMSE", header, rows);
-    return report.html();
+    return report;
 }
 
 void SweepCommand::run(CommandContext& context)
 {
+    OutputGuard guard;
+    guard.addInput(config);
+    for (const std::string& rawlog : rawlogs)
+    {
+        guard.addInput(rawlog);
+        guard.addInput(groundTruthOf(rawlog));
+    }
+    for (const std::string& truth : groundTruths)
+    {
+        guard.addInput(truth);
+    }
+    files.guardedBy(guard);
+    guardReport(guard, report);
     SweepResult sweep;
     sweep.parameter = parameter;
     sweep.values = valuesToTry();
@@ -259,10 +275,10 @@ void SweepCommand::run(CommandContext& context)
     {
         printTable(sweep, context.out);
     }
-    files.write(toJson(sweep), toCsv(sweep), context.out);
+    files.write(toJson(sweep), toCsv(sweep), "", context.out);
     if (!report.empty())
     {
-        context.err << "report: " << writeReportFile(toHtml(sweep, logarithmic), report) << "\n";
+        writeReportFile(reportOf(sweep, logarithmic), report, context);
     }
     for (const OdometryScore& score : sweep.scores)
     {

@@ -1,15 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trajectory_report.h"
 
+#include <pointplane/evaluation/svg_chart.h>
 #include <pointplane/evaluation/trajectory_charts.h>
 #include <pointplane/evaluation/units.h>
 #include <pointplane/mrpt_io/errors.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <cstdlib>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <ostream>
 
+#include "OutputGuard.h"
+#include "command.h"
 #include "nees_output.h"
 #include "result_output.h"
 
@@ -29,20 +37,112 @@ std::vector<std::string> statisticsCells(const std::string& name, const Statisti
     return cells;
 }
 
-void addScores(
-    HtmlReport& report, const ReportedRun& run, const RpeResult& rpe, const AteResult& ate)
+/** Adds what `section` makes, or a paragraph that says why it could not. */
+template <class Section>
+void addSection(HtmlReport& report, const char* what, Section section)
 {
-    const std::vector<std::string> header{"", "rmse", "mean", "median", "std", "min", "max"};
-    report.addTable(
-        "Relative pose error: " + describe(run.rpe, rpe),
-        header,
-        {statisticsCells("translation [mm]", scaled(rpe.translation, 1000)),
-         statisticsCells("rotation [deg]", scaled(rpe.rotation, kDegreesPerRadian))});
-    report.addTable(
-        "Absolute trajectory error: " + describe(AteOptions(), ate, run.estimate.size()),
-        header,
-        {statisticsCells("translation [mm]", scaled(ate.translation, 1000))});
+    try
+    {
+        section();
+    }
+    catch (const EnvironmentError&)
+    {
+        throw;
+    }
+    catch (const std::runtime_error& error)
+    {
+        report.addParagraph(std::string("No ") + what + ": " + error.what() + ".");
+    }
 }
+
+const std::vector<std::string> kStatisticsHeader{"", "rmse", "mean", "median", "std", "min", "max"};
+
+/** Scores and charts of one run without its lost frames. */
+class PathSections
+{
+ public:
+    explicit PathSections(const ReportedRun& run)
+        : run_(run),
+          truth_(withBody(run.groundTruth, run.nees.T_truth_body)),
+          measured_(withoutLost(run.estimate)),
+          fixedDelta_(run.rpe)
+    {
+        fixedDelta_.fixedDelta = true;
+        fixedDelta_.maxPairs = run.rpe.fixedDelta ? run.rpe.maxPairs : 0;
+    }
+
+    void addTo(HtmlReport& report) const
+    {
+        addSection(report, "relative pose error", [&] { addRelativeTable(report); });
+        addSection(report, "absolute trajectory error", [&] { addAbsolute(report); });
+        addSection(report, "charts of relative errors", [&] { addRelativeCharts(report); });
+        addAll(report, errorOverInterval(truth_, measured_, run_.rpe));
+        addSection(report, "poses over time", [&] { addPoses(report); });
+    }
+
+ private:
+    static void addAll(HtmlReport& report, const std::vector<Chart>& charts)
+    {
+        for (const Chart& chart : charts)
+        {
+            report.addChart(chart);
+        }
+    }
+
+    void addRelativeTable(HtmlReport& report) const
+    {
+        const RpeResult rpe = relativePoseError(truth_, measured_, run_.rpe);
+        report.addTable(
+            "Relative pose error: " + describe(run_.rpe, rpe),
+            kStatisticsHeader,
+            {statisticsCells("translation [mm]", scaled(rpe.translation, 1000)),
+             statisticsCells("rotation [deg]", scaled(rpe.rotation, kDegreesPerRadian))});
+    }
+
+    void addAbsolute(HtmlReport& report) const
+    {
+        const AteResult ate = absoluteTrajectoryError(truth_, measured_, run_.ate);
+        report.addTable(
+            "Absolute trajectory error: " + describe(run_.ate, ate, measured_.size()),
+            kStatisticsHeader,
+            {statisticsCells("translation [mm]", scaled(ate.translation, 1000))});
+        // Covariances are relative to the first pose, so that is where ellipses start from.
+        const AteResult map =
+            measured_.covs.empty() ? ate : absoluteTrajectoryError(truth_, measured_, aligned());
+        addAll(report, pathCharts(truth_, {{"estimate", measured_, map, run_.ate.scale}}));
+        report.addChart(positionErrorChart(measured_, ate));
+        report.addChart(positionErrorHistogram(ate));
+    }
+
+    void addRelativeCharts(HtmlReport& report) const
+    {
+        const RpeResult rpe = relativePoseError(truth_, measured_, fixedDelta_);
+        addAll(report, relativeErrorCharts(measured_, fixedDelta_, rpe));
+        addAll(report, errorHistograms(fixedDelta_, rpe));
+    }
+
+    void addPoses(HtmlReport& report) const
+    {
+        addAll(
+            report,
+            poseCharts(
+                truth_,
+                measured_,
+                run_.ate,
+                absoluteTrajectoryError(truth_, measured_, aligned())));
+    }
+
+    [[nodiscard]] AteOptions aligned() const
+    {
+        AteOptions out = run_.ate;
+        out.alignment = Alignment::FirstPose;
+        return out;
+    }
+
+    const ReportedRun& run_;
+    Trajectory truth_, measured_;
+    RpeOptions fixedDelta_;
+};
 
 std::vector<std::string> consistencyCells(const std::string& name, const NeesResult& r)
 {
@@ -72,17 +172,16 @@ void addConsistency(HtmlReport& report, const ReportedRun& run)
     std::vector<std::vector<std::string>> rows;
     std::vector<Chart> charts;
     std::vector<Chart> errors;
-    std::string note;
-    for (const NeesInterval& interval : run.intervals)
+    const NeesRun tested = neesRun(run.groundTruth, run.estimate, run.intervals, run.nees);
+    for (const auto& [interval, increments] : tested.tested)
     {
-        const auto increments = neesIncrements(run.groundTruth, run.estimate, interval, run.nees);
         const auto result = consistencyOf(increments, countIndependent(increments), interval);
-        rows.push_back(consistencyCells(nameOf(interval), result));
-        note = note.empty() ? noteOnUntold(run.estimate, increments) : note;
+        rows.push_back(consistencyCells(
+            interval.sinceStart ? "poses since the first" : nameOf(interval), result));
         charts.push_back(neesChart(run.estimate, increments, result));
         if (errors.empty())
         {
-            errors = errorAgainstSigmaCharts(run.estimate, increments);
+            errors = errorAgainstSigmaCharts(run.estimate, increments, interval);
         }
     }
     charts.insert(charts.end(), errors.begin(), errors.end());
@@ -103,9 +202,9 @@ void addConsistency(HtmlReport& report, const ReportedRun& run)
          "rz",
          "95 % bounds"},
         rows);
-    if (!note.empty())
+    if (!tested.note.empty())
     {
-        report.addParagraph(note);
+        report.addParagraph("Note: " + tested.note + ".");
     }
     std::for_each(charts.begin(), charts.end(), [&](const Chart& c) { report.addChart(c); });
 }
@@ -158,7 +257,9 @@ void addWorstFrames(
 
 void ReportOptions::addTo(CLI::App& command)
 {
-    command.add_option("--report", directory, "Write DIR/index.html: one file, with charts")
+    command
+        .add_option(
+            "--report", directory, "Write DIR/index.html, with charts, and each chart as SVG")
         ->type_name("DIR")
         ->group("Output");
     command
@@ -170,63 +271,109 @@ void ReportOptions::addTo(CLI::App& command)
         ->group("Output");
     command
         .add_option(
+            "--run-config", runConfig, "For the report: configuration of the run, to be shown")
+        ->type_name("FILE")
+        ->group("Output");
+    command
+        .add_option(
             "--overlays", overlays, "For the report: folder of pointplane-odometry --overlay")
         ->type_name("DIR")
         ->group("Output");
 }
 
-std::string writeReportFile(const std::string& html, const std::string& directory)
+namespace
 {
-    std::error_code error;
-    std::filesystem::create_directories(directory, error);
-    const std::string path = directory + "/index.html";
-    std::ofstream file(path);
-    file << html;
-    file.close();
-    if (!file)
+/** "path-from-above" of "Path from above". */
+std::string fileNameOf(const std::string& title)
+{
+    std::string out;
+    for (const char c : title)
     {
-        throw EnvironmentError("cannot write '" + path + "'");
+        const auto letter = static_cast<unsigned char>(c);
+        if (std::isalnum(letter) != 0)
+        {
+            out += static_cast<char>(std::tolower(letter));
+        }
+        else if (!out.empty() && out.back() != '-')
+        {
+            out += '-';
+        }
     }
-    return path;
+    return out.substr(0, out.find_last_not_of('-') + 1);
 }
 
-std::string writeTrajectoryReport(const ReportedRun& run, const ReportOptions& options)
+/** Time of day, UTC; SOURCE_DATE_EPOCH stands in for it where reports have to be repeatable. */
+std::string timeText()
 {
-    const Trajectory truth = withBody(run.groundTruth, run.nees.T_truth_body);
-    RpeOptions rpeOptions = run.rpe;
-    rpeOptions.fixedDelta = true;
-    const RpeResult rpe = relativePoseError(truth, run.estimate, rpeOptions);
-    AteOptions ateOptions;
-    ateOptions.offset = run.rpe.offset;
-    ateOptions.scale = run.rpe.scale;
-    const AteResult ate = absoluteTrajectoryError(truth, run.estimate, ateOptions);
-    // Covariances are relative to the first pose, so that is where ellipses start from.
-    AteOptions forMap = ateOptions;
-    forMap.alignment = run.estimate.covs.empty() ? Alignment::Se3 : Alignment::FirstPose;
+    const char* fixed = std::getenv("SOURCE_DATE_EPOCH");
+    const std::time_t now =
+        fixed != nullptr ? std::strtoll(fixed, nullptr, 10) : std::time(nullptr);
+    std::tm utc{};
+    gmtime_r(&now, &utc);
+    char text[32];
+    std::strftime(text, sizeof text, "%Y-%m-%d %H:%M:%S UTC", &utc);
+    return text;
+}
 
+std::string textOf(const std::string& path)
+{
+    std::ifstream file(path);
+    std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    if (!file.good() && text.empty())
+    {
+        throw InputError("cannot read '" + path + "'");
+    }
+    return text;
+}
+}  // namespace
+
+void ReportOptions::guardedBy(OutputGuard& guard) const
+{
+    guard.addInput(diagnostics);
+    guard.addInput(runConfig);
+    guardReport(guard, directory);
+}
+
+void guardReport(OutputGuard& guard, const std::string& directory)
+{
+    guard.addOutputFolder("--report", directory, ".html");
+    guard.addOutputFolder("--report", directory, ".svg");
+}
+
+void writeReportFile(HtmlReport report, const std::string& directory, CommandContext& context)
+{
+    report.addParagraph(
+        "pointplane-eval " POINTPLANE_VERSION ", " + timeText() + ": " + context.commandLine);
+    std::error_code error;
+    std::filesystem::create_directories(directory, error);
+    if (error)
+    {
+        throw EnvironmentError("cannot create " + directory + ": " + error.message());
+    }
+    const std::string path = directory + "/index.html";
+    writeText(report.html(), path, context.out);
+    for (const Chart& chart : report.charts())
+    {
+        writeText(
+            svgFileOf(chart), directory + "/" + fileNameOf(chart.title) + ".svg", context.out);
+    }
+    context.err << "report: " << path << "\n";
+}
+
+void writeTrajectoryReport(
+    const ReportedRun& run, const ReportOptions& options, CommandContext& context)
+{
     HtmlReport report(
         std::filesystem::path(run.estimate.name).filename().string(),
         "estimate " + run.estimate.name + ", ground truth " + run.groundTruth.name);
-    ReportedRun scored = run;
-    scored.rpe = rpeOptions;
-    addScores(report, scored, rpe, ate);
-    const AteResult mapAte = absoluteTrajectoryError(truth, run.estimate, forMap);
-    for (const Chart& chart : pathCharts(truth, run.estimate, mapAte))
+    if (!run.hint.empty())
     {
-        report.addChart(chart);
+        report.addParagraph("Hint: " + run.hint);
     }
-    report.addChart(relativeErrorChart(run.estimate, rpeOptions, rpe));
-    report.addChart(positionErrorChart(run.estimate, ate));
+    PathSections(run).addTo(report);
     if (!run.estimate.covs.empty())
     {
-        try
-        {
-            addConsistency(report, run);
-        }
-        catch (const std::runtime_error& error)
-        {
-            report.addParagraph("No NEES: " + std::string(error.what()));
-        }
+        addSection(report, "NEES", [&] { addConsistency(report, run); });
     }
     FrameTable table;
     if (!options.diagnostics.empty())
@@ -239,8 +386,14 @@ std::string writeTrajectoryReport(const ReportedRun& run, const ReportOptions& o
     }
     if (!options.overlays.empty())
     {
+        const Trajectory truth = withBody(run.groundTruth, run.nees.T_truth_body);
         addWorstFrames(report, run, truth, table, options.overlays);
     }
-    return writeReportFile(report.html(), options.directory);
+    if (!options.runConfig.empty())
+    {
+        report.addDetails(
+            "Configuration of the run: " + options.runConfig, textOf(options.runConfig));
+    }
+    writeReportFile(std::move(report), options.directory, context);
 }
 }  // namespace pointplane

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pointplane/evaluation/HtmlReport.h>
+#include <pointplane/evaluation/ate.h>
 #include <pointplane/evaluation/nees.h>
 #include <pointplane/evaluation/rpe.h>
 
@@ -11,13 +13,19 @@
 
 namespace pointplane
 {
+struct CommandContext;
+class OutputGuard;
+
 /** Options --report DIR and what goes into the report beside the two trajectories. */
 struct ReportOptions
 {
     std::string directory;    //!< empty: no report
     std::string diagnostics;  //!< table of pointplane-odometry --diagnostics, or empty
     std::string overlays;     //!< folder of pointplane-odometry --overlay, or empty
+    std::string runConfig;    //!< configuration of the run, or empty
     void addTo(CLI::App& command);
+    /** Tells the guard what will be read and written. */
+    void guardedBy(OutputGuard& guard) const;
 };
 
 /** One run to report on. */
@@ -25,17 +33,25 @@ struct ReportedRun
 {
     Trajectory groundTruth;  //!< as its file gives it
     Trajectory estimate;
-    RpeOptions rpe;    //!< fixedDelta is set
+    RpeOptions rpe;  //!< of the score; charts need listed pairs and take a fixed delta
+    AteOptions ate;
     NeesOptions nees;  //!< T_truth_body applies to all metrics
     std::vector<NeesInterval> intervals;
+    std::string hint;  //!< to the reader, or empty
 };
 
-/** Writes DIR/index.html: the scores, the path with its 3-sigma ellipses, errors and NEES over
- * time, features, status and times per frame, and the pictures of the worst frames. \return the
- * file's path \throws EnvironmentError if it cannot be written, std::runtime_error for input that
- * cannot be read or scored */
-std::string writeTrajectoryReport(const ReportedRun& run, const ReportOptions& options);
+/** Writes the report and says where it is: DIR/index.html with the scores, the path with its
+ * 3-sigma ellipses, poses, errors and NEES over time, features, status and times per frame, and the
+ * pictures of the worst frames; each chart also as an SVG file. What cannot be scored is said
+ * there. \throws EnvironmentError if it cannot be written, std::runtime_error for input that cannot
+ * be read */
+void writeTrajectoryReport(
+    const ReportedRun& run, const ReportOptions& options, CommandContext& context);
 
-/** Writes `html` to `directory`/index.html, which is created. \throws EnvironmentError */
-std::string writeReportFile(const std::string& html, const std::string& directory);
+/** Tells the guard of the report in `directory`; empty: there is none. */
+void guardReport(OutputGuard& guard, const std::string& directory);
+
+/** Writes `report` to `directory`/index.html, which is created, and says so. Ends it with version,
+ * time and command line; each chart is also an SVG file. \throws EnvironmentError */
+void writeReportFile(HtmlReport report, const std::string& directory, CommandContext& context);
 }  // namespace pointplane

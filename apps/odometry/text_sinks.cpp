@@ -18,11 +18,25 @@ TrajectorySink::TrajectorySink(const std::string& path, bool robotFrame)
         std::string("# timestamp tx ty tz qx qy qz qw; poses of the ") +
         (robotFrame ? "robot, x forward, y left, z up" : "camera, x right, y down, z forward") +
         ", in its first frame");
+    file_.writeLine(
+        "# pointplane-status: lost frames have no pose, predicted ones were not measured");
 }
 
 void TrajectorySink::add(const OutputItem& item)
 {
     if (!item.frame)
+    {
+        return;
+    }
+    const RobotMotion& motion = item.frame->motion;
+    const bool lost = motion.status == TrackingStatus::Lost;
+    if (lost || motion.status == TrackingStatus::Predicted)
+    {
+        file_.writeLine(
+            "# pointplane-status " + stampText(item.source.observation->timestamp) + " " +
+            toString(motion.status) + ": " + motion.reason);
+    }
+    if (lost)
     {
         return;
     }

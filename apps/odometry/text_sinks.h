@@ -8,9 +8,9 @@
 
 namespace pointplane
 {
-/** The accumulated poses as TUM text: `stamp tx ty tz qx qy qz qw`, one line a frame, also for
- * frames that were predicted. In the camera's optical frame, as the TUM tools expect, or the
- * robot's. */
+/** The accumulated poses as TUM text: `stamp tx ty tz qx qy qz qw`, one line a frame, in the
+ * camera's optical frame, as the TUM tools expect, or the robot's. A comment ahead of it marks a
+ * predicted frame; of a lost one there is only the comment. */
 class TrajectorySink : public Sink
 {
  public:

@@ -320,6 +320,33 @@ TEST_F(OdometryApp, untrackedFramesSaySoInTheRawlog)
     EXPECT_TRUE(found);
 }
 
+/** Lost frames have no pose in a text trajectory, only a comment that says so. */
+TEST_F(OdometryApp, textTrajectoriesLeaveLostFramesOut)
+{
+    (void)runOn(
+        3,
+        [](int i, mrpt::obs::CObservation3DRangeScan& scan)
+        { scan.hasRangeImage = scan.hasRangeImage && i != 1; });
+    const std::string path = dir_ / "t.txt";
+    ASSERT_EQ(run({in_, "--trajectory", path}).code, kExitIncomplete);
+    std::istringstream text(readBytes(path));
+    std::vector<std::string> marks, poses;
+    for (std::string line; std::getline(text, line);)
+    {
+        if (line[0] != '#')
+        {
+            poses.push_back(line);
+        }
+        else if (line.rfind("# pointplane-status ", 0) == 0)
+        {
+            marks.push_back(line);
+        }
+    }
+    EXPECT_EQ(poses.size(), 2U);
+    ASSERT_EQ(marks.size(), 1U);
+    EXPECT_THAT(marks[0], testing::EndsWith(" lost: observation has no range image"));
+}
+
 TEST_F(OdometryApp, badInputIsNamedWithExitCode2)
 {
     const auto expect = [this](const std::vector<std::string>& args, const std::string& text)

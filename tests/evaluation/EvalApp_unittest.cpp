@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "EvalApp.h"
 
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
 #include <sstream>
 
 #include "run_app.h"
@@ -132,7 +135,116 @@ TEST_F(EvalApp, reportsOfOneRun)
         run({"rpe", truth, estimate, "--report", files / "r", "--diagnostics", files / "none.csv"});
     EXPECT_EQ(noTable.code, 2);
     EXPECT_THAT(noTable.err, HasSubstr("none.csv"));
-    EXPECT_EQ(run({"rpe", truth, estimate, "--report", truth}).code, 3);  // a file, no folder
+    EXPECT_EQ(run({"rpe", truth, estimate, "--report", truth}).code, 2);  // a file, no folder
+}
+
+/** All pairs by default, a fixed delta if asked for: the report shows what the terminal shows. */
+TEST_F(EvalApp, theReportShowsTheTerminalsFigures)
+{
+    for (const std::vector<std::string>& options :
+         {std::vector<std::string>{}, {"--fixed-delta"}, {"--fixed-delta", "--delta", "2"}})
+    {
+        std::vector<std::string> args{
+            "rpe", truth, estimate, "--report", files / "r", "--json", files / "r.json"};
+        args.insert(args.end(), options.begin(), options.end());
+        ASSERT_EQ(run(args).code, 0);
+        const auto json = nlohmann::json::parse(test::readBytes(files / "r.json"));
+        char rmse[32];
+        std::snprintf(
+            rmse, sizeof rmse, "<td>%.4f</td>", 1000 * json["translation"]["rmse"].get<double>());
+        const std::string html = test::readBytes(files / "r/index.html");
+        EXPECT_THAT(html, HasSubstr(std::string("translation [mm]</td>") + rmse));
+        EXPECT_THAT(html, HasSubstr(json["protocol"].get<std::string>().substr(0, 60)));
+    }
+}
+
+TEST_F(EvalApp, theReportSaysHowItWasMade)
+{
+    const std::string config = writeFile(files, "run.ini", "[PoseSolver]\nalpha = 7\n");
+    ASSERT_EQ(
+        run({"ate", truth, estimate, "--report", files / "r", "--run-config", config}).code, 0);
+    const std::string html = test::readBytes(files / "r/index.html");
+    EXPECT_THAT(html, HasSubstr("pointplane-eval " POINTPLANE_VERSION ", 20"));
+    EXPECT_THAT(html, HasSubstr("pointplane-eval ate " + truth));
+    EXPECT_THAT(html, HasSubstr("alpha = 7"));
+    EXPECT_THAT(test::readBytes(files / "r/path-from-above.svg"), HasSubstr("ground truth"));
+    EXPECT_EQ(run({"ate", truth, estimate, "--report", files / "r", "--run-config", "no"}).code, 2);
+}
+
+/** Half a second: no pairs 1 s apart. */
+TEST_F(EvalApp, theReportOfAShortRunSaysWhatItLacks)
+{
+    std::string head;
+    for (int line = 0; line < 6; ++line)
+    {
+        head += "0." + std::to_string(line) + " 0.1 0 0 0 0 0 1\n";
+    }
+    const std::string brief = writeFile(files, "short.txt", head);
+    const test::AppRun r = run({"ate", truth, brief, "--report", files / "r"});
+    EXPECT_EQ(r.code, 0) << r.err;
+    const std::string html = test::readBytes(files / "r/index.html");
+    EXPECT_THAT(html, HasSubstr("No relative pose error: only 0 of"));
+    EXPECT_THAT(html, HasSubstr("Path from above"));
+}
+
+TEST_F(EvalApp, namesOfFilesCannotBreakAReport)
+{
+    const std::string evil = writeFile(files, "<!--<script>alert(1)&.txt", straightLine(1.1));
+    ASSERT_EQ(run({"compare", truth, evil, estimate, "--report", files / "r"}).code, 0);
+    const std::string html = test::readBytes(files / "r/index.html");
+    EXPECT_THAT(html, testing::Not(HasSubstr("<!--")));
+    EXPECT_THAT(html, HasSubstr("&lt;!--&lt;script&gt;alert(1)&amp;.txt"));
+}
+
+TEST_F(EvalApp, savesErrorsOneByOne)
+{
+    ASSERT_EQ(
+        run({"rpe", truth, estimate, "--fixed-delta", "--save", files / "pairs.csv"}).code, 0);
+    EXPECT_THAT(
+        test::readBytes(files / "pairs.csv"),
+        testing::StartsWith("stamp_i,stamp_j,translation_m,rotation_deg\n"
+                            "0.000000000,1.000000000,0.05,0\n"));
+    // Few poses: all ordered pairs, too.
+    const std::string all = run({"rpe", truth, estimate, "--max-pairs", "0", "--save", "-"}).out;
+    EXPECT_EQ(std::count(all.begin(), all.end(), '\n'), 51 * 51 + 1);
+
+    ASSERT_EQ(
+        run({"ate", truth, estimate, "--align", "none", "--save", files / "poses.csv"}).code, 0);
+    const std::string poses = test::readBytes(files / "poses.csv");
+    EXPECT_THAT(poses, testing::StartsWith("stamp,translation_m,x_m,y_m,z_m\n"));
+    EXPECT_THAT(poses, HasSubstr("\n1.000000000,0.05,0.05,0,0\n"));
+}
+
+TEST_F(EvalApp, marksOfLostAndPredictedFramesAreReadAndSaid)
+{
+    std::string marked = "# pointplane-status: what such lines mean\n";
+    std::istringstream lines(straightLine(1.05));
+    int k = 0;
+    for (std::string line; std::getline(lines, line); ++k)
+    {
+        const std::string stamp = line.substr(0, line.find(' '));
+        const bool isLost = k >= 20 && k < 40;
+        marked += isLost ? "# pointplane-status " + stamp + " lost: no depth\n"
+                  : k == 40
+                      ? "# pointplane-status " + stamp + " predicted: no points\n" + line + "\n"
+                      : line + "\n";
+    }
+    const std::string path = writeFile(files, "marked.txt", marked);
+    const std::string counts =
+        "coverage 58.0 % of the recording: 30 frames tracked, 1 predicted, 20 lost";
+    EXPECT_THAT(run({"ate", truth, path}).out, HasSubstr(counts));
+    EXPECT_THAT(run({"rpe", truth, path, "--fixed-delta"}).out, HasSubstr(counts));
+    const auto json = nlohmann::json::parse(run({"ate", truth, path, "--json", "-"}).out);
+    EXPECT_EQ(json["coverage"]["frames"]["lost"], 20);
+    EXPECT_EQ(json["coverage"]["of"], "recording");
+    EXPECT_THAT(
+        run({"ate", truth, estimate}).out,
+        HasSubstr("of the ground truth's time, frames not marked"));
+    const std::string bad =
+        writeFile(files, "bad.txt", "# pointplane-status 1 gone\n" + straightLine(1));
+    const test::AppRun refused = run({"ate", truth, bad});
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_THAT(refused.err, HasSubstr("bad.txt:1: not a status"));
 }
 
 TEST_F(EvalApp, failuresSayWhyAndSetTheExitCode)
@@ -151,7 +263,22 @@ TEST_F(EvalApp, failuresSayWhyAndSetTheExitCode)
         run({"rpe", truth, estimate, "--fixed-delta", "--json", files / "no/dir.json"});
     EXPECT_EQ(unwritable.code, 3);
     EXPECT_THAT(unwritable.err, HasSubstr("no/dir.json"));
-    EXPECT_THAT(unwritable.out, HasSubstr("translation"));  // nothing lost
+}
+
+TEST_F(EvalApp, noOutputIsAnInput)
+{
+    for (const char* option : {"--json", "--csv", "--save"})
+    {
+        for (const std::string& input : {truth, estimate})
+        {
+            const std::string before = test::readBytes(input);
+            const test::AppRun r = run({"ate", truth, estimate, option, input});
+            EXPECT_EQ(r.code, 2);
+            EXPECT_THAT(r.err, testing::AllOf(HasSubstr(option), HasSubstr("is an input")));
+            EXPECT_EQ(test::readBytes(input), before);
+        }
+    }
+    EXPECT_EQ(run({"ate", truth, estimate, "--json", files / "x", "--csv", files / "x"}).code, 2);
 }
 
 TEST_F(EvalApp, warningsOfTheReaderReachTheUser)

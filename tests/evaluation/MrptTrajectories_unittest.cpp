@@ -332,3 +332,119 @@ TEST(MrptTrajectories, opticalGroundTruthOfAnEstimateInMrptAxes)
         HasSubstr("hint: with --body-from-gt optical"));
     EXPECT_EQ(run({"rpe", writeTruth(dir), dir / "a.rawlog", "--fixed-delta"}).err, "");
 }
+
+namespace
+{
+/** As pointplane-odometry writes it: poses, motions since the frame before, and marks. */
+void writeOdometry(const std::string& path, bool withSince, const Eigen::Isometry3d& body)
+{
+    RawlogWriter writer(path);
+    for (std::size_t k = 0; k < estimate().size(); ++k)
+    {
+        auto observation = observationOf(k, "RGBD_pose");
+        PoseGaussian pose = gaussianAt(k);
+        pose.mean = pose.mean * body;
+        observation.pose = toMrpt(pose);
+        writer.write(observation);
+        if (withSince && k > 0)
+        {
+            auto since = observationOf(k, "RGBD_since_1");
+            since.pose = toMrpt({Eigen::Isometry3d::Identity(), incrementCov()});
+            writer.write(since);
+        }
+        if (k >= 10 && k < 30)
+        {
+            mrpt::obs::CObservationComment comment;
+            comment.timestamp = observation.timestamp;
+            comment.text = "pointplane-status label=RGBD frame=" + std::to_string(k) +
+                           (k < 20 ? " lost: no depth" : " predicted: no matches");
+            writer.write(comment);
+        }
+    }
+    writer.close();
+}
+}  // namespace
+
+TEST(MrptTrajectories, marksOfLostFramesInARawlogAreReadAndSaid)
+{
+    test::TempDir dir;
+    writeOdometry(dir / "a.rawlog", true, Eigen::Isometry3d::Identity());
+    const Trajectory read = readRawlogTrajectory(dir / "a.rawlog", "");
+    EXPECT_TRUE(read.marksFrames);
+    ASSERT_EQ(read.status.size(), 40u);
+    EXPECT_EQ(read.status[9], FrameStatus::Tracked);
+    EXPECT_EQ(read.status[10], FrameStatus::Lost);
+    EXPECT_EQ(read.status[29], FrameStatus::Predicted);
+
+    const std::string truthFile = writeTruth(dir);
+    const std::string counts = "of the recording: 20 frames tracked, 10 predicted, 10 lost";
+    EXPECT_THAT(run({"rpe", truthFile, dir / "a.rawlog"}).out, HasSubstr(counts));
+    EXPECT_THAT(run({"ate", truthFile, dir / "a.rawlog"}).out, HasSubstr("30 of 30 poses"));
+    const test::AppRun nees = run({"nees", truthFile, dir / "a.rawlog", "--interval", "1f"});
+    EXPECT_THAT(nees.out, HasSubstr(counts));
+    EXPECT_THAT(
+        nees.out, HasSubstr("increments of 1f: 39"));  // PDFs of lost frames are tested, too
+    const auto json = nlohmann::json::parse(
+        run({"nees", truthFile, dir / "a.rawlog", "--interval", "1f", "--json", "-"}).out);
+    EXPECT_EQ(json["coverage"][0]["frames"]["lost"], 10);
+}
+
+TEST(MrptTrajectories, neesHintsAtAnotherBody)
+{
+    test::TempDir dir;
+    writeOdometry(dir / "a.rawlog", true, opticalInBody().inverse());
+    // The same motion of a body with optical axes, told against a truth in MRPT's: --body-from-gt.
+    std::ostringstream text;
+    text.precision(15);
+    for (std::size_t k = 0; k < truth().size(); ++k)
+    {
+        text << truth().stamps[k] << " " << truth().poses[k].translation().transpose() << " "
+             << Eigen::Quaterniond(truth().poses[k].linear()).coeffs().transpose() << "\n";
+    }
+    const std::string truthFile = writeFile(dir, "truth.txt", text.str());
+    const test::AppRun wrong = run({"nees", truthFile, dir / "a.rawlog", "--interval", "1f"});
+    EXPECT_THAT(wrong.err, HasSubstr("hint: with --body-from-gt optical the NEES"));
+    const test::AppRun right =
+        run({"nees", truthFile, dir / "a.rawlog", "--interval", "1f", "--body-from-gt", "optical"});
+    EXPECT_THAT(right.err, testing::Not(HasSubstr("hint")));
+}
+
+/** Poses whose covariances do not grow by those of the increments: those cannot be told. */
+TEST(MrptTrajectories, neesTestsThePosesWhereIncrementsAreNotTold)
+{
+    test::TempDir dir;
+    {
+        RawlogWriter writer(dir / "a.rawlog");
+        for (std::size_t k = 0; k < estimate().size(); ++k)
+        {
+            auto observation = observationOf(k, "RGBD_pose");
+            const double size = k == 0 ? 1e-12 : 1 + 0.5 * static_cast<double>(k % 2);
+            observation.pose = toMrpt({estimate().poses[k], size * gaussianAt(39).cov});
+            writer.write(observation);
+        }
+        writer.close();
+    }
+    const std::string truthFile = writeTruth(dir);
+    const test::AppRun r = run({"nees", truthFile, dir / "a.rawlog"});
+    EXPECT_EQ(r.code, 0) << r.err;
+    EXPECT_THAT(r.err, HasSubstr("increments of 1f, 10f, 1s are not tested"));
+    EXPECT_THAT(r.err, HasSubstr("pointplane-odometry --since 10"));
+    EXPECT_THAT(r.out, HasSubstr("poses since the first one: 39, of which 1 one after the other"));
+    // A gate that cannot be checked is not passed.
+    const test::AppRun gate = run({"nees", truthFile, dir / "a.rawlog", "--max-nees", "100"});
+    EXPECT_EQ(gate.code, 2);
+    EXPECT_THAT(gate.err, HasSubstr("cannot be checked"));
+    EXPECT_EQ(run({"ate", truthFile, dir / "a.rawlog", "--report", dir / "r"}).code, 0);
+    EXPECT_THAT(test::readBytes(dir / "r/index.html"), HasSubstr("are not tested"));
+}
+
+TEST(MrptTrajectories, neesSavesIncrements)
+{
+    test::TempDir dir;
+    writeFormat2(dir / "a.rawlog", {"VO"});
+    const std::string saved =
+        run({"nees", writeTruth(dir), dir / "a.rawlog", "--interval", "1f,5f", "--save", "-"}).out;
+    EXPECT_THAT(saved, testing::StartsWith("estimate,interval,stamp_i,stamp_j,error_x_m,"));
+    EXPECT_EQ(std::count(saved.begin(), saved.end(), '\n'), 1 + 39 + 35);
+    EXPECT_THAT(saved, HasSubstr("a.rawlog,5f,100.000000000,100.500000000,"));
+}

@@ -217,8 +217,24 @@ TEST(Nees, refusesWhatCannotBeTested)
         (void)neesOf(truth, constant, "1f");
         FAIL() << "no exception";
     }
-    catch (const std::runtime_error& e)
+    catch (const UntoldCovariance& e)
     {
         EXPECT_THAT(e.what(), HasSubstr("100.000000 to 100.100000 s is not positive definite"));
     }
+}
+
+TEST(Nees, posesSinceTheFirstAreOneIncrementThatGrows)
+{
+    const Trajectory truth = randomTrajectory(300, 1);
+    const Trajectory estimate = odometry(truth, 2);
+    const NeesInterval start = neesIntervalFromName("start");
+    EXPECT_EQ(nameOf(start), "start");
+    const auto increments = neesIncrements(truth, estimate, start, {});
+    ASSERT_EQ(increments.size(), 299u);
+    EXPECT_EQ(increments[7].i, 0u);
+    EXPECT_EQ(increments[7].j, 8u);
+    EXPECT_EQ(countIndependent(increments), 1u);
+    const Matrix6d Ad = adjoint(estimate.poses[0].inverse());
+    const Matrix6d expected = Ad * estimate.covs[8] * Ad.transpose();
+    EXPECT_THAT(increments[7].cov, test::IsMatrixNear(expected, 1e-6 * expected.norm()));
 }

@@ -34,17 +34,27 @@ std::string sampleReport(const test::TempDir& dir)
     options.fixedDelta = true;
     const auto increments = neesIncrements(truth, estimate, {}, {});
     HtmlReport report("A run with quite a long name that has to wrap on a phone", "sub/title");
-    report.addTable(
-        "a table wider than a phone",
-        std::vector<std::string>(14, "translation"),
-        {std::vector<std::string>(14, "1234.567")});
-    for (const Chart& chart :
-         pathCharts(truth, estimate, absoluteTrajectoryError(truth, estimate, {})))
+    // The widest table that there is.
+    std::vector<std::string> header{"increments of", "verdict", "independent", "joint"};
+    std::vector<std::string> row{"10f", "optimistic, sigmas x 12.34 too small", "12345", "123.45"};
+    for (const char* name : {"translation", "rotation", "x", "y", "z", "rx", "ry", "rz", "bounds"})
     {
-        report.addChart(chart);
+        header.emplace_back(name);
+        row.emplace_back("123.45");
     }
-    report.addChart(
-        relativeErrorChart(estimate, options, relativePoseError(truth, estimate, options)));
+    row.back() = "0.95 - 1.05";
+    report.addTable("a table wider than a phone", header, {row});
+    const AteResult ate = absoluteTrajectoryError(truth, estimate, {});
+    for (const std::vector<Chart>& charts :
+         {pathCharts(truth, {{"estimate", estimate, ate}}),
+          relativeErrorCharts(estimate, options, relativePoseError(truth, estimate, options)),
+          poseCharts(truth, estimate, {}, ate)})
+    {
+        for (const Chart& chart : charts)
+        {
+            report.addChart(chart);
+        }
+    }
     report.addChart(neesChart(
         estimate, increments, consistencyOf(increments, increments.size(), NeesInterval())));
     const std::string table = writeFile(
@@ -59,7 +69,7 @@ std::string sampleReport(const test::TempDir& dir)
 }
 }  // namespace
 
-TEST(ReportInBrowser, drawsEveryChartAndFitsPhoneAndDesk)
+TEST(ReportInBrowser, fitsPhoneDeskAndPaper)
 {
     if (std::system("command -v chromium >/dev/null 2>&1") != 0)
     {
@@ -73,18 +83,19 @@ TEST(ReportInBrowser, drawsEveryChartAndFitsPhoneAndDesk)
         "phone.html",
         "<body style='margin:0'><iframe id=f src=index.html style='width:390px;height:1400px;"
         "border:0'></iframe><script>onload=()=>{const d=f.contentDocument.documentElement;"
-        "document.body.dataset.result=f.contentWindow.innerWidth+' '+d.dataset.charts+' '+"
-        "d.dataset.overflow}</script>");
+        "document.body.dataset.result=f.contentWindow.innerWidth+' '+d.dataset.overflow}</script>");
 
-    ASSERT_EQ(browse(dir, "index.html", 1280, "--dump-dom >" + (dir / "desk.dom")), 0)
+    ASSERT_EQ(browse(dir, "index.html", 1300, "--dump-dom >" + (dir / "desk.dom")), 0)
         << test::readBytes(dir / "log");
     EXPECT_THAT(
         test::readBytes(dir / "desk.dom").substr(0, 300),
-        testing::AllOf(HasSubstr("data-charts=\"7\""), HasSubstr("data-overflow=\"false\"")));
+        testing::AllOf(HasSubstr("data-overflow=\"false\""), HasSubstr("data-clipped=\"false\"")));
 
     ASSERT_EQ(browse(dir, "phone.html", 500, "--dump-dom >" + (dir / "phone.dom")), 0);
-    EXPECT_THAT(test::readBytes(dir / "phone.dom"), HasSubstr("data-result=\"390 7 false\""));
+    EXPECT_THAT(test::readBytes(dir / "phone.dom"), HasSubstr("data-result=\"390 false\""));
 
-    ASSERT_EQ(browse(dir, "index.html", 1280, "--screenshot=" + (dir / "desk.png")), 0);
+    ASSERT_EQ(browse(dir, "index.html", 1300, "--screenshot=" + (dir / "desk.png")), 0);
     EXPECT_GT(test::readBytes(dir / "desk.png").size(), 50000u);  // an empty page has some 10 kB
+    ASSERT_EQ(browse(dir, "index.html", 1300, "--print-to-pdf=" + (dir / "paper.pdf")), 0);
+    EXPECT_THAT(test::readBytes(dir / "paper.pdf"), testing::StartsWith("%PDF"));
 }

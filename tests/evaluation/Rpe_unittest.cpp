@@ -219,7 +219,7 @@ TEST(Rpe, overAGapAPoseIsPairedWithItself)
     EXPECT_EQ(r.pairs.at(2).i, 2u);
     EXPECT_EQ(r.pairs.at(2).j, 2u);
     EXPECT_EQ(r.pairs.at(2).translation, 0);
-    EXPECT_LT(r.coverage, 0.2);  // the title says so
+    EXPECT_LT(r.coverage.share, 0.2);  // the title says so
 }
 
 TEST(Rpe, randomPairsAreRepeatableAndSaid)

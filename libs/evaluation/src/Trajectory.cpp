@@ -7,6 +7,7 @@
 #include <iomanip>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 namespace pointplane
 {
@@ -50,11 +51,18 @@ Trajectory makeTrajectory(std::string name, std::vector<StampedPose> poses)
     std::stable_sort(
         poses.begin(),
         poses.end(),
-        [](const StampedPose& a, const StampedPose& b) { return a.stamp < b.stamp; });
+        [](const StampedPose& a, const StampedPose& b)
+        {
+            const auto key = [](const StampedPose& p)
+            { return std::make_pair(p.stamp, p.status != FrameStatus::Lost); };
+            return key(a) < key(b);
+        });
 
     Trajectory out;
     out.name = std::move(name);
     std::size_t repeated = 0;
+    const bool marked = std::any_of(
+        poses.begin(), poses.end(), [](const auto& p) { return p.status != FrameStatus::Tracked; });
     const bool withCov =
         std::all_of(poses.begin(), poses.end(), [](const auto& p) { return p.cov.has_value(); });
     for (std::size_t i = 0; i < poses.size(); ++i)
@@ -62,10 +70,15 @@ Trajectory makeTrajectory(std::string name, std::vector<StampedPose> poses)
         if (i + 1 < poses.size() && poses[i + 1].stamp == poses[i].stamp)
         {
             ++repeated;
+            out.lostWithoutTime += poses[i].status == FrameStatus::Lost ? 1 : 0;
             continue;
         }
         out.stamps.push_back(poses[i].stamp);
         out.poses.push_back(poses[i].pose);
+        if (marked)
+        {
+            out.status.push_back(poses[i].status);
+        }
         if (withCov)
         {
             out.covs.push_back(*poses[i].cov);
@@ -99,21 +112,36 @@ double rotationAngle(const Eigen::Matrix3d& R)
     return std::acos(std::clamp((R.trace() - 1) / 2, -1.0, 1.0));
 }
 
-double coverage(const Trajectory& groundTruth, const Trajectory& estimate, double offset)
+Trajectory withoutLost(Trajectory trajectory)
 {
-    const double longest = 5 * medianInterval(estimate);
-    double covered = 0;
-    for (std::size_t i = 1; i < estimate.size(); ++i)
+    if (std::find(trajectory.status.begin(), trajectory.status.end(), FrameStatus::Lost) ==
+        trajectory.status.end())
     {
-        if (estimate.stamps[i] - estimate.stamps[i - 1] <= longest)
+        return trajectory;
+    }
+    Trajectory out = trajectory;
+    out.stamps.clear();
+    out.poses.clear();
+    out.covs.clear();
+    out.sinceCovs.clear();
+    out.status.clear();
+    for (std::size_t i = 0; i < trajectory.size(); ++i)
+    {
+        if (trajectory.status[i] == FrameStatus::Lost)
         {
-            const double from =
-                std::max(estimate.stamps[i - 1] + offset, groundTruth.stamps.front());
-            const double to = std::min(estimate.stamps[i] + offset, groundTruth.stamps.back());
-            covered += std::max(0.0, to - from);
+            out.lostStamps.push_back(trajectory.stamps[i]);
+            continue;
+        }
+        out.stamps.push_back(trajectory.stamps[i]);
+        out.poses.push_back(trajectory.poses[i]);
+        out.status.push_back(trajectory.status[i]);
+        if (!trajectory.covs.empty())
+        {
+            out.covs.push_back(trajectory.covs[i]);
         }
     }
-    return groundTruth.duration() > 0 ? covered / groundTruth.duration() : 0;
+    std::sort(out.lostStamps.begin(), out.lostStamps.end());
+    return out;
 }
 
 void checkOverlap(const Trajectory& groundTruth, const Trajectory& estimate, double offset)

@@ -53,7 +53,7 @@ AteResult absoluteTrajectoryError(
     }
 
     AteResult result;
-    result.coverage = coverage(groundTruth, estimate, options.offset);
+    result.coverage = coverageOf(groundTruth, estimate, options.offset);
     if (options.alignment == Alignment::Se3)
     {
         result.T_truth_estimate = alignPoints(truth, estimated);
@@ -68,8 +68,10 @@ AteResult absoluteTrajectoryError(
     for (Eigen::Index k = 0; k < n; ++k)
     {
         const auto& [i, j] = pairs[static_cast<std::size_t>(k)];
-        errors.push_back((result.T_truth_estimate * estimated.col(k) - truth.col(k)).norm());
-        result.errors.push_back({i, j, errors.back()});
+        const Eigen::Vector3d difference =
+            result.T_truth_estimate * estimated.col(k) - truth.col(k);
+        errors.push_back(difference.norm());
+        result.errors.push_back({i, j, errors.back(), difference});
     }
     result.translation = statisticsOf(errors);
     return result;
@@ -84,12 +86,11 @@ std::string describe(const AteOptions& options, const AteResult& result, std::si
     std::snprintf(
         out,
         sizeof out,
-        "TUM protocol (evaluate_ate), %s, association %g s, %zu of %zu poses, coverage %.1f %%",
+        "TUM protocol (evaluate_ate), %s, association %g s, %zu of %zu poses, ",
         alignment,
         options.maxDifference,
         result.errors.size(),
-        estimatePoses,
-        100 * result.coverage);
-    return out;
+        estimatePoses);
+    return out + describe(result.coverage);
 }
 }  // namespace pointplane

@@ -32,6 +32,29 @@ std::optional<std::size_t> endOf(
     return fits ? std::optional(j) : std::nullopt;
 }
 
+/** Ends of the increments, of the given length or all from the first pose. */
+std::vector<std::pair<std::size_t, std::size_t>> endsOf(
+    const Trajectory& estimate, const NeesInterval& interval)
+{
+    std::vector<std::pair<std::size_t, std::size_t>> out;
+    const double tolerance = 0.5 * medianInterval(estimate) + 1e-6;
+    for (std::size_t i = 0; i < estimate.size(); ++i)
+    {
+        if (interval.sinceStart && i > 0)
+        {
+            out.emplace_back(0, i);
+        }
+        else if (!interval.sinceStart)
+        {
+            if (const auto j = endOf(estimate, i, interval, tolerance))
+            {
+                out.emplace_back(i, *j);
+            }
+        }
+    }
+    return out;
+}
+
 ConsistencyTest testOf(double meanNees, std::size_t dof, std::size_t independent)
 {
     const double n = static_cast<double>(independent * dof);
@@ -65,6 +88,11 @@ double blockNees(const NeesIncrement& increment, int start)
 NeesInterval neesIntervalFromName(const std::string& name)
 {
     NeesInterval interval;
+    if (name == "start")
+    {
+        interval.sinceStart = true;
+        return interval;
+    }
     const char* const end = name.data() + name.size();
     const auto [parsed, error] = std::from_chars(name.data(), end, interval.delta);
     const std::string unit(parsed, end);
@@ -74,13 +102,17 @@ NeesInterval neesIntervalFromName(const std::string& name)
         (unit != "s" && unit != "f") || (unit == "f" && !isWhole))
     {
         throw std::invalid_argument(
-            "'" + name + "' is not an interval; frames or seconds, e.g. 1f, 10f or 1s");
+            "'" + name + "' is not an interval; frames or seconds, e.g. 1f, 10f or 1s, or start");
     }
     return interval;
 }
 
 std::string nameOf(const NeesInterval& interval)
 {
+    if (interval.sinceStart)
+    {
+        return "start";
+    }
     char out[64];
     std::snprintf(out, sizeof out, "%g%s", interval.delta, nameOf(interval.unit).c_str());
     return out;
@@ -119,35 +151,74 @@ std::vector<NeesIncrement> neesIncrements(
     const Matrix6d N = propagate(adjoint(T_truth_body.inverse()), Matrix6d(variances.asDiagonal()));
 
     std::vector<NeesIncrement> out;
-    const double tolerance = 0.5 * medianInterval(estimate) + 1e-6;
-    for (std::size_t i = 0; i < estimate.size(); ++i)
+    for (const auto& [i, j] : endsOf(estimate, interval))
     {
-        const std::optional<std::size_t> j = endOf(estimate, i, interval, tolerance);
-        if (!j || truth.valid[i] == 0 || truth.valid[*j] == 0)
+        if (truth.valid[i] == 0 || truth.valid[j] == 0)
         {
             continue;
         }
         NeesIncrement increment;
         increment.i = i;
-        increment.j = *j;
-        const Eigen::Isometry3d T_estimate = estimate.poses[i].inverse() * estimate.poses[*j];
+        increment.j = j;
+        const Eigen::Isometry3d T_estimate = estimate.poses[i].inverse() * estimate.poses[j];
         const Eigen::Isometry3d T_truth =
-            (truth.poses[i] * T_truth_body).inverse() * (truth.poses[*j] * T_truth_body);
+            (truth.poses[i] * T_truth_body).inverse() * (truth.poses[j] * T_truth_body);
         increment.error = se3Log(T_truth * T_estimate.inverse());
-        increment.cov = incrementCovariance(estimate, i, *j) + N + propagate(adjoint(T_truth), N);
-        if (!isPositiveDefinite(increment.cov))
+        const Matrix6d cov = incrementCovariance(estimate, i, j);
+        if (!isPositiveDefinite(cov))
         {
             char stamps[128];
             std::snprintf(
-                stamps, sizeof stamps, "%.6f to %.6f s", estimate.stamps[i], estimate.stamps[*j]);
-            throw std::runtime_error(
+                stamps, sizeof stamps, "%.6f to %.6f s", estimate.stamps[i], estimate.stamps[j]);
+            throw UntoldCovariance(
                 "'" + estimate.name + "': the covariance of the increment from " + stamps +
-                " is not positive definite. Poses whose errors have something in common do not "
-                "tell "
-                "it: write the increments, too (pointplane-odometry --since)");
+                " is not positive definite");
         }
+        increment.cov = cov + N + propagate(adjoint(T_truth), N);
         increment.nees = increment.error.dot(increment.cov.llt().solve(increment.error));
         out.push_back(increment);
+    }
+    return out;
+}
+
+NeesRun neesRun(
+    const Trajectory& groundTruth,
+    const Trajectory& estimate,
+    const std::vector<NeesInterval>& intervals,
+    const NeesOptions& options)
+{
+    NeesRun out;
+    std::string names;
+    std::size_t longest = 1;
+    for (const NeesInterval& interval : intervals)
+    {
+        try
+        {
+            out.tested.push_back(
+                {interval, neesIncrements(groundTruth, estimate, interval, options)});
+            out.note =
+                out.note.empty() ? noteOnUntold(estimate, out.tested.back().increments) : out.note;
+        }
+        catch (const UntoldCovariance&)
+        {
+            out.untold.push_back(interval);
+            names += (names.empty() ? "" : ", ") + nameOf(interval);
+            for (const auto& [i, j] : endsOf(estimate, interval))
+            {
+                longest = std::max(longest, interval.sinceStart ? 1 : j - i);
+            }
+        }
+    }
+    if (!out.untold.empty())
+    {
+        NeesInterval start;
+        start.sinceStart = true;
+        out.tested.push_back({start, neesIncrements(groundTruth, estimate, start, options)});
+        out.note = "increments of " + names + " are not tested: '" + estimate.name +
+                   "' does not tell their covariances, and the poses' covariances do not grow by "
+                   "them. Write them by pointplane-odometry --since " +
+                   std::to_string(longest) +
+                   ". The poses are tested instead, each as the motion since the first one";
     }
     return out;
 }

@@ -13,26 +13,37 @@ namespace pointplane
 namespace
 {
 constexpr std::size_t kEllipses = 12;
-constexpr const char* kGrey = "#868e96";
-constexpr const char* kOrange = "#f08c00";
-constexpr const char* kBlue = "#0a66c2";
 
+/** Positions in two of the world's axes. */
 ChartSeries pathSeries(
     const std::string& name,
-    const std::vector<Eigen::Isometry3d>& poses,
-    const Eigen::Isometry3d& T_world_poses,
+    const std::vector<Eigen::Vector3d>& positions,
     int horizontal,
-    int vertical)
+    int vertical,
+    const std::string& colour,
+    ChartSeries::Style style = ChartSeries::Style::Line)
 {
     ChartSeries series;
     series.name = name;
-    for (const Eigen::Isometry3d& pose : poses)
+    series.colour = colour;
+    series.style = style;
+    for (const Eigen::Vector3d& p : positions)
     {
-        const Eigen::Vector3d p = T_world_poses * pose.translation();
         series.x.push_back(p[horizontal]);
         series.y.push_back(p[vertical]);
     }
     return series;
+}
+
+/** Positions of a path in the ground truth's world. */
+std::vector<Eigen::Vector3d> positionsOf(const DrawnPath& path)
+{
+    std::vector<Eigen::Vector3d> out;
+    for (const Eigen::Isometry3d& pose : path.estimate.poses)
+    {
+        out.push_back(path.ate.T_truth_estimate * (path.scale * pose.translation()));
+    }
+    return out;
 }
 
 /** All ellipses as one line with gaps. */
@@ -44,7 +55,7 @@ ChartSeries ellipseSeries(
 {
     ChartSeries series;
     series.name = "3 sigma";
-    series.colour = kOrange;
+    series.colour = "accent";
     const Matrix6d Ad = adjoint(T_world_poses);
     for (std::size_t n = 1; n <= kEllipses; ++n)
     {
@@ -94,14 +105,37 @@ std::vector<Eigen::Vector2d> positionEllipse(
     return out;
 }
 
-std::vector<Chart> pathCharts(
-    const Trajectory& groundTruth, const Trajectory& estimate, const AteResult& ate)
+namespace
 {
-    // Only the part of the ground truth that the estimate covers.
-    std::vector<Eigen::Isometry3d> truth;
-    for (const AteError& pair : ate.errors)
+/** One path: coloured by its error, with ellipses. */
+void addPath(Chart& chart, const DrawnPath& path, int horizontal, int vertical)
+{
+    const std::vector<Eigen::Vector3d> positions = positionsOf(path);
+    chart.series.push_back(pathSeries("", positions, horizontal, vertical, "muted"));
+    ChartSeries coloured = pathSeries(path.name, {}, horizontal, vertical, "muted");
+    for (const AteError& error : path.ate.errors)
     {
-        truth.push_back(groundTruth.poses[pair.truth]);
+        coloured.x.push_back(positions[error.estimate][horizontal]);
+        coloured.y.push_back(positions[error.estimate][vertical]);
+        coloured.level.push_back(1000 * error.translation);
+    }
+    chart.levelLabel = "position error [mm]";
+    chart.series.push_back(std::move(coloured));
+    if (!path.estimate.covs.empty())
+    {
+        chart.series.push_back(
+            ellipseSeries(path.estimate, path.ate.T_truth_estimate, horizontal, vertical));
+    }
+}
+}  // namespace
+
+std::vector<Chart> pathCharts(const Trajectory& groundTruth, const std::vector<DrawnPath>& paths)
+{
+    // Only the part of the ground truth that the first estimate covers.
+    std::vector<Eigen::Vector3d> truth;
+    for (const AteError& pair : paths.front().ate.errors)
+    {
+        truth.push_back(groundTruth.poses[pair.truth].translation());
     }
     std::vector<Chart> charts;
     for (const bool above : {true, false})
@@ -112,16 +146,22 @@ std::vector<Chart> pathCharts(
         chart.xLabel = "x [m]";
         chart.yLabel = above ? "y [m]" : "z [m]";
         chart.equalScales = true;
-        chart.series.push_back(
-            pathSeries("ground truth", truth, Eigen::Isometry3d::Identity(), 0, vertical));
-        chart.series.back().colour = kGrey;
-        chart.series.push_back(
-            pathSeries("estimate", estimate.poses, ate.T_truth_estimate, 0, vertical));
-        chart.series.back().colour = kBlue;
-        if (!estimate.covs.empty())
+        for (const DrawnPath& path : paths)
         {
-            chart.series.push_back(ellipseSeries(estimate, ate.T_truth_estimate, 0, vertical));
+            if (paths.size() == 1)
+            {
+                addPath(chart, path, 0, vertical);
+            }
+            else
+            {
+                chart.series.push_back(pathSeries(path.name, positionsOf(path), 0, vertical, ""));
+            }
         }
+        using Style = ChartSeries::Style;
+        chart.series.push_back(pathSeries("ground truth", truth, 0, vertical, "ink"));
+        chart.series.push_back(
+            pathSeries("start", {truth.front()}, 0, vertical, "c2", Style::Start));
+        chart.series.push_back(pathSeries("end", {truth.back()}, 0, vertical, "alarm", Style::End));
         charts.push_back(std::move(chart));
     }
     return charts;

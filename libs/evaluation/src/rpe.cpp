@@ -158,6 +158,17 @@ void evaluateAll(const SampledTruth& truth, const PairError& error, RpeResult& r
         forEachPair([&](double value) { accumulator.addAgain(value); });
         return accumulator.result();
     };
+    constexpr std::size_t kKept = 1000;  // poses, whose pairs are a million
+    if (valid.size() <= kKept)
+    {
+        for (const std::size_t i : valid)
+        {
+            for (const std::size_t j : valid)
+            {
+                result.pairs.push_back({i, j, error.translation(i, j), error.rotation(i, j)});
+            }
+        }
+    }
     auto rotation = std::async(
         std::launch::async,
         [&] {
@@ -214,7 +225,7 @@ RpeResult relativePoseError(
     const PairError error(truth.poses, estimate.poses, options.scale, options.formula);
 
     RpeResult result;
-    result.coverage = coverage(groundTruth, estimate, options.offset);
+    result.coverage = coverageOf(groundTruth, estimate, options.offset);
     const auto maxPairs = static_cast<std::size_t>(std::max<std::int64_t>(0, options.maxPairs));
     if (options.fixedDelta)
     {
@@ -239,14 +250,17 @@ RpeResult relativePoseError(
     return result;
 }
 
+std::string nameOfDelta(const RpeOptions& options)
+{
+    char text[64];
+    std::snprintf(text, sizeof text, "%g %s", options.delta, nameOf(options.unit).c_str());
+    return text;
+}
+
 std::string describe(const RpeOptions& options)
 {
-    char delta[64] = "all ordered pairs";
-    if (options.fixedDelta)
-    {
-        std::snprintf(
-            delta, sizeof delta, "fixed delta %g %s", options.delta, nameOf(options.unit).c_str());
-    }
+    const std::string delta =
+        options.fixedDelta ? "fixed delta " + nameOfDelta(options) : "all ordered pairs";
     const bool script = options.formula == RpeFormula::TumScript;
     const bool nearest = options.truthAt == TruthAt::NearestStamp;
     return std::string(script ? "TUM protocol (evaluate_rpe), " : "evo's formula, ") + delta +
@@ -259,11 +273,10 @@ std::string describe(const RpeOptions& options, const RpeResult& result)
     std::snprintf(
         counts,
         sizeof counts,
-        ", %zu of %zu pairs%s, coverage %.1f %%",
+        ", %zu of %zu pairs%s, ",
         result.translation.count,
         result.candidatePairs,
-        result.randomPairs ? (" drawn with seed " + std::to_string(options.seed)).c_str() : "",
-        100 * result.coverage);
-    return describe(options) + counts;
+        result.randomPairs ? (" drawn with seed " + std::to_string(options.seed)).c_str() : "");
+    return describe(options) + counts + describe(result.coverage);
 }
 }  // namespace pointplane

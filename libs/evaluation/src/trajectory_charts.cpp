@@ -11,9 +11,9 @@ namespace pointplane
 namespace
 {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr const char* kGrey = "#868e96";
-constexpr const char* kOrange = "#f08c00";
-constexpr const char* kRed = "#c2255c";
+constexpr const char* kGrey = "muted";
+constexpr const char* kOrange = "accent";
+constexpr const char* kRed = "alarm";
 
 /** Horizontal lines over [0, end], as one series. */
 ChartSeries levels(
@@ -29,31 +29,38 @@ ChartSeries levels(
 }
 }  // namespace
 
-Chart relativeErrorChart(
+std::vector<Chart> relativeErrorCharts(
     const Trajectory& estimate, const RpeOptions& options, const RpeResult& result)
 {
-    Chart chart;
-    char delta[64];
-    std::snprintf(delta, sizeof delta, "%g %s", options.delta, nameOf(options.unit).c_str());
-    chart.title = std::string("Relative error over ") + delta;
-    chart.xLabel = "time of the pair's start [s]";
-    chart.yLabel = "translation [mm]";
-    chart.yRightLabel = "rotation [deg]";
-    ChartSeries translation;
-    translation.name = "translation";
-    ChartSeries rotation;
-    rotation.name = "rotation";
-    rotation.rightAxis = true;
-    for (const RpePair& pair : result.pairs)
+    std::vector<Chart> charts;
+    for (const bool translation : {true, false})
     {
-        const double t = estimate.stamps[pair.i] - estimate.stamps.front();
-        translation.x.push_back(t);
-        translation.y.push_back(1000 * pair.translation);
-        rotation.x.push_back(t);
-        rotation.y.push_back(kDegreesPerRadian * pair.rotation);
+        Chart chart;
+        chart.title = std::string("Relative error over ") + nameOfDelta(options) +
+                      (translation ? ": translation" : ": rotation");
+        chart.xLabel = "time of the pair's start [s]";
+        chart.yLabel = translation ? "error [mm]" : "error [deg]";
+        ChartSeries series;
+        series.name = "error";
+        double end = 0;
+        for (const RpePair& pair : result.pairs)
+        {
+            end = estimate.stamps[pair.i] - estimate.stamps.front();
+            series.x.push_back(end);
+            series.y.push_back(
+                translation ? 1000 * pair.translation : kDegreesPerRadian * pair.rotation);
+        }
+        chart.series.push_back(std::move(series));
+        chart.series.push_back(levels(
+            "RMSE",
+            {translation ? 1000 * result.translation.rmse
+                         : kDegreesPerRadian * result.rotation.rmse},
+            end,
+            kRed));
+        chart.yFromZero = true;
+        charts.push_back(std::move(chart));
     }
-    chart.series = {translation, rotation};
-    return chart;
+    return charts;
 }
 
 Chart positionErrorChart(const Trajectory& estimate, const AteResult& result)
@@ -70,6 +77,7 @@ Chart positionErrorChart(const Trajectory& estimate, const AteResult& result)
         series.y.push_back(1000 * error.translation);
     }
     chart.series.push_back(std::move(series));
+    chart.yFromZero = true;
     return chart;
 }
 
@@ -79,8 +87,9 @@ Chart neesChart(
     const NeesResult& result)
 {
     Chart chart;
-    chart.title = "NEES of increments of " + nameOf(result.interval);
-    chart.xLabel = "time of the increment's start [s]";
+    chart.title = result.interval.sinceStart ? "NEES of the poses since the first one"
+                                             : "NEES of increments of " + nameOf(result.interval);
+    chart.xLabel = "time of the increment's end [s]";
     chart.yLabel = "NEES per degree of freedom";
     chart.logY = true;
     ChartSeries series;
@@ -88,7 +97,7 @@ Chart neesChart(
     series.style = ChartSeries::Style::Points;
     for (const NeesIncrement& increment : increments)
     {
-        series.x.push_back(estimate.stamps[increment.i] - estimate.stamps.front());
+        series.x.push_back(estimate.stamps[increment.j] - estimate.stamps.front());
         series.y.push_back(increment.nees / 6);
     }
     const double end = series.x.empty() ? 1 : series.x.back();
@@ -105,25 +114,29 @@ Chart neesChart(
 }
 
 std::vector<Chart> errorAgainstSigmaCharts(
-    const Trajectory& estimate, const std::vector<NeesIncrement>& increments)
+    const Trajectory& estimate,
+    const std::vector<NeesIncrement>& increments,
+    const NeesInterval& interval)
 {
     static const char* const kNames[] = {"x", "y", "z", "rx", "ry", "rz"};
     std::vector<Chart> charts;
     for (const bool translation : {true, false})
     {
         Chart chart;
-        chart.title = translation ? "Translation error in standard deviations"
-                                  : "Rotation error in standard deviations";
-        chart.xLabel = "time of the increment's start [s]";
+        chart.title = std::string(translation ? "Translation" : "Rotation") + " error of " +
+                      (interval.sinceStart ? "poses" : nameOf(interval) + " increments") +
+                      " in standard deviations";
+        chart.xLabel = "time of the increment's end [s]";
         chart.yLabel = "error / sigma";
         double end = 1;
         for (int k = translation ? 0 : 3; k < (translation ? 3 : 6); ++k)
         {
             ChartSeries series;
             series.name = kNames[k];
+            series.style = ChartSeries::Style::Points;
             for (const NeesIncrement& increment : increments)
             {
-                series.x.push_back(estimate.stamps[increment.i] - estimate.stamps.front());
+                series.x.push_back(estimate.stamps[increment.j] - estimate.stamps.front());
                 series.y.push_back(increment.error[k] / std::sqrt(increment.cov(k, k)));
             }
             end = series.x.empty() ? end : series.x.back();

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <set>
+#include <sstream>
 #include <stdexcept>
 
 namespace pointplane
@@ -67,6 +69,57 @@ Eigen::Isometry3d poseFromYawPitchRoll(const std::vector<double>& v)
     return pose;
 }
 
+/** What `# pointplane-status` lines say about frames; docs/rawlogs.md describes them. */
+struct FrameMarks
+{
+    bool any{false};
+    std::set<double> predicted;  //!< stamps of frames with a pose
+    std::vector<double> lost;    //!< of frames without one, in order
+    std::size_t lostWithoutTime{0};
+
+    /** \param latest stamp in the lines before */
+    void read(const std::string& text, const std::string& path, std::size_t line, double latest);
+};
+
+void FrameMarks::read(
+    const std::string& text, const std::string& path, std::size_t line, double latest)
+{
+    static const std::string kKey = "# pointplane-status";
+    if (text.compare(0, kKey.size(), kKey) != 0)
+    {
+        return;
+    }
+    any = true;
+    if (text.compare(kKey.size(), 1, " ") != 0)
+    {
+        return;  // the line that explains the others
+    }
+    std::istringstream words(text.substr(kKey.size()));
+    std::string stampText;
+    std::string status;
+    words >> stampText >> status;
+    status = status.substr(0, status.find(':'));
+    double stamp = 0;
+    const char* const end = stampText.data() + stampText.size();
+    const auto [parsed, error] = std::from_chars(stampText.data(), end, stamp);
+    if (error != std::errc() || parsed != end || (status != "lost" && status != "predicted"))
+    {
+        failAt(path, line, "not a status: expected # pointplane-status STAMP lost or predicted");
+    }
+    if (status == "predicted")
+    {
+        predicted.insert(stamp);
+    }
+    else if (stamp > std::max(latest, lost.empty() ? 0 : lost.back()))
+    {
+        lost.push_back(stamp);
+    }
+    else  // a stamp that is not after the others may be why the frame is lost
+    {
+        ++lostWithoutTime;
+    }
+}
+
 /** Lines of one kind that were left out. */
 struct LeftOut
 {
@@ -85,6 +138,7 @@ Trajectory readTrajectoryText(const std::string& path)
         throw std::runtime_error("cannot read trajectory '" + path + "'");
     }
     std::vector<StampedPose> poses;
+    FrameMarks marks;
     LeftOut notFinite{"NaN or infinity"};
     LeftOut zeroQuaternion{"a zero quaternion"};
     std::size_t columns = 0;
@@ -94,6 +148,7 @@ Trajectory readTrajectoryText(const std::string& path)
         ++line;
         if (!text.empty() && (text[0] == '#' || text[0] == '%'))
         {
+            marks.read(text, path, line, poses.empty() ? 0 : poses.back().stamp);
             continue;
         }
         const std::vector<double> v = parseNumbers(text, path, line);
@@ -122,7 +177,7 @@ Trajectory readTrajectoryText(const std::string& path)
         else
         {
             const bool isTum = columns >= kTumColumns;
-            poses.push_back({v[0], isTum ? poseFromQuaternion(v) : poseFromYawPitchRoll(v), {}});
+            poses.push_back({v[0], isTum ? poseFromQuaternion(v) : poseFromYawPitchRoll(v)});
         }
     }
     if (poses.empty())
@@ -130,7 +185,15 @@ Trajectory readTrajectoryText(const std::string& path)
         throw std::runtime_error(
             "'" + path + "' holds no usable pose (" + std::to_string(line) + " lines)");
     }
+    for (StampedPose& pose : poses)
+    {
+        pose.status =
+            marks.predicted.count(pose.stamp) > 0 ? FrameStatus::Predicted : FrameStatus::Tracked;
+    }
     Trajectory out = makeTrajectory(path, std::move(poses));
+    out.marksFrames = marks.any;
+    out.lostStamps = std::move(marks.lost);
+    out.lostWithoutTime += marks.lostWithoutTime;
     for (const LeftOut& left : {notFinite, zeroQuaternion})
     {
         if (left.count > 0)

@@ -9,6 +9,14 @@
 
 namespace pointplane
 {
+/** What the odometry said about a frame. */
+enum class FrameStatus
+{
+    Tracked,    //!< measured; also where a file does not mark its frames
+    Predicted,  //!< by the motion model: nothing in the frame was found again
+    Lost        //!< the frame could not be used
+};
+
 /** One pose of a trajectory, as a file gives it. */
 struct StampedPose
 {
@@ -16,6 +24,7 @@ struct StampedPose
     Eigen::Isometry3d pose{Eigen::Isometry3d::Identity()};  //!< T_world_body
     std::optional<Matrix6d> cov{};                          //!< see Trajectory::covs
     std::vector<Matrix6d> sinceCovs{};                      //!< see Trajectory::sinceCovs
+    FrameStatus status{FrameStatus::Tracked};
 };
 
 /** Poses of a moving body, ordered by strictly increasing stamps. */
@@ -30,6 +39,12 @@ struct Trajectory
     /** Empty, or for each pose i those of the motions from poses i-1, i-2, ... to it (left
      * perturbation, in the body frame of i-1, i-2, ...), as far back as they were told. */
     std::vector<std::vector<Matrix6d>> sinceCovs;
+    std::vector<FrameStatus> status;  //!< empty (all tracked), or one per pose
+    /** The file tells of every frame of the recording whether it was tracked. Lost ones that have
+     * no pose here have a stamp below, or, if their stamp is of no use, are only counted. */
+    bool marksFrames{false};
+    std::vector<double> lostStamps;  //!< of lost frames without a pose, in order [s]
+    std::size_t lostWithoutTime{0};
     std::vector<std::string> warnings;  //!< what the reader left out, for the user
     bool incomplete{false};             //!< the file is damaged; these are the poses before
 
@@ -38,8 +53,9 @@ struct Trajectory
     [[nodiscard]] double duration() const { return empty() ? 0 : stamps.back() - stamps.front(); }
 };
 
-/** Sorts by stamp; of equal stamps the last one wins (as in the TUM scripts) and a warning counts
- * the others. The covariances are kept only if every pose has one. */
+/** Sorts by stamp; of equal stamps the last one wins (as in the TUM scripts), but no lost frame
+ * over one with a pose, and a warning counts the others. The covariances are kept only if every
+ * pose has one. */
 [[nodiscard]] Trajectory makeTrajectory(std::string name, std::vector<StampedPose> poses);
 
 /** Path length from the first pose to each pose [m]. */
@@ -51,11 +67,9 @@ struct Trajectory
 /** Rotation angle of R in [0, pi] [rad], by the arc cosine as the TUM scripts do it. */
 [[nodiscard]] double rotationAngle(const Eigen::Matrix3d& R);
 
-/** Time covered by the estimate as a share of the ground truth's duration, in [0, 1]: the sum of
- * the estimate's intervals inside the ground truth's time range, without the gaps, which are
- * intervals longer than five times the median one. \param offset added to the estimate's stamps */
-[[nodiscard]] double coverage(
-    const Trajectory& groundTruth, const Trajectory& estimate, double offset);
+/** Without the poses of lost frames, which nobody measured: they become lostStamps. The motions
+ * since earlier frames go, too, as they count all poses. Nothing changes if no frame is lost. */
+[[nodiscard]] Trajectory withoutLost(Trajectory trajectory);
 
 /** Throws std::runtime_error that names both time ranges when the two do not overlap, or when one
  * of them holds fewer than two poses. \param offset added to the estimate's stamps [s] */

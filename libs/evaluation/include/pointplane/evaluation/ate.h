@@ -3,6 +3,7 @@
 
 #include <pointplane/evaluation/Statistics.h>
 #include <pointplane/evaluation/Trajectory.h>
+#include <pointplane/evaluation/coverage.h>
 
 namespace pointplane
 {
@@ -28,12 +29,14 @@ struct AteError
 {
     std::size_t truth{0}, estimate{0};  //!< indices into the trajectories
     double translation{0};              //!< [m]
+    /** Estimate minus truth in the ground truth's world [m]. */
+    Eigen::Vector3d difference{Eigen::Vector3d::Zero()};
 };
 
 struct AteResult
 {
-    Statistics translation;                                             //!< [m]
-    double coverage{0};                                                 //!< see coverage()
+    Statistics translation;  //!< [m]
+    Coverage coverage;
     Eigen::Isometry3d T_truth_estimate{Eigen::Isometry3d::Identity()};  //!< of the world frames
     std::vector<AteError> errors;
 };

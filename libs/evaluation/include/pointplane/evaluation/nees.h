@@ -5,6 +5,7 @@
 #include <pointplane/evaluation/rpe.h>
 
 #include <array>
+#include <stdexcept>
 #include <string>
 
 namespace pointplane
@@ -14,9 +15,10 @@ struct NeesInterval
 {
     double delta{1};
     DeltaUnit unit{DeltaUnit::Frames};
+    bool sinceStart{false};  //!< all increments from the first pose instead: the poses themselves
 };
 
-/** "1f", "10f", "0.5s"; throws std::invalid_argument for anything else. */
+/** "1f", "10f", "0.5s", "start"; throws std::invalid_argument for anything else. */
 [[nodiscard]] NeesInterval neesIntervalFromName(const std::string& name);
 [[nodiscard]] std::string nameOf(const NeesInterval& interval);
 
@@ -49,14 +51,43 @@ struct NeesIncrement
 [[nodiscard]] Matrix6d incrementCovariance(
     const Trajectory& estimate, std::size_t i, std::size_t j);
 
+/** The covariance of an increment was not told and does not follow from those of the poses. */
+class UntoldCovariance : public std::runtime_error
+{
+ public:
+    using std::runtime_error::runtime_error;
+};
+
 /** All increments of the given length that have ground truth at both ends, one per start pose.
  * Ground-truth noise N per pose (in the body frame) adds N + Ad(T_i_j) N Ad(T_i_j)^T.
- * Throws std::runtime_error when the estimate has no covariances, the trajectories do not overlap,
- * or a covariance is not positive definite (naming the stamps). */
+ * Throws std::runtime_error when the estimate has no covariances or the trajectories do not
+ * overlap; UntoldCovariance when a covariance is not positive definite (naming the stamps). */
 [[nodiscard]] std::vector<NeesIncrement> neesIncrements(
     const Trajectory& groundTruth,
     const Trajectory& estimate,
     const NeesInterval& interval,
+    const NeesOptions& options);
+
+/** What can be tested of a run. */
+struct NeesRun
+{
+    struct Tested
+    {
+        NeesInterval interval;
+        std::vector<NeesIncrement> increments;
+    };
+    std::vector<Tested> tested;
+    std::vector<NeesInterval> untold;  //!< not tested: UntoldCovariance
+    std::string
+        note;  //!< to the user, about untold covariances and what was taken instead, or empty
+};
+
+/** The increments of each interval. Where an interval's covariances are not told, the poses since
+ * the first one are tested instead, once. Throws as neesIncrements(), but for UntoldCovariance. */
+[[nodiscard]] NeesRun neesRun(
+    const Trajectory& groundTruth,
+    const Trajectory& estimate,
+    const std::vector<NeesInterval>& intervals,
     const NeesOptions& options);
 
 /** Empty when the covariances of all these increments were told; else that they are right only if

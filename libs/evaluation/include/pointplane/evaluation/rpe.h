@@ -3,6 +3,7 @@
 
 #include <pointplane/evaluation/Statistics.h>
 #include <pointplane/evaluation/association.h>
+#include <pointplane/evaluation/coverage.h>
 
 #include <cstdint>
 #include <string>
@@ -59,8 +60,8 @@ struct RpeResult
     Statistics rotation;            //!< [rad]
     std::size_t candidatePairs{0};  //!< before pairs without ground truth were dropped
     bool randomPairs{false};        //!< a random draw, not all of them
-    double coverage{0};             //!< see coverage()
-    std::vector<RpePair> pairs;     //!< empty when all ordered pairs were evaluated
+    Coverage coverage;
+    std::vector<RpePair> pairs;  //!< empty when they were more than a million
 };
 
 /** Relative pose error by the protocol of the TUM benchmark's evaluate_rpe.py, whose figures it
@@ -69,6 +70,9 @@ struct RpeResult
  * ground truth at both ends. */
 [[nodiscard]] RpeResult relativePoseError(
     const Trajectory& groundTruth, const Trajectory& estimate, const RpeOptions& options);
+
+/** "1 s": the distance between the poses of a pair. */
+[[nodiscard]] std::string nameOfDelta(const RpeOptions& options);
 
 /** The protocol without what a run adds: formula, delta, ground truth. */
 [[nodiscard]] std::string describe(const RpeOptions& options);

@@ -14,18 +14,53 @@ namespace pointplane
 /** @name The charts of a trajectory report. Times are seconds since the estimate's first pose.
  * @{ */
 
-/** The path from above (x, y) and from the side (x, z of the ground truth's world), the estimate
- * moved by `ate.T_truth_estimate`. If it has covariances, a dozen of its positions get the ellipse
- * of three standard deviations; these mean something only if the first poses were aligned. */
-[[nodiscard]] std::vector<Chart> pathCharts(
-    const Trajectory& groundTruth, const Trajectory& estimate, const AteResult& ate);
+/** An estimate as it is drawn, moved by `ate.T_truth_estimate`. */
+struct DrawnPath
+{
+    std::string name;
+    const Trajectory& estimate;
+    const AteResult& ate;
+    double scale{1};  //!< of its translations
+};
 
-/** Relative errors over time: one point per pair, at its start. \param result with listed pairs */
-[[nodiscard]] Chart relativeErrorChart(
+/** The paths from above (x, y) and from the side (x, z of the ground truth's world), the ground
+ * truth on top, its start and end marked. A single path is coloured by its position error and, if
+ * it has covariances, a dozen of its positions get the ellipse of three standard deviations; these
+ * mean something only if the first poses were aligned. \param paths at least one */
+[[nodiscard]] std::vector<Chart> pathCharts(
+    const Trajectory& groundTruth, const std::vector<DrawnPath>& paths);
+
+/** Relative errors over time, translation and rotation: one point per pair, at its start.
+ * \param result with listed pairs */
+[[nodiscard]] std::vector<Chart> relativeErrorCharts(
     const Trajectory& estimate, const RpeOptions& options, const RpeResult& result);
+
+/** How often errors of which size are, and the share of those that are smaller: translation and
+ * rotation. \param result with listed pairs */
+[[nodiscard]] std::vector<Chart> errorHistograms(
+    const RpeOptions& options, const RpeResult& result);
+
+/** RMSE of the relative error over intervals from 0.1 s to 5 s, translation and rotation: those
+ * that the estimate has. Empty if it has fewer than two of them. */
+[[nodiscard]] std::vector<Chart> errorOverInterval(
+    const Trajectory& groundTruth, const Trajectory& estimate, const RpeOptions& options);
+
+/** x, y, z and roll, pitch, yaw over time beside the ground truth, and their errors, each with the
+ * band of three standard deviations if the estimate has covariances: twelve small charts in the
+ * ground truth's world, the first poses aligned.
+ * \param aligned brings the estimate's first pose onto the ground truth's
+ * \throws std::runtime_error if no pose has ground truth */
+[[nodiscard]] std::vector<Chart> poseCharts(
+    const Trajectory& groundTruth,
+    const Trajectory& estimate,
+    const AteOptions& options,
+    const AteResult& aligned);
 
 /** Position error over time. */
 [[nodiscard]] Chart positionErrorChart(const Trajectory& estimate, const AteResult& result);
+
+/** How often position errors of which size are, and the share of those that are smaller. */
+[[nodiscard]] Chart positionErrorHistogram(const AteResult& result);
 
 /** NEES per degree of freedom of each increment over time, with the bounds that 95 % of them have
  * to lie in and those of their mean. */
@@ -36,7 +71,9 @@ namespace pointplane
 
 /** Error of each degree of freedom against three standard deviations: translation and rotation. */
 [[nodiscard]] std::vector<Chart> errorAgainstSigmaCharts(
-    const Trajectory& estimate, const std::vector<NeesIncrement>& increments);
+    const Trajectory& estimate,
+    const std::vector<NeesIncrement>& increments,
+    const NeesInterval& interval);
 
 /** Features, tracking status and times per stage; only those the table has columns for. */
 [[nodiscard]] std::vector<Chart> frameCharts(const FrameTable& table);

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/evaluation/trajectory_charts.h>
+#include <pointplane/evaluation/units.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace pointplane
+{
+namespace
+{
+/** Bars of how many errors there are of each size, and the share of smaller ones on the right. */
+Chart histogram(std::vector<double> errors, const std::string& what)
+{
+    std::sort(errors.begin(), errors.end());
+    const auto n = static_cast<double>(errors.size());
+    const auto bars = static_cast<std::size_t>(std::clamp(std::ceil(std::sqrt(n)), 5.0, 40.0));
+    const double width = std::max(errors.back(), 1e-12) / static_cast<double>(bars);
+    ChartSeries counts{what, {}, std::vector<double>(bars + 1, 0), ChartSeries::Style::Bars};
+    ChartSeries share{"share of smaller errors", {0}, {0}, ChartSeries::Style::Steps, true};
+    for (std::size_t k = 0; k <= bars; ++k)
+    {
+        counts.x.push_back(width * static_cast<double>(k));
+    }
+    for (std::size_t k = 0; k < errors.size(); ++k)
+    {
+        const auto bar = static_cast<std::size_t>(errors[k] / width);
+        counts.y[std::min(bar, bars - 1)] += 1;
+        share.x.push_back(errors[k]);
+        share.y.push_back(100 * static_cast<double>(k + 1) / n);
+    }
+    Chart chart;
+    chart.yLabel = what;
+    chart.yRightLabel = "smaller [%]";
+    chart.series = {counts, share};
+    return chart;
+}
+}  // namespace
+
+Chart positionErrorHistogram(const AteResult& result)
+{
+    std::vector<double> errors;
+    for (const AteError& error : result.errors)
+    {
+        errors.push_back(1000 * error.translation);
+    }
+    Chart chart = histogram(std::move(errors), "poses");
+    chart.title = "Position errors by size";
+    chart.xLabel = "distance to the ground truth [mm]";
+    return chart;
+}
+
+std::vector<Chart> errorHistograms(const RpeOptions& options, const RpeResult& result)
+{
+    std::vector<double> translations;
+    std::vector<double> rotations;
+    for (const RpePair& pair : result.pairs)
+    {
+        translations.push_back(1000 * pair.translation);
+        rotations.push_back(kDegreesPerRadian * pair.rotation);
+    }
+    std::vector<Chart> charts{histogram(translations, "pairs"), histogram(rotations, "pairs")};
+    charts[0].title = "Relative errors over " + nameOfDelta(options) + " by size: translation";
+    charts[0].xLabel = "error [mm]";
+    charts[1].title = "Relative errors over " + nameOfDelta(options) + " by size: rotation";
+    charts[1].xLabel = "error [deg]";
+    return charts;
+}
+
+std::vector<Chart> errorOverInterval(
+    const Trajectory& groundTruth, const Trajectory& estimate, const RpeOptions& options)
+{
+    ChartSeries translation{"RMSE", {}, {}};
+    ChartSeries rotation{"RMSE", {}, {}};
+    RpeOptions over = options;
+    over.fixedDelta = true;
+    over.unit = DeltaUnit::Seconds;
+    for (const double seconds : {0.1, 0.2, 0.3, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0})
+    {
+        if (seconds < medianInterval(estimate) || seconds > 0.5 * estimate.duration())
+        {
+            continue;  // pairs would be of a pose with itself, or there would be next to none
+        }
+        over.delta = seconds;
+        try
+        {
+            const RpeResult result = relativePoseError(groundTruth, estimate, over);
+            translation.x.push_back(seconds);
+            translation.y.push_back(1000 * result.translation.rmse);
+            rotation.x.push_back(seconds);
+            rotation.y.push_back(kDegreesPerRadian * result.rotation.rmse);
+        }
+        catch (const std::runtime_error&)
+        {
+            // no pairs of that length: no point in the chart
+        }
+    }
+    if (translation.x.size() < 2)
+    {
+        return {};
+    }
+    std::vector<Chart> charts(2);
+    charts[0].title = "Relative error over intervals of 0.1 to 5 s: translation";
+    charts[0].yLabel = "RMSE [mm]";
+    charts[0].series = {translation};
+    charts[1].title = "Relative error over intervals of 0.1 to 5 s: rotation";
+    charts[1].yLabel = "RMSE [deg]";
+    charts[1].series = {rotation};
+    for (Chart& chart : charts)
+    {
+        chart.xLabel = "interval [s]";
+        chart.logX = chart.yFromZero = true;
+    }
+    return charts;
+}
+}  // namespace pointplane
