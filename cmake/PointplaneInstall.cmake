@@ -1,8 +1,9 @@
-# find_package(pointplane) from an installed tree.
+# What is installed beside programs and libraries: configurations, documents, and the files by which
+# find_package(pointplane) finds it all.
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/pointplane)
 
-install(EXPORT pointplaneTargets NAMESPACE pointplane:: DESTINATION ${package_dir})
+install(EXPORT pointplaneTargets NAMESPACE pointplane:: DESTINATION ${package_dir} COMPONENT dev)
 configure_package_config_file(
   ${CMAKE_CURRENT_LIST_DIR}/pointplane-config.cmake.in
   ${CMAKE_CURRENT_BINARY_DIR}/pointplane-config.cmake
@@ -12,4 +13,12 @@ write_basic_package_version_file(
 install(
   FILES ${CMAKE_CURRENT_BINARY_DIR}/pointplane-config.cmake
         ${CMAKE_CURRENT_BINARY_DIR}/pointplane-config-version.cmake
-  DESTINATION ${package_dir})
+  DESTINATION ${package_dir} COMPONENT dev)
+
+install(FILES config.ini config-fast.ini config-paper.ini
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/pointplane COMPONENT tools)
+install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/pointplane-doc
+        COMPONENT doc)
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/pointplane-doc COMPONENT doc
+        FILES_MATCHING PATTERN "*.md" PATTERN "*.jpg" PATTERN "*.png" PATTERN "*.svg")
+include(cmake/PointplanePackages.cmake)

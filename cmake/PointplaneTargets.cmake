@@ -1,6 +1,10 @@
 # Warnings, standard and install rules in one place.
 include(GNUInstallDirs)
 
+# All that is installed: programs, libraries and, where they can be made, manual pages and the Python
+# module. ./demo builds it, so that `cmake --install` works after it.
+add_custom_target(products ALL)
+
 set(POINTPLANE_TEST_TIMEOUT 300 CACHE STRING "Seconds that one test may take")
 
 function(pointplane_target_defaults target)
@@ -25,8 +29,32 @@ function(pointplane_add_library name)
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_link_libraries(${target} PUBLIC ${ARG_LINK} PRIVATE ${ARG_LINK_PRIVATE})
   pointplane_target_defaults(${target})
-  install(TARGETS ${target} EXPORT pointplaneTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-  install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+  install(TARGETS ${target} EXPORT pointplaneTargets
+          ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT dev)
+  install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT dev)
+  add_dependencies(products ${target})
+endfunction()
+
+# pointplane_add_manual(NAME): the manual page of pointplane-NAME out of its --help, and completion of
+# its command line in bash.
+find_program(POINTPLANE_HELP2MAN help2man)
+function(pointplane_add_manual name)
+  set(program pointplane-${name})
+  install(FILES ${PROJECT_SOURCE_DIR}/packaging/completion.bash COMPONENT tools
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME ${program})
+  if(NOT POINTPLANE_HELP2MAN OR POINTPLANE_SANITIZE)
+    return()
+  endif()
+  set(page ${CMAKE_CURRENT_BINARY_DIR}/${program}.1)
+  add_custom_command(
+    OUTPUT ${page}
+    COMMAND ${PROJECT_SOURCE_DIR}/packaging/manual_page.sh ${POINTPLANE_HELP2MAN}
+            $<TARGET_FILE:${program}> ${PROJECT_VERSION} ${page}
+    DEPENDS ${program} ${PROJECT_SOURCE_DIR}/packaging/manual_page.sh
+    VERBATIM)
+  add_custom_target(${program}-manual DEPENDS ${page})
+  add_dependencies(products ${program}-manual)
+  install(FILES ${page} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT tools)
 endfunction()
 
 # pointplane_add_app(NAME SOURCES a.cpp ... LINK lib ...): executable pointplane-NAME.
@@ -39,7 +67,9 @@ function(pointplane_add_app name)
   target_compile_definitions(${target} PRIVATE POINTPLANE_VERSION="${PROJECT_VERSION}")
   set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
   pointplane_target_defaults(${target})
-  install(TARGETS ${target} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(TARGETS ${target} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT tools)
+  add_dependencies(products ${target})
+  pointplane_add_manual(${name})
 endfunction()
 
 # pointplane_add_test(LIB Concept [LINK lib ...]): tests/LIB/Concept_unittest.cpp as a gtest binary;

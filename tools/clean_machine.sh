@@ -4,6 +4,8 @@
 #   DIR      where the system is put, 5 GB; it is used again if it is there
 #   COMMAND  in the clone [./test]
 # Needs root and debootstrap. POINTPLANE_DATA, if set, is there, too. MIRROR is another than Debian's.
+# PACKAGES, if set, is a folder that is there as /packages; tools/try_packages.sh as the COMMAND installs,
+# uses and removes the Debian packages in it.
 # Nothing stays mounted.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -25,7 +27,7 @@ if [[ ! -e $dir/etc/debian_version ]]; then
     debootstrap --variant=minbase --include=git,ca-certificates "$suite" "$dir" \
         "${MIRROR:-http://deb.debian.org/debian}"
 fi
-mkdir -p "$dir/data" "$dir/source"
+mkdir -p "$dir/data" "$dir/source" "$dir/packages"
 data=
 if [[ -n ${POINTPLANE_DATA:-} ]]; then
     data=$(realpath "$POINTPLANE_DATA")
@@ -33,7 +35,11 @@ fi
 
 # In a mount namespace of its own; the root there is a mount, as on a machine, so that the tests of
 # full disks may mount theirs.
-export dir data command
+packages=
+if [[ -n ${PACKAGES:-} ]]; then
+    packages=$(realpath "$PACKAGES")
+fi
+export dir data packages command
 source=$(git rev-parse --show-toplevel) commit=$(git rev-parse HEAD)
 export source commit
 # shellcheck disable=SC2016  # expanded there
@@ -43,6 +49,7 @@ unshare --mount bash -euo pipefail -c '
     mount --rbind /dev "$dir/dev"
     mount --bind "$source" "$dir/source"
     [[ -z $data ]] || mount --bind "$data" "$dir/data"
+    [[ -z $packages ]] || mount --bind "$packages" "$dir/packages"
     chroot "$dir" env -i HOME=/root LANG=C.UTF-8 PATH=/usr/sbin:/usr/bin:/sbin:/bin \
         ${data:+POINTPLANE_DATA=/data} bash -euo pipefail -c "
             git config --global --replace-all safe.directory \"*\"

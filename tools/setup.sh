@@ -13,12 +13,12 @@ build_packages=(
     g++ cmake ninja-build pkgconf
     libeigen3-dev libopencv-dev libdlib-dev zlib1g-dev libdeflate-dev
     libmrpt-obs-dev libmrpt-graphslam-dev libcli11-dev nlohmann-json3-dev libgtest-dev libgmock-dev
-    libopenni2-dev "libfreenect-dev?" libjs-chart.js
+    libopenni2-dev "libfreenect-dev?" help2man "pybind11-dev?" python3-dev
 )
 [[ ${CXX:-} != *clang* ]] || build_packages+=(clang)
 # MRPT's own programs and data sets, which the tests run on our output; a browser for the reports;
-# the documentation of the code must be complete.
-readonly test_packages=(mrpt-apps mrpt-common doxygen "chromium?")
+# the documentation of the code must be complete; Debian packages and the Python module.
+readonly test_packages=(mrpt-apps mrpt-common doxygen "chromium?" dpkg-dev lintian python3-numpy)
 
 say() { printf '\n== %s\n' "$*"; }
 die() {

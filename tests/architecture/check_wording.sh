@@ -9,7 +9,7 @@ fail() {
     fi
 }
 
-texts=(README.md CHANGELOG.md CONTRIBUTING.md CMakeLists.txt demo test cmake docs libs apps tools)
+texts=(README.md CHANGELOG.md CONTRIBUTING.md CMakeLists.txt demo test cmake docs libs apps python packaging tools)
 fail "unfinished" "$(grep -rnIwE 'TODO|FIXME|XXX|HACK|WIP' "${texts[@]}")"
 fail "unfinished" "$(grep -rnIiE 'not (yet )?implemented|placeholder|for now\b|to be written' "${texts[@]}")"
 fail "a path of one machine" \

@@ -415,8 +415,9 @@ std::string Drawing::bars(const ChartSeries& series, const std::string& colour) 
 
 std::string Drawing::marks(const ChartSeries& series, const std::string& colour) const
 {
-    const bool large = series.style != ChartSeries::Style::Points;
-    const double r = large ? 6 : 1.8;
+    using Style = ChartSeries::Style;
+    const bool large = series.style == Style::Start || series.style == Style::End;
+    const double r = large ? 6 : series.style == Style::Line ? 2.6 : 1.8;
     std::string out;
     for (const std::size_t k : thinned(series.y))
     {

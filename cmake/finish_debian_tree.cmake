@@ -1,0 +1,42 @@
+# Run by CPack when the files of all components are in place, before they are packed.
+file(GLOB components LIST_DIRECTORIES true ${CPACK_TEMPORARY_DIRECTORY}/*)
+foreach(tree IN LISTS components)
+  get_filename_component(component ${tree} NAME)
+  string(TOUPPER ${component} upper)
+  set(package ${CPACK_DEBIAN_${upper}_PACKAGE_NAME})
+  if(NOT IS_DIRECTORY ${tree}/usr OR NOT package)
+    continue()
+  endif()
+  set(doc ${tree}/usr/share/doc/${package})
+  file(MAKE_DIRECTORY ${doc})
+
+  file(READ ${CPACK_POINTPLANE_SOURCE_DIR}/LICENSE license)
+  string(REGEX REPLACE "^[^\n]*\n\nCopyright[^\n]*\n[^\n]*\n\n" "" license "${license}")
+  string(REGEX REPLACE "\n\n" "\n.\n" license "${license}")
+  string(REGEX REPLACE "\n([^\n])" "\n \\1" license "\n${license}")
+  file(WRITE ${doc}/copyright
+    "Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/\n"
+    "Upstream-Name: pointplane\n\nFiles: *\nCopyright: 2026, the pointplane authors\n"
+    "License: BSD-3-clause${license}")
+
+  string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)
+  file(WRITE ${doc}/changelog
+    "pointplane (${CPACK_PACKAGE_VERSION}) unstable; urgency=medium\n\n"
+    "  * Version ${CPACK_PACKAGE_VERSION}; what is new is in CHANGELOG.md of pointplane-doc.\n\n"
+    " -- ${CPACK_PACKAGE_CONTACT}  ${date}\n")
+  file(GLOB pages ${tree}/usr/share/man/man1/*.1)
+  execute_process(COMMAND gzip -9nf ${doc}/changelog ${pages} COMMAND_ERROR_IS_FATAL ANY)
+
+  file(GLOB libraries ${tree}/usr/lib/*.a ${tree}/usr/lib/*/*.a)
+  if(libraries)
+    execute_process(COMMAND ${CPACK_POINTPLANE_STRIP} --strip-debug --remove-section=.comment
+                    --remove-section=.note --enable-deterministic-archives ${libraries}
+                    COMMAND_ERROR_IS_FATAL ANY)
+  endif()
+  file(GLOB_RECURSE files LIST_DIRECTORIES false ${tree}/usr/*)
+  foreach(file IN LISTS files)
+    if(NOT file MATCHES "/usr/bin/")
+      file(CHMOD ${file} FILE_PERMISSIONS OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ)
+    endif()
+  endforeach()
+endforeach()

@@ -1,0 +1,344 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/mrpt_io/ObservationConverter.h>
+#include <pointplane/mrpt_io/RawlogReader.h>
+#include <pointplane/mrpt_io/errors.h>
+#include <pointplane/mrpt_io/params_ini.h>
+#include <pointplane/odometry/Odometry.h>
+
+#include <mrpt/obs/CObservation3DRangeScan.h>
+#include <mrpt/obs/CObservationComment.h>
+#include <mrpt/obs/CSensoryFrame.h>
+
+#include <opencv2/imgproc.hpp>
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <pybind11/eigen.h>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+namespace py = pybind11;
+
+namespace pointplane
+{
+namespace
+{
+/** An image in NumPy's memory; rows have to be contiguous. */
+cv::Mat matOf(const py::array& array, int type, const char* what)
+{
+    const bool colour = CV_MAT_CN(type) > 1;
+    const auto itemSize = static_cast<py::ssize_t>(CV_ELEM_SIZE(type));
+    if (array.ndim() != (colour ? 3 : 2) || (colour && array.shape(2) != CV_MAT_CN(type)) ||
+        array.strides(1) != itemSize || (colour && array.strides(2) != 1) || array.strides(0) <= 0)
+    {
+        throw py::value_error(
+            std::string(what) + ": expected an image with contiguous rows, (height, width" +
+            (colour ? ", 3)" : ")"));
+    }
+    return {
+        static_cast<int>(array.shape(0)),
+        static_cast<int>(array.shape(1)),
+        type,
+        const_cast<void*>(array.data()),
+        static_cast<std::size_t>(array.strides(0))};
+}
+
+/** float32 in metres as it is; integers times `unit`, zero = no reading. */
+cv::Mat depthOf(const py::array& depth, double unit)
+{
+    if (depth.dtype().is(py::dtype::of<float>()))
+    {
+        return matOf(depth, CV_32FC1, "depth");
+    }
+    if (!depth.dtype().is(py::dtype::of<std::uint16_t>()))
+    {
+        throw py::type_error("depth: expected float32 in metres, or uint16 in units of depth_unit");
+    }
+    const cv::Mat readings = matOf(depth, CV_16UC1, "depth");
+    cv::Mat metres;
+    readings.convertTo(metres, CV_32FC1, unit);
+    metres.setTo(std::numeric_limits<float>::quiet_NaN(), readings == 0);
+    return metres;
+}
+
+/** Gray as it is; RGB is converted. */
+cv::Mat grayOf(const py::object& colour)
+{
+    if (colour.is_none())
+    {
+        return {};
+    }
+    const auto array = py::cast<py::array>(colour);
+    if (!array.dtype().is(py::dtype::of<std::uint8_t>()))
+    {
+        throw py::type_error("colour: expected uint8, gray or RGB");
+    }
+    if (array.ndim() == 2)
+    {
+        return matOf(array, CV_8UC1, "colour");
+    }
+    cv::Mat gray;
+    cv::cvtColor(matOf(array, CV_8UC3, "colour"), gray, cv::COLOR_RGB2GRAY);
+    return gray;
+}
+
+/** The image's memory as an array that keeps it. */
+template <class T>
+py::object arrayOf(const cv::Mat& image)
+{
+    if (image.empty())
+    {
+        return py::none();
+    }
+    auto* const owner = new cv::Mat(image);
+    const py::capsule keeper(owner, [](void* mat) { delete static_cast<cv::Mat*>(mat); });
+    return py::array_t<T>(
+        {static_cast<py::ssize_t>(image.rows), static_cast<py::ssize_t>(image.cols)},
+        {static_cast<py::ssize_t>(image.step[0]), static_cast<py::ssize_t>(sizeof(T))},
+        owner->ptr<T>(),
+        keeper);
+}
+
+/** The frames of one camera of a rawlog. */
+class RawlogFrames
+{
+ public:
+    RawlogFrames(const std::string& path, std::string label)
+        : reader_(path), label_(std::move(label))
+    {
+        converter_.setExternalsDirectory(reader_.externalsDirectory());
+    }
+
+    [[nodiscard]] ConvertedFrame next()
+    {
+        while (true)
+        {
+            while (!pending_.empty())
+            {
+                const auto observation = pending_.front();
+                pending_.pop_front();
+                if (const auto* comment =
+                        dynamic_cast<const mrpt::obs::CObservationComment*>(observation.get()))
+                {
+                    converter_.readComment(*comment);
+                }
+                const auto* scan =
+                    dynamic_cast<const mrpt::obs::CObservation3DRangeScan*>(observation.get());
+                if (scan == nullptr)
+                {
+                    continue;
+                }
+                label_ = label_.empty() ? scan->sensorLabel : label_;
+                if (scan->sensorLabel == label_)
+                {
+                    return converter_.convert(*scan);
+                }
+            }
+            const auto object = reader_.next();
+            if (!object)
+            {
+                if (!reader_.ending().message.empty())
+                {
+                    throw InputError(reader_.ending().message);
+                }
+                throw py::stop_iteration();
+            }
+            if (auto observation = std::dynamic_pointer_cast<mrpt::obs::CObservation>(object))
+            {
+                pending_.push_back(observation);
+            }
+            else if (auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(object))
+            {
+                pending_.insert(pending_.end(), frame->begin(), frame->end());
+            }
+        }
+    }
+
+ private:
+    RawlogReader reader_;
+    ObservationConverter converter_;
+    std::deque<mrpt::obs::CObservation::Ptr> pending_;
+    std::string label_;
+};
+
+OdometryResult processFrame(Odometry& odometry, const ConvertedFrame& converted)
+{
+    OdometryResult result;
+    {
+        const py::gil_scoped_release release;
+        result = odometry.process(converted.frame);
+    }
+    if (!converted.problem.empty())
+    {
+        result.reason = converted.problem;
+    }
+    return result;
+}
+
+void addCamera(py::module_& m)
+{
+    py::class_<PinholeCamera>(
+        m,
+        "Camera",
+        "Pinhole camera; pixels count from the centre of the top left one, distortion is k1 k2 p1 "
+        "p2 "
+        "k3 of OpenCV.")
+        .def(
+            py::init(
+                [](double fx,
+                   double fy,
+                   double cx,
+                   double cy,
+                   int width,
+                   int height,
+                   const std::array<double, 5>& distortion)
+                {
+                    PinholeCamera camera;
+                    camera.fx = fx;
+                    camera.fy = fy;
+                    camera.cx = cx;
+                    camera.cy = cy;
+                    camera.width = width;
+                    camera.height = height;
+                    camera.distortion = distortion;
+                    if (const std::string problem = camera.problem(); !problem.empty())
+                    {
+                        throw py::value_error(problem);
+                    }
+                    return camera;
+                }),
+            py::arg("fx"),
+            py::arg("fy"),
+            py::arg("cx"),
+            py::arg("cy"),
+            py::arg("width"),
+            py::arg("height"),
+            py::arg("distortion") = std::array<double, 5>{})
+        .def_readonly("width", &PinholeCamera::width)
+        .def_readonly("height", &PinholeCamera::height)
+        .def_readonly("fx", &PinholeCamera::fx)
+        .def_readonly("fy", &PinholeCamera::fy)
+        .def_readonly("cx", &PinholeCamera::cx)
+        .def_readonly("cy", &PinholeCamera::cy)
+        .def_readonly("distortion", &PinholeCamera::distortion);
+}
+
+void addResult(py::module_& m)
+{
+    py::class_<OdometryResult>(
+        m,
+        "Result",
+        "Motion of the camera's optical frame (x right, y down, z forward) up to one frame. "
+        "Covariances are 6x6, of a perturbation on the left: translation [m], then rotation [rad].")
+        .def_property_readonly(
+            "status",
+            [](const OdometryResult& r) { return toString(r.status); },
+            "first, tracked, predicted or lost")
+        .def_readonly("reason", &OdometryResult::reason, "why it was not tracked, or empty")
+        .def_readonly("stamp", &OdometryResult::stamp, "of the frame [s]")
+        .def_property_readonly(
+            "pose",
+            [](const OdometryResult& r) { return r.pose.mean.matrix(); },
+            "4x4, this frame in the first one")
+        .def_property_readonly("covariance", [](const OdometryResult& r) { return r.pose.cov; })
+        .def_property_readonly(
+            "increment",
+            [](const OdometryResult& r) { return r.increment.mean.matrix(); },
+            "4x4, this frame in the one before")
+        .def_property_readonly(
+            "increment_covariance", [](const OdometryResult& r) { return r.increment.cov; })
+        .def(
+            "__repr__",
+            [](const OdometryResult& r)
+            {
+                return std::string("<pointplane.Result ") + toString(r.status) +
+                       (r.reason.empty() ? "" : ": " + r.reason) + ">";
+            });
+}
+
+void addOdometry(py::module_& m)
+{
+    py::class_<Odometry>(m, "VisualOdometry", "One object per camera; frames in order of time.")
+        .def(
+            py::init([](const std::string& config, const std::vector<std::string>& settings)
+                     { return std::make_unique<Odometry>(loadOdometryParams(config, settings)); }),
+            py::arg("config") = "",
+            py::arg("settings") = std::vector<std::string>(),
+            "config: an ini file, or empty for the defaults; settings: 'Section.key=value', ...")
+        .def(
+            "process",
+            [](Odometry& odometry,
+               const py::array& depth,
+               const py::object& colour,
+               const PinholeCamera& camera,
+               double stamp,
+               double unit)
+            {
+                ConvertedFrame converted;
+                converted.frame.stamp = stamp;
+                converted.frame.camera = camera;
+                converted.frame.depth = depthOf(depth, unit);
+                converted.frame.gray = grayOf(colour);
+                return processFrame(odometry, converted);
+            },
+            py::arg("depth"),
+            py::arg("colour"),
+            py::arg("camera"),
+            py::arg("stamp"),
+            py::arg("depth_unit") = 0.001,
+            "depth: (height, width), float32 [m] with NaN for no reading, used in place; or uint16 "
+            "in units of depth_unit [m] with 0 for none. colour: registered to it, uint8, gray "
+            "(used in place) or RGB, or None. stamp [s]. A frame that cannot be used is lost, with "
+            "a reason, and no exception.")
+        .def("process", &processFrame, py::arg("frame"), "A frame of a rawlog, see read_rawlog().")
+        .def("reset", &Odometry::reset, "Starts anew with the same configuration.");
+}
+
+void addRawlogs(py::module_& m)
+{
+    py::class_<ConvertedFrame>(m, "Frame", "A frame of a rawlog, depth registered to colour.")
+        .def_property_readonly("stamp", [](const ConvertedFrame& f) { return f.frame.stamp; })
+        .def_property_readonly(
+            "depth",
+            [](const ConvertedFrame& f) { return arrayOf<float>(f.frame.depth); },
+            "float32 [m], NaN for no reading; None if the frame cannot be used")
+        .def_property_readonly(
+            "gray",
+            [](const ConvertedFrame& f) { return arrayOf<std::uint8_t>(f.frame.gray); },
+            "uint8, or None")
+        .def_property_readonly("camera", [](const ConvertedFrame& f) { return f.frame.camera; })
+        .def_readonly("problem", &ConvertedFrame::problem, "why it cannot be used, or empty");
+    py::class_<RawlogFrames>(m, "RawlogFrames", "See read_rawlog().")
+        .def("__iter__", [](RawlogFrames& self) -> RawlogFrames& { return self; })
+        .def("__next__", &RawlogFrames::next);
+    m.def(
+        "read_rawlog",
+        [](const std::string& path, const std::string& label)
+        { return std::make_unique<RawlogFrames>(path, label); },
+        py::arg("path"),
+        py::arg("sensor_label") = "",
+        "The frames of one camera, by default the first one's, one after the other. Damage raises "
+        "InputError after the frames before it.");
+}
+}  // namespace
+}  // namespace pointplane
+
+PYBIND11_MODULE(pointplane, m)
+{
+    using namespace pointplane;
+    m.doc() = "RGB-D visual odometry from noisy points and planes, with covariances.";
+    m.attr("__version__") = POINTPLANE_VERSION;
+    py::register_exception<InputError>(m, "InputError", PyExc_ValueError);
+    addCamera(m);
+    addResult(m);
+    addOdometry(m);
+    addRawlogs(m);
+}

@@ -1,0 +1,61 @@
+#!/usr/bin/env bash
+# Runs the commands of README's table of tools and of docs/evaluation.md as they are written, on a
+# short simulated recording under the names that stand there. commands.sh BUILD WORK
+set -uo pipefail
+build=$(realpath "$1") work=$2
+root=$(realpath "$(dirname "${BASH_SOURCE[0]}")/../..")
+rm -rf "$work"
+mkdir -p "$work" && cd "$work" || exit 1
+export PATH=$build/bin:$PATH
+failed=0
+count=0
+
+# run EXPECTED COMMAND
+run() {
+    local code=0
+    bash -c "$2" >log 2>&1 || code=$?
+    count=$((count + 1))
+    if [[ $code != "$1" ]]; then
+        echo "exit code $code instead of $1: $2"
+        tail -5 log
+        failed=1
+    fi
+}
+
+pointplane-simulate corner -o in.rawlog --duration 2.5 --size 320x240 --quiet >log 2>&1 || { cat log; exit 1; }
+for name in a b; do
+    ln -s in.rawlog $name.rawlog
+    ln -s in.groundtruth.txt $name.groundtruth.txt
+done
+cp "$root/config.ini" .
+ln -s in.groundtruth.txt GT
+pointplane-odometry in.rawlog -o EST.rawlog --only-poses --since 31 --trajectory-frame robot \
+    --trajectory robot.txt --quiet >log 2>&1 || { cat log; exit 1; }
+pointplane-odometry in.rawlog --trajectory EST --quiet >log 2>&1 || { cat log; exit 1; }
+for name in A B C; do
+    ln -s EST $name
+done
+if [[ -n ${POINTPLANE_DATA:-} ]]; then
+    ln -s "$POINTPLANE_DATA/tum_fr1_xyz_part" rgbd_dataset_freiburg1_xyz
+fi
+
+while read -r command; do
+    case $command in
+        pointplane-simulate*) run 0 "$command --duration 0.5" ;;  # 18 s otherwise, in the same way
+        pointplane-grabber*) [[ -e /dev/bus/usb ]] || run 3 "$command" ;;  # no camera here
+        pointplane-convert*) [[ -z ${POINTPLANE_DATA:-} ]] || run 0 "$command" ;;
+        *) run 0 "$command" ;;
+    esac
+done < <(sed -nE 's/^\| `(pointplane-[^`]+)`.*/\1/p' "$root/README.md")
+
+# Of the documents, the indented lines; a backslash at the end goes on.
+while read -r command; do
+    case $command in
+        *reproduce*) ;;  # minutes, of sequences that are not here; tests/evaluation has it
+        *) run 0 "$command" ;;
+    esac
+done < <(sed -nE 's/^    //p' "$root/docs/evaluation.md" | sed -E ':a; /\\$/{N; s/\\\n//; ba}; s/ #.*//' |
+    grep -E '^pointplane-')
+
+((count >= 9)) || { echo "only $count commands found"; failed=1; }
+exit "$failed"

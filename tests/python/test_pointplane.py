@@ -1,0 +1,137 @@
+#!/usr/bin/env python3
+"""The Python module, on a rawlog: test_pointplane.py RAWLOG"""
+import gc
+import os
+import pathlib
+import re
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+
+import pointplane
+
+RAWLOG = os.path.abspath(sys.argv.pop())
+
+
+class Rawlogs(unittest.TestCase):
+    def test_frames_are_arrays_in_metres(self):
+        frames = list(pointplane.read_rawlog(RAWLOG))
+        self.assertGreaterEqual(len(frames), 10)
+        frame = frames[3]
+        self.assertEqual(frame.problem, "")
+        self.assertEqual(frame.depth.dtype, np.float32)
+        self.assertEqual(frame.gray.dtype, np.uint8)
+        self.assertEqual(frame.depth.shape, (frame.camera.height, frame.camera.width))
+        self.assertTrue(0.1 < np.nanmedian(frame.depth) < 10)
+        self.assertGreater(frame.stamp, frames[2].stamp)
+
+    def test_arrays_share_the_frames_memory_and_keep_it(self):
+        frame = next(iter(pointplane.read_rawlog(RAWLOG)))
+        depth = frame.depth
+        self.assertFalse(depth.flags.owndata)
+        before = depth.copy()
+        self.assertTrue(np.shares_memory(depth, frame.depth))
+        del frame
+        gc.collect()
+        np.testing.assert_array_equal(depth, before)
+
+    def test_a_missing_file_is_named(self):
+        with self.assertRaisesRegex(pointplane.InputError, "none.rawlog"):
+            pointplane.read_rawlog("none.rawlog")
+
+
+class Odometry(unittest.TestCase):
+    def test_arrays_give_what_the_frames_of_the_rawlog_give(self):
+        by_frame = pointplane.VisualOdometry()
+        by_array = pointplane.VisualOdometry()
+        for frame in pointplane.read_rawlog(RAWLOG):
+            a = by_frame.process(frame)
+            b = by_array.process(frame.depth, frame.gray, frame.camera, frame.stamp)
+            self.assertEqual(b.status, a.status)
+        self.assertEqual(a.status, "tracked")
+        self.assertEqual(a.stamp, b.stamp)
+        # The rawlog tells the shutter, the arrays do not.
+        np.testing.assert_allclose(a.pose, b.pose, atol=0.02)
+
+    def test_a_result_is_a_motion_with_its_covariance(self):
+        odometry = pointplane.VisualOdometry()
+        accumulated = np.eye(4)
+        for frame in pointplane.read_rawlog(RAWLOG):
+            result = odometry.process(frame)
+            accumulated = accumulated @ result.increment
+        np.testing.assert_allclose(result.pose, accumulated, atol=1e-9)
+        np.testing.assert_allclose(result.pose[:3, :3] @ result.pose[:3, :3].T, np.eye(3), atol=1e-9)
+        for covariance in (result.covariance, result.increment_covariance):
+            self.assertEqual(covariance.shape, (6, 6))
+            self.assertTrue((np.linalg.eigvalsh(covariance) > 0).all())
+        self.assertIn("tracked", repr(result))
+
+    def test_depth_in_integers_is_scaled_and_zero_is_no_reading(self):
+        frame = next(iter(pointplane.read_rawlog(RAWLOG)))
+        millimetres = np.nan_to_num(frame.depth * 1000).astype(np.uint16)
+        for depth, unit in ((millimetres, 0.001), (millimetres * 5, 0.0002)):
+            odometry = pointplane.VisualOdometry()
+            result = odometry.process(depth, None, frame.camera, frame.stamp, depth_unit=unit)
+            self.assertEqual(result.status, "first")
+
+    def test_colour_is_converted_and_views_with_gaps_between_rows_are_taken(self):
+        frame = next(iter(pointplane.read_rawlog(RAWLOG)))
+        colour = np.repeat(frame.gray[:, :, None], 3, axis=2)
+        wide = np.full((frame.depth.shape[0], frame.depth.shape[1] + 8), np.nan, np.float32)
+        view = wide[:, 4:-4]
+        view[:] = frame.depth
+        self.assertFalse(view.flags.c_contiguous)
+        result = pointplane.VisualOdometry().process(view, colour, frame.camera, frame.stamp)
+        self.assertEqual(result.status, "first")
+
+    def test_what_cannot_be_used_is_lost_with_a_reason(self):
+        frame = next(iter(pointplane.read_rawlog(RAWLOG)))
+        small = np.ones((10, 10), np.float32)
+        result = pointplane.VisualOdometry().process(small, None, frame.camera, frame.stamp)
+        self.assertEqual(result.status, "lost")
+        self.assertIn("10x10", result.reason)
+
+    def test_wrong_types_and_shapes_are_refused(self):
+        frame = next(iter(pointplane.read_rawlog(RAWLOG)))
+        odometry = pointplane.VisualOdometry()
+        with self.assertRaises(TypeError):
+            odometry.process(frame.depth.astype(np.float64), None, frame.camera, 1.0)
+        with self.assertRaises(TypeError):
+            odometry.process(frame.depth, frame.gray.astype(np.int32), frame.camera, 1.0)
+        with self.assertRaisesRegex(ValueError, "contiguous"):
+            odometry.process(frame.depth[:, ::2], None, frame.camera, 1.0)
+        with self.assertRaisesRegex(ValueError, "focal"):
+            pointplane.Camera(0, 500, 320, 240, 640, 480)
+
+    def test_configuration(self):
+        pointplane.VisualOdometry(settings=["PoseSolver.alpha=7"])
+        with self.assertRaisesRegex(pointplane.InputError, "PoseSolver"):
+            pointplane.VisualOdometry(settings=["PoseSolver.alpa=7"])
+
+
+class Readme(unittest.TestCase):
+    def test_its_lines_run_as_they_are_written(self):
+        root = pathlib.Path(__file__).parents[2]
+        code = re.search(r"```python\n(.*?)```", (root / "README.md").read_text(), re.S).group(1)
+        rows, columns = np.mgrid[0:480, 0:640]
+        names = {
+            "depth": (2 + 0.001 * columns).astype(np.float32),
+            "colour": ((rows // 20 + columns // 20) % 2 * 255).astype(np.uint8),
+            "stamp": 1.0,
+        }
+        with tempfile.TemporaryDirectory() as folder:
+            os.symlink(root / "config.ini", folder + "/config.ini")
+            os.symlink(RAWLOG, folder + "/in.rawlog")
+            before = os.getcwd()
+            os.chdir(folder)
+            try:
+                exec(code, names)
+            finally:
+                os.chdir(before)
+        self.assertEqual(names["result"].status, "tracked")
+
+
+if __name__ == "__main__":
+    unittest.main()

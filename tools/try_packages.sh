@@ -1,0 +1,46 @@
+#!/usr/bin/env bash
+# Installs the Debian packages in /packages, uses them, and removes them again without a trace. For a
+# system that can be thrown away, as tools/clean_machine.sh makes it.
+set -euo pipefail
+die() {
+    printf 'error: %s\n' "$*" >&2
+    exit 1
+}
+export DEBIAN_FRONTEND=noninteractive
+if ! compgen -G "/packages/*.deb" >/dev/null || [[ ! -e /clone ]]; then
+    die "only on a clean machine with /packages: see tools/clean_machine.sh"
+fi
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+
+apt-get -q update
+find / -xdev -iname '*pointplane*' -not -path '/clone/*' -not -path '/packages/*' | sort >before
+apt-get -q install --yes --no-install-recommends /packages/*.deb
+
+pointplane-simulate corner -o in.rawlog --duration 1 --size 320x240 --quiet
+pointplane-odometry -c /usr/share/pointplane/config.ini in.rawlog -o out.rawlog --trajectory out.txt --quiet
+pointplane-eval ate in.groundtruth.txt out.txt --max-rmse 0.02
+if [[ -e /usr/lib/python3/dist-packages/pointplane.$(python3 -c 'import sysconfig
+print(sysconfig.get_config_var("SOABI"))' 2>/dev/null).so ]]; then
+    python3 -c '
+import pointplane
+vo = pointplane.VisualOdometry("/usr/share/pointplane/config.ini")
+for frame in pointplane.read_rawlog("in.rawlog"):
+    result = vo.process(frame)
+assert result.status == "tracked", result
+print("python:", result, result.covariance.shape)'
+fi
+# A program of somebody else, against libpointplane-dev alone.
+if [[ -e /usr/lib/$(gcc -print-multiarch 2>/dev/null)/cmake/pointplane ]]; then
+    apt-get -q install --yes --no-install-recommends g++ cmake make pkgconf
+    cmake -S /clone/tests/consumer -B consumer -DCMAKE_BUILD_TYPE=Release
+    cmake --build consumer
+    ./consumer/consumer /usr/share/pointplane/config.ini in.rawlog | tail -1
+fi
+
+mapfile -t packages < <(for deb in /packages/*.deb; do dpkg-deb --field "$deb" Package; done)
+apt-get -q purge --yes "${packages[@]}"
+find / -xdev -iname '*pointplane*' -not -path '/clone/*' -not -path '/packages/*' | sort >after
+diff before after || die "the packages left something behind"
+echo "installed, used and removed: ${packages[*]}"
