@@ -83,6 +83,10 @@ void RunSummary::add(const OutputItem& item)
     sum.msMatching += d.msMatching;
     sum.msPose += d.msPose;
     sum.msTotal += d.msTotal;
+    if (motion.status == TrackingStatus::First || motion.status == TrackingStatus::Tracked)
+    {
+        sum.depthNoise = d.depthNoise;
+    }
 }
 
 void RunSummary::print(std::ostream& out, bool profile) const
@@ -118,6 +122,7 @@ void RunSummary::print(std::ostream& out, bool profile) const
     {
         out << note << "\n";
     }
+    out << "depth noise: " << describe(sum.depthNoise) << "\n";
     if (profile)
     {
         std::snprintf(

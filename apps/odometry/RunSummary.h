@@ -30,7 +30,7 @@ struct RunSummary
     std::size_t numUntrackedMore{0};         //!< frames of the others
     double pathLength{0};                    //!< of the robot [m]
     double seconds{0};                       //!< wall time
-    FrameDiagnostics sum;                    //!< of the times per stage
+    FrameDiagnostics sum;                    //!< of the times per stage; the latest depthNoise
     std::vector<std::string> notes;          //!< lines about the input
     std::string damage;                      //!< where the input ended early, or empty
     std::vector<std::string> outputs;        //!< descriptions

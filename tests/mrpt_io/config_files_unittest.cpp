@@ -91,6 +91,7 @@ const NamedByThePaper kNamed[] = {
     {"Point Extraction: SURF features", "PointDetector.detector", "surf"},
     {"Point Extraction: sigma_p = 1/2", "DepthNoise.sigmaPixelPx", "0.5"},
     {"Point Extraction: sigma_Z = 1.425e-6 Z^2 [mm]", "DepthNoise.sigmaInverseDepth", "0.001425"},
+    {"Eq. 2: sigma_Z of a Kinect", "DepthNoise.kind", "given"},
     {"Eq. 1: the respective depth pixel value", "PointLifter.depthModel", "nearest"},
     {"Plane Extraction: RANSAC filters each detected plane", "PlaneExtractor.ransac", "true"},
     {"after Eq. 3: w = sigma_Z^-2", "PlaneExtractor.fitWeights", "sigmaZ"},

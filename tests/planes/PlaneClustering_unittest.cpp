@@ -52,18 +52,34 @@ PlaneMoments momentsOf(const cv::Mat& depth)
 TEST(PlanarityTest, toleranceByHand)
 {
     PlanarityTest test;
-    test.sigmaInverseDepth = 3e-3;
+    test.noise.sigmaInverseDepth = 3e-3;
     test.slopePx = 2;
     test.focalLengthPx = 500;
     // Slope 1 per metre times 2/500.
-    EXPECT_NEAR(test.toleranceSquared({0.6, 0.8, -5}), 9e-6 + 16e-6, 1e-15);
-    EXPECT_NEAR(test.toleranceSquared({0, 0, -5}), 9e-6, 1e-15);
+    PlaneMoments pixels;
+    pixels.add(0, 0, 5);
+    pixels.add(0.1, 0, 5);
+    EXPECT_NEAR(test.tolerated({0.6, 0.8, -5}, pixels, 1), 2 * (9e-6 + 16e-6), 1e-15);
+    EXPECT_NEAR(test.tolerated({0, 0, -5}, pixels, 1), 2 * 9e-6, 1e-15);
+
+    // What bends by 0.4 % is 2e-3 at 1/Z = 0.5 per metre: of 13e-6, 9e-6 remain where none of it is seen.
+    test.noise.sigmaRelative = 4e-3;
+    PlaneMoments far;
+    far.add(0, 0, 0.5, test.noise.weight(0.5));
+    far.add(0.1, 0, 0.5, test.noise.weight(0.5));
+    EXPECT_NEAR(test.noise.weight(0.5), 9.0 / 13, 1e-12);
+    EXPECT_NEAR(test.tolerated({0, 0, -0.5}, far, 1), 2 * 9e-6, 1e-15);
+    EXPECT_NEAR(test.tolerated({0, 0, -0.5}, far, 0), 2 * 9e-6 * 9 / 13, 1e-15);
+    EXPECT_NEAR(test.tolerated({0.6, 0.8, -0.5}, far, 1), 2 * (9e-6 + 16e-6 * 9 / 13), 1e-15);
+    test.bentPixels = 200;
+    EXPECT_DOUBLE_EQ(test.bendWithin(100), 0.25);
+    EXPECT_DOUBLE_EQ(test.bendWithin(300), 1);
 }
 
 TEST(PlanarityTest, cellsAndMergesAtTheirLimits)
 {
     PlanarityTest test;
-    test.sigmaInverseDepth = 0.01;
+    test.noise.sigmaInverseDepth = 0.01;
     test.slopePx = 0;
     // Four pixels at +-e around a frontal plane, arranged so that no slope explains them.
     const auto cell = [](double e, double q)

@@ -90,6 +90,44 @@ class PlaneExtractorTest : public testing::TestWithParam<Size>
 };
 }  // namespace
 
+/** A phone bends a wall smoothly by half a per cent of its distance; it is one plane, and as
+ * uncertain as it is bent. */
+TEST_P(PlaneExtractorTest, aWallBentByTheSensorIsOnePlane)
+{
+    DepthNoise noise;
+    noise.sigmaInverseDepth = 1e-5;
+    noise.sigmaDepth = 4e-4;
+    noise.sigmaRelative = 5e-3;
+    const Eigen::Vector3d theta = test::thetaThrough({0, 0, 0.7}, {0.3, 0.1, -0.9});
+    int one = 0;
+    double nees = 0;
+    const int runs = 12;
+    for (int run = 0; run < runs; ++run)
+    {
+        const double phaseX = sampler.uniform(0, 6), phaseY = sampler.uniform(0, 6);
+        cv::Mat depth = test::renderDepth(camera, {theta}, [](int, int) { return 0; });
+        for (int v = 0; v < depth.rows; ++v)
+        {
+            for (int u = 0; u < depth.cols; ++u)
+            {
+                const double bend = 5e-3 * (std::sin(phaseX + 9.0 * u / camera.width) +
+                                            std::sin(phaseY + 7.0 * v / camera.height));
+                float& z = depth.at<float>(v, u);
+                z = static_cast<float>(
+                    static_cast<double>(z) * (1 + bend) + 3e-4 * sampler.normal());
+            }
+        }
+        const PlaneSet set = PlaneExtractor({}, noise).extract(depth, camera);
+        ASSERT_FALSE(set.planes.empty());
+        one += set.planes.size() == 1 && set.planes[0].numPixels > 0.9 * camera.width * camera.height;
+        const Eigen::Vector3d e = theta - set.planes[0].plane_cam.theta_m;
+        nees += e.dot(set.planes[0].plane_cam.cov_m.inverse() * e) / (3 * runs);
+    }
+    EXPECT_EQ(one, runs);
+    EXPECT_GT(nees, 0.1);
+    EXPECT_LT(nees, 2);
+}
+
 TEST_P(PlaneExtractorTest, cornerOfThreePlanes)
 {
     const auto thetas = test::cornerThetas();

@@ -112,6 +112,36 @@ TEST(FitInverseDepth, covarianceIsThatOfMonteCarlo)
     EXPECT_NEAR(nees / runs, 3, 0.18);
 }
 
+/** Noise that is constant in the depth, weighted as CellGrid::weigh() does. */
+TEST(FitInverseDepth, covarianceOfWeightedPixelsIsThatOfMonteCarlo)
+{
+    DepthNoise noise;
+    noise.sigmaDepth = 0.01;
+    noise.sigmaInverseDepth = 1e-3;
+    const Eigen::Vector3d theta(1.5, 0, -0.5);  // from 1.2 m to 3.6 m away
+    test::GaussianSampler sampler(11);
+    double nees = 0;
+    const int runs = 4000;
+    for (int i = 0; i < runs; ++i)
+    {
+        PlaneMoments moments;
+        for (const Eigen::Vector3d& ray : windowRays())
+        {
+            const double q = -theta.dot(ray);
+            moments.add(
+                ray.x(),
+                ray.y(),
+                q + std::sqrt(noise.inverseDepthVariance(q)) * sampler.normal(),
+                noise.weight(q));
+        }
+        const auto plane = fitInverseDepth(moments, noise);
+        ASSERT_TRUE(plane);
+        const Eigen::Vector3d error = theta - plane->theta_m;
+        nees += error.dot(plane->cov_m.inverse() * error);
+    }
+    EXPECT_NEAR(nees / runs, 3, 0.18);
+}
+
 TEST(FitInverseDepth, pixelsThatSpanNoPlaneHaveNone)
 {
     PlaneMoments m;
@@ -127,7 +157,8 @@ TEST(FitWeightedLeastSquares, byHand)
 {
     // Four points of the plane z = 2: sigma_Z = 0.01 * 4, w = 625; A = w diag(2, 2, 16), b = -w (0,
     // 0, 8). A^-1 is in 1/mm^2.
-    const DepthNoise noise{0.01, 0.5};
+    DepthNoise noise;
+    noise.sigmaInverseDepth = 0.01;
     const auto plane =
         fitWeightedLeastSquares({{1, 0, 2}, {-1, 0, 2}, {0, 1, 2}, {0, -1, 2}}, noise);
     ASSERT_TRUE(plane);

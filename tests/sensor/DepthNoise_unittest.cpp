@@ -34,6 +34,25 @@ TEST(DepthNoise, khoshelhamInMetres)
     EXPECT_NEAR(DepthNoise{}.sigmaZ(2), 1.425e-6 * 2000 * 2000 / 1000, 1e-12);
 }
 
+TEST(DepthNoise, ofOtherKindsByHand)
+{
+    DepthNoise noise;
+    noise.sigmaInverseDepth = 1e-3;
+    noise.sigmaDepth = 2e-3;
+    noise.sigmaRelative = 3e-3;
+    // At 2 m: 4, 2 and 6 mm.
+    EXPECT_NEAR(noise.sigmaZ(2), std::sqrt(16 + 4 + 36) * 1e-3, 1e-12);
+    EXPECT_NEAR(noise.inverseDepthVariance(0.5), (16 + 4 + 36) * 1e-6 / 16, 1e-15);
+    EXPECT_NEAR(noise.relativeShare(0.5), 36.0 / 56, 1e-12);
+    EXPECT_NEAR(noise.weight(0.5), 16.0 / 56, 1e-12);
+    EXPECT_NEAR(noise.scaled(2).sigmaZ(2), 2 * noise.sigmaZ(2), 1e-12);
+    noise.kind = "timeOfFlight";
+    EXPECT_EQ(
+        describe(noise),
+        "timeOfFlight, 2.2 mm at 1 m, 9.2 mm at 3 m; surfaces bent by 0.3 % of their depth");
+    EXPECT_EQ(DepthNoise{}.weight(0.5), 1);
+}
+
 TEST(DepthNoise, backProjectionByHand)
 {
     PinholeCamera camera;

@@ -9,6 +9,7 @@ namespace pointplane
 {
 FrontEnd::FrontEnd(const OdometryParams& params)
     : params_(params.pipeline),
+      depthNoise_(params.depthNoise),
       planeExtractor_(params.planeExtractor, params.depthNoise),
       planeMatcher_(params.planeMatcher),
       pointStage_(
@@ -25,6 +26,10 @@ Features FrontEnd::extract(const RgbdFrame& frame, FrameDiagnostics& diagnostics
 {
     Features out;
     out.frame = frame;
+    depthNoise_.update(frame.depth);
+    planeExtractor_.setNoise(depthNoise_.noise());
+    pointStage_.setNoise(depthNoise_.noise());
+    diagnostics.depthNoise = depthNoise_.noise();
     const auto points = [&]
     {
         const Stopwatch watch;

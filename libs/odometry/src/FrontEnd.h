@@ -5,11 +5,12 @@
 #include <pointplane/odometry/OdometryParams.h>
 #include <pointplane/odometry/OdometryResult.h>
 #include <pointplane/odometry/Reference.h>
+#include <pointplane/sensor/DepthNoiseLearner.h>
 
 namespace pointplane
 {
-/** From images to points and planes, and to what two frames have in common. Knows no history: the
- * same frames give the same answers in any order. */
+/** From images to points and planes, and to what two frames have in common. Knows no history but
+ * what the depth images have told of the camera's noise. */
 class FrontEnd
 {
  public:
@@ -30,6 +31,7 @@ class FrontEnd
 
  private:
     PipelineParams params_;
+    DepthNoiseLearner depthNoise_;
     PlaneExtractor planeExtractor_;
     PlaneMatcher planeMatcher_;
     PointStage pointStage_;

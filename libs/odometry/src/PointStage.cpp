@@ -46,6 +46,12 @@ PreparedPoints PointStage::prepare(const RgbdFrame& frame) const
     return out;
 }
 
+void PointStage::setNoise(const DepthNoise& noise)
+{
+    tracker_.setNoise(noise);
+    lifter_.setNoise(noise);
+}
+
 PointReference PointStage::makeReference(
     const RgbdFrame& frame, const PreparedPoints& prepared) const
 {

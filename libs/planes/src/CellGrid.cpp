@@ -110,7 +110,7 @@ class LaneMoments
     [[nodiscard]] PlaneMoments at(int k) const
     {
         PlaneMoments m;
-        m.n = n_[k];
+        m.n = m.numPixels = n_[k];
         m.x = x_[k];
         m.y = y_[k];
         m.xx = xx_[k];
@@ -173,6 +173,21 @@ void CellGrid::compute(const cv::Mat& depth, const PinholeCamera& camera, int ce
             {
                 moments[static_cast<size_t>(row * cols + col + k)] = sums.at(k);
             }
+        }
+    }
+}
+
+void CellGrid::weigh(const DepthNoise& noise)
+{
+    if (noise.isConstantInInverseDepth())
+    {
+        return;
+    }
+    for (PlaneMoments& m : moments)
+    {
+        if (m.numPixels > 0)
+        {
+            m *= noise.weight(m.q / m.n);
         }
     }
 }

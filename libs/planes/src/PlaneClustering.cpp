@@ -21,7 +21,7 @@ struct Node
     std::pmr::vector<int> neighbours;  //!< sorted, and not of merged nodes, once resolved
     bool alive{true};
 
-    [[nodiscard]] double meanSquaredError() const { return fit.sse / moments.n; }
+    [[nodiscard]] double meanSquaredError() const { return fit.sse / moments.numPixels; }
 
     /** Runs of the same one are common: cells along a border. */
     void addNeighbour(int node)
@@ -93,7 +93,7 @@ void Graph::makeCellNodes(double minValidFraction)
     for (size_t i = 0; i < grid_.moments.size(); ++i)
     {
         const PlaneMoments& m = grid_.moments[i];
-        if (m.n < minValid || !test_.isPlanarCell(m))
+        if (m.numPixels < minValid || !test_.isPlanarCell(m))
         {
             continue;
         }
@@ -234,7 +234,8 @@ std::pair<int, MomentsFit> Graph::bestMerge(int id)
     {
         const Node& other = nodes_[static_cast<size_t>(n)];
         const auto fit = test_.merged(node.moments, node.fit.sse, other.moments, other.fit.sse);
-        const double error = fit ? fit->sse / (node.moments.n + other.moments.n) : 0;
+        const double error =
+            fit ? fit->sse / (node.moments.numPixels + other.moments.numPixels) : 0;
         if (fit && (best.first < 0 || error < bestError))
         {
             best = {n, *fit};
@@ -263,7 +264,7 @@ std::vector<CellCluster> Graph::cluster(double minPixels)
     const auto enqueue = [&](int id)
     {
         const Node& node = nodes_[static_cast<size_t>(id)];
-        queue.push({node.meanSquaredError(), id, node.moments.n});
+        queue.push({node.meanSquaredError(), id, node.moments.numPixels});
     };
     for (size_t i = 0; i < nodes_.size(); ++i)
     {
@@ -278,7 +279,7 @@ std::vector<CellCluster> Graph::cluster(double minPixels)
         const QueueEntry top = queue.top();
         queue.pop();
         Node& node = nodes_[static_cast<size_t>(top.node)];
-        if (!node.alive || node.moments.n != top.n)
+        if (!node.alive || node.moments.numPixels != top.n)
         {
             continue;
         }
@@ -293,7 +294,7 @@ std::vector<CellCluster> Graph::cluster(double minPixels)
             continue;
         }
         node.alive = false;
-        if (node.moments.n >= minPixels)
+        if (node.moments.numPixels >= minPixels)
         {
             out.push_back({node.moments, node.fit, cellsOf(node)});
         }
@@ -302,21 +303,42 @@ std::vector<CellCluster> Graph::cluster(double minPixels)
         out.begin(),
         out.end(),
         [](const CellCluster& a, const CellCluster& b)
-        { return a.moments.n != b.moments.n ? a.moments.n > b.moments.n : a.cells < b.cells; });
+        {
+            return a.moments.numPixels != b.moments.numPixels
+                       ? a.moments.numPixels > b.moments.numPixels
+                       : a.cells < b.cells;
+        });
     return out;
 }
 }  // namespace
 
-double PlanarityTest::toleranceSquared(const Eigen::Vector3d& theta_m) const
+double PlanarityTest::slopeSquared(const Eigen::Vector3d& theta_m) const
 {
-    const double slope = slopePx * theta_m.head<2>().norm() / focalLengthPx;
-    return sigmaInverseDepth * sigmaInverseDepth + slope * slope;
+    const double perPixel = slopePx / focalLengthPx;
+    return perPixel * perPixel * theta_m.head<2>().squaredNorm();
+}
+
+double PlanarityTest::tolerated(
+    const Eigen::Vector3d& theta_m, const PlaneMoments& m, double bend) const
+{
+    const double sigma2 = noise.sigmaInverseDepth * noise.sigmaInverseDepth;
+    const double lacking =
+        noise.sigmaRelative > 0 ? (1 - bend) * noise.relativeShare(m.q / m.n) : 0;
+    return sigma2 * (1 - lacking) * m.numPixels + slopeSquared(theta_m) * m.n;
+}
+
+double PlanarityTest::bendWithin(double numPixels) const
+{
+    // What is not linear in it grows with the square of the extent, the area.
+    const double part = std::min(1.0, numPixels / bentPixels);
+    return part * part;
 }
 
 bool PlanarityTest::isPlanarCell(const PlaneMoments& cell) const
 {
     const auto fit = fitPlane(cell);
-    return fit && fit->sse <= cellSigmas * cellSigmas * toleranceSquared(fit->theta_m) * cell.n;
+    return fit && fit->sse <= cellSigmas * cellSigmas *
+                                  tolerated(fit->theta_m, cell, bendWithin(cell.numPixels));
 }
 
 std::optional<MomentsFit> PlanarityTest::merged(
@@ -328,11 +350,13 @@ std::optional<MomentsFit> PlanarityTest::merged(
     {
         return std::nullopt;
     }
-    const double tolerance = toleranceSquared(fit->theta_m);
+    const PlaneMoments& smaller = a.numPixels < b.numPixels ? a : b;
     // The mean error alone would let a large plane swallow a small one at an angle.
     const double step = fit->sse - sseA - sseB;
-    const bool planar = fit->sse <= mergeSigmas * mergeSigmas * tolerance * joint.n &&
-                        step <= stepSigmas * stepSigmas * tolerance * std::min(a.n, b.n);
+    const bool planar =
+        fit->sse <= mergeSigmas * mergeSigmas *
+                        tolerated(fit->theta_m, joint, bendWithin(joint.numPixels)) &&
+        step <= stepSigmas * stepSigmas * tolerated(fit->theta_m, smaller, 1);
     return planar ? fit : std::nullopt;
 }
 

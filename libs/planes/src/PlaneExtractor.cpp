@@ -23,6 +23,9 @@ constexpr double kRansacSigmas = 3;
 constexpr int kRansacDraws = 50;
 constexpr std::uint32_t kRansacSeed = 1;
 
+/** Part of the image over which what bends surfaces is one error. */
+constexpr double kBentPart = 1.0 / 16;
+
 Eigen::Matrix3d rowLever(const CellCluster& cluster, const CellGrid& grid, int height)
 {
     Eigen::Matrix3d weighted = Eigen::Matrix3d::Zero();
@@ -64,8 +67,9 @@ class EdgeErosion
                 out.moments += grid_.moments[static_cast<size_t>(cell)];
             }
         }
-        return out.cells.empty() || out.moments.n > kMinFraction * cluster.moments.n ? out
-                                                                                     : cluster;
+        return out.cells.empty() || out.moments.numPixels > kMinFraction * cluster.moments.numPixels
+                   ? out
+                   : cluster;
     }
 
  private:
@@ -98,10 +102,15 @@ class EdgeErosion
 class LabelPainter
 {
  public:
-    LabelPainter(const CellGrid& grid, const cv::Mat& depth, const PinholeCamera& camera)
+    LabelPainter(
+        const CellGrid& grid,
+        const cv::Mat& depth,
+        const PinholeCamera& camera,
+        const DepthNoise& noise)
         : grid_(grid),
           depth_(depth),
           camera_(camera),
+          noise_(noise),
           labels_(depth.size(), CV_8UC1, cv::Scalar(0)),
           labelOfCell_(grid.moments.size(), 0)
     {
@@ -171,7 +180,14 @@ class LabelPainter
         for (const uchar label : adjacentLabels(cell))
         {
             const Eigen::Vector3d& theta = clusters[static_cast<size_t>(label - 1)].fit.theta_m;
-            const double limit = test.cellSigmas * std::sqrt(test.toleranceSquared(theta));
+            const Eigen::Vector3d middle(
+                (area.x + 0.5 * area.width - camera_.cx) / camera_.fx,
+                (area.y + 0.5 * area.height - camera_.cy) / camera_.fy,
+                1);
+            const double limit =
+                test.cellSigmas *
+                std::sqrt(
+                    noise_.inverseDepthVariance(theta.dot(middle)) + test.slopeSquared(theta));
             for (int v = area.y; v < area.y + area.height; ++v)
             {
                 const float* z = depth_.ptr<float>(v);
@@ -193,6 +209,7 @@ class LabelPainter
     const CellGrid& grid_;
     const cv::Mat& depth_;
     const PinholeCamera& camera_;
+    const DepthNoise& noise_;
     cv::Mat labels_;
     std::vector<uchar> labelOfCell_;
     std::vector<uchar> adjacent_;  //!< memory of adjacentLabels()
@@ -226,10 +243,25 @@ PlaneExtractor::PlaneExtractor(const TParams& params, const DepthNoise& noise)
     params_.check();
 }
 
+/** How many pixels err as one: some by their noise, many by what bends surfaces, each with its
+ * share in the variance. */
+double PlaneExtractor::correlatedPixels(
+    const PlaneMoments& plane, double numPixels, cv::Size image) const
+{
+    if (noise_.isConstantInInverseDepth())
+    {
+        return params_.correlatedPixels;
+    }
+    const double share = noise_.relativeShare(plane.q / plane.n);
+    const double bent = std::min(numPixels, kBentPart * image.area());
+    return (1 - share) * params_.correlatedPixels + share * bent;
+}
+
 PlaneSet PlaneExtractor::extract(const cv::Mat& depth, const PinholeCamera& camera)
 {
     PlanarityTest test;
-    test.sigmaInverseDepth = noise_.sigmaInverseDepth;
+    test.noise = noise_;
+    test.bentPixels = kBentPart * static_cast<double>(depth.total());
     test.slopePx = params_.slopePx;
     test.focalLengthPx = std::abs(camera.fx);
     test.cellSigmas = params_.cellSigmas;
@@ -237,6 +269,7 @@ PlaneSet PlaneExtractor::extract(const cv::Mat& depth, const PinholeCamera& came
     test.stepSigmas = params_.stepSigmas;
 
     grid_.compute(depth, camera, params_.cellSizePx);
+    grid_.weigh(noise_);
     std::vector<CellCluster> clusters = clusterCells(
         grid_,
         test,
@@ -265,15 +298,15 @@ PlaneSet PlaneExtractor::fitToCells(
     for (CellCluster& cluster : clusters)
     {
         const CellCluster core = erosion.eroded(cluster);
-        const auto plane =
-            feature(fitInverseDepth(core.moments, noise_), core, core.moments.n, depth.rows);
+        const auto plane = feature(
+            fitInverseDepth(core.moments, noise_), core, core.moments.numPixels, depth.size());
         if (plane)
         {
             out.planes.push_back(*plane);
             kept.push_back(std::move(cluster));
         }
     }
-    out.labels = LabelPainter(grid_, depth, camera).paint(kept, test);
+    out.labels = LabelPainter(grid_, depth, camera, noise_).paint(kept, test);
     return out;
 }
 
@@ -285,7 +318,7 @@ PlaneSet PlaneExtractor::fitToPixels(
     const cv::Mat& depth,
     const PinholeCamera& camera) const
 {
-    const cv::Mat detected = LabelPainter(grid_, depth, camera).paint(clusters, test);
+    const cv::Mat detected = LabelPainter(grid_, depth, camera, noise_).paint(clusters, test);
     const auto segments = pixelsOfSegments(detected, depth, camera, clusters.size());
     PlaneSet out;
     out.labels = cv::Mat(depth.size(), CV_8UC1, cv::Scalar(0));
@@ -301,7 +334,7 @@ PlaneSet PlaneExtractor::fitToPixels(
         }
         const auto numInliers = static_cast<double>(inliers.size());
         const auto plane =
-            feature(fit(segment.points, inliers), clusters[k], numInliers, depth.rows);
+            feature(fit(segment.points, inliers), clusters[k], numInliers, depth.size());
         if (plane)
         {
             out.planes.push_back(*plane);
@@ -323,7 +356,8 @@ std::optional<PlaneGaussian> PlaneExtractor::fit(
     {
         const Eigen::Vector3d& P = points[i];
         chosen.push_back(P);
-        moments.add(P.x() / P.z(), P.y() / P.z(), 1 / P.z());
+        const double q = 1 / P.z();
+        moments.add(q * P.x(), q * P.y(), q, noise_.weight(q));
     }
     return params_.fitWeights == "sigmaZ" ? fitWeightedLeastSquares(chosen, noise_)
                                           : fitInverseDepth(moments, noise_);
@@ -334,13 +368,13 @@ std::optional<PlaneFeature> PlaneExtractor::feature(
     std::optional<PlaneGaussian> plane,
     const CellCluster& cells,
     double numPixels,
-    int imageHeight) const
+    cv::Size image) const
 {
     if (!plane || !(plane->theta_m.norm() > 1e-3) || !plane->cov_m.allFinite())
     {
         return std::nullopt;
     }
-    plane->cov_m *= params_.correlatedPixels;
-    return PlaneFeature{*plane, static_cast<int>(numPixels), rowLever(cells, grid_, imageHeight)};
+    plane->cov_m *= correlatedPixels(cells.moments, numPixels, image);
+    return PlaneFeature{*plane, static_cast<int>(numPixels), rowLever(cells, grid_, image.height)};
 }
 }  // namespace pointplane

@@ -34,7 +34,7 @@ std::optional<PlaneGaussian> fitInverseDepth(const PlaneMoments& moments, const 
     {
         return std::nullopt;
     }
-    const double residual2 = moments.n > 3 ? fit->sse / (moments.n - 3) : 0;
+    const double residual2 = moments.numPixels > 3 ? fit->sse / (moments.numPixels - 3) : 0;
     const double sigma2 = std::max(residual2, noise.sigmaInverseDepth * noise.sigmaInverseDepth);
     return PlaneGaussian{fit->theta_m, sigma2 * *inv};
 }

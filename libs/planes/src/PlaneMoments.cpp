@@ -17,6 +17,16 @@ void PlaneMoments::add(double ray_x, double ray_y, double inverseDepth, double w
     xq += weight * ray_x * inverseDepth;
     yq += weight * ray_y * inverseDepth;
     qq += weight * inverseDepth * inverseDepth;
+    numPixels += 1;
+}
+
+PlaneMoments& PlaneMoments::operator*=(double weight)
+{
+    for (double* sum : {&n, &x, &y, &xx, &xy, &yy, &q, &xq, &yq, &qq})
+    {
+        *sum *= weight;
+    }
+    return *this;
 }
 
 PlaneMoments& PlaneMoments::operator+=(const PlaneMoments& other)
@@ -31,6 +41,7 @@ PlaneMoments& PlaneMoments::operator+=(const PlaneMoments& other)
     xq += other.xq;
     yq += other.yq;
     qq += other.qq;
+    numPixels += other.numPixels;
     return *this;
 }
 
@@ -49,7 +60,7 @@ double PlaneMoments::sumSquaredResiduals(const Eigen::Vector3d& theta_m) const
 
 std::optional<MomentsFit> fitPlane(const PlaneMoments& m)
 {
-    if (m.n < 3)
+    if (m.numPixels < 3)
     {
         return std::nullopt;
     }

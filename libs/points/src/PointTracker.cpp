@@ -197,11 +197,19 @@ void PointTracker::TParams::check() const
 
 PointTracker::PointTracker(
     const TParams& params, const PointLifter::TParams& lifter, const DepthNoise& noise)
-    : params_(params),
-      lifter_(
-          lifter, {noise.sigmaInverseDepth * std::sqrt(params.depthVarianceFactor), params.sigmaPx})
+    : params_(params), lifter_(lifter, cornerNoise(noise))
 {
     params_.check();
+}
+
+void PointTracker::setNoise(const DepthNoise& noise) { lifter_.setNoise(cornerNoise(noise)); }
+
+/** Noise of depth at a corner, and of a corner's position. */
+DepthNoise PointTracker::cornerNoise(const DepthNoise& noise) const
+{
+    DepthNoise out = noise.scaled(std::sqrt(params_.depthVarianceFactor));
+    out.sigmaPixelPx = params_.sigmaPx;
+    return out;
 }
 
 std::vector<cv::Mat> PointTracker::pyramid(const cv::Mat& gray) const

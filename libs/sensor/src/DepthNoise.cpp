@@ -2,16 +2,49 @@
 #include <pointplane/core/check.h>
 #include <pointplane/sensor/DepthNoise.h>
 
+#include <algorithm>
+#include <array>
+#include <iomanip>
+#include <locale>
+#include <sstream>
+
 namespace pointplane
 {
 void DepthNoise::check() const
 {
+    constexpr std::array kinds{
+        "learn", "structuredLight", "activeStereo", "timeOfFlight", "rendered", "given"};
+    POINTPLANE_CHECK(
+        std::find(kinds.begin(), kinds.end(), kind) != kinds.end(),
+        "kind = "
+            << kind
+            << " is not learn, structuredLight, activeStereo, timeOfFlight, rendered or given");
+    POINTPLANE_CHECK(
+        sigmaDepth >= 0 && sigmaDepth < 1, "sigmaDepth = " << sigmaDepth << " is not in [0, 1) m");
+    POINTPLANE_CHECK(
+        sigmaRelative >= 0 && sigmaRelative < 1,
+        "sigmaRelative = " << sigmaRelative << " is not in [0, 1)");
     POINTPLANE_CHECK(
         sigmaInverseDepth > 0 && sigmaInverseDepth < 1,
         "sigmaInverseDepth = " << sigmaInverseDepth << " is not in (0, 1) 1/m");
     POINTPLANE_CHECK(
         sigmaPixelPx > 0 && sigmaPixelPx < 100,
         "sigmaPixelPx = " << sigmaPixelPx << " is not in (0, 100) px");
+}
+
+std::string describe(const DepthNoise& noise)
+{
+    DepthNoise unbent = noise;
+    unbent.sigmaRelative = 0;
+    std::ostringstream out;
+    out.imbue(std::locale::classic());
+    out << std::setprecision(2) << noise.kind << ", " << 1e3 * unbent.sigmaZ(1) << " mm at 1 m, "
+        << 1e3 * unbent.sigmaZ(3) << " mm at 3 m";
+    if (noise.sigmaRelative > 0)
+    {
+        out << "; surfaces bent by " << 100 * noise.sigmaRelative << " % of their depth";
+    }
+    return out.str();
 }
 
 PointGaussian backProject(

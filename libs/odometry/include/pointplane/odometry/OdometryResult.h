@@ -4,6 +4,7 @@
 #include <pointplane/core/PoseGaussian.h>
 #include <pointplane/planes/PlaneFeature.h>
 #include <pointplane/points/PointFeature.h>
+#include <pointplane/sensor/DepthNoise.h>
 
 #include <string>
 #include <vector>
@@ -36,6 +37,7 @@ struct FrameDiagnostics
     double planeChi2PerDof{0};      //!< reduced chi-square of plane residuals
     double maxSigmaTranslation{0};  //!< largest standard deviation of the increment [m]
     double maxSigmaRotation{0};     //!< [rad]
+    DepthNoise depthNoise;          //!< of the camera, as far as its images have told by then
     double msPoints{0}, msPlanes{0}, msMatching{0}, msPose{0}, msTotal{0};  //!< wall time [ms]
 };
 

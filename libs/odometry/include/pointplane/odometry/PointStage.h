@@ -50,6 +50,9 @@ class PointStage
         const PointLifter::TParams& lifter,
         const DepthNoise& noise);
 
+    /** For points that are lifted from now on. */
+    void setNoise(const DepthNoise& noise);
+
     [[nodiscard]] PreparedPoints prepare(const RgbdFrame& frame) const;
 
     /** \param prepared of the same frame */

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <pointplane/planes/PlaneMoments.h>
+#include <pointplane/sensor/DepthNoise.h>
 #include <pointplane/sensor/PinholeCamera.h>
 
 #include <opencv2/core/mat.hpp>
@@ -16,10 +17,14 @@ struct CellGrid
 {
     int cellSizePx{10};
     int cols{0}, rows{0};               //!< cells
-    std::vector<PlaneMoments> moments;  //!< rows x cols, row-major; n = number of valid pixels
+    std::vector<PlaneMoments> moments;  //!< rows x cols, row-major
 
     /** Recomputes from a depth image, reusing the memory.
      * \param depth CV_32FC1 [m], NaN = no reading */
     void compute(const cv::Mat& depth, const PinholeCamera& camera, int cellSize);
+
+    /** Weighs each cell by its noise, so that every weighted pixel's inverse depth has the variance
+     * noise.sigmaInverseDepth^2; nothing to do where that is so at every depth. */
+    void weigh(const DepthNoise& noise);
 };
 }  // namespace pointplane

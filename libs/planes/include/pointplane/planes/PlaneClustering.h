@@ -8,17 +8,30 @@
 namespace pointplane
 {
 /** When do pixels belong to one plane? In inverse depth, where the noise is constant; the lateral
- * noise adds with the slope: tolerance^2 = sigma_q^2 + (slopePx |theta_xy| / f)^2. */
+ * noise adds with the slope: tolerance^2 = sigma_q^2 + (slopePx |theta_xy| / f)^2. Where a camera's
+ * noise is not constant, pixels are weighted (CellGrid::weigh()) such that it becomes so. */
 struct PlanarityTest
 {
-    double sigmaInverseDepth{1.425e-3};  //!< [1/m]
-    double slopePx{1};                   //!< lateral uncertainty of a depth reading [px]
+    DepthNoise noise;
+    double slopePx{1};     //!< lateral uncertainty of a depth reading [px]
+    double bentPixels{1};  //!< what bends surfaces bends this many pixels like one piece
     double focalLengthPx{525};
     double cellSigmas{2.5};  //!< rms residual of one cell, in tolerances
     double mergeSigmas{2};   //!< rms residual of merged cells, in tolerances
     double stepSigmas{2};    //!< rms offset of the smaller part from the joint plane, in tolerances
 
-    [[nodiscard]] double toleranceSquared(const Eigen::Vector3d& theta_m) const;
+    /** What lateral noise adds to the variance of a pixel's inverse depth [1/m^2]. */
+    [[nodiscard]] double slopeSquared(const Eigen::Vector3d& theta_m) const;
+
+    /** Sum over weighted pixels of the squared residuals that one sigma of noise makes [1/m^2].
+     * \param bend how much of what bends surfaces is in them, in [0, 1] of the variance */
+    [[nodiscard]] double tolerated(
+        const Eigen::Vector3d& theta_m, const PlaneMoments& m, double bend) const;
+
+    /** Of what bends surfaces, the part of the variance that a plane fitted to so many pixels
+     * leaves: a smooth error looks plane where little of it is seen. */
+    [[nodiscard]] double bendWithin(double numPixels) const;
+
     [[nodiscard]] bool isPlanarCell(const PlaneMoments& cell) const;
 
     /** The joint fit when the two parts are one plane. */

@@ -73,6 +73,9 @@ class PlaneExtractor
      * first */
     [[nodiscard]] PlaneSet extract(const cv::Mat& depth, const PinholeCamera& camera);
 
+    /** For images from now on. */
+    void setNoise(const DepthNoise& noise) { noise_ = noise; }
+
  private:
     [[nodiscard]] PlaneSet fitToCells(
         std::vector<CellCluster> clusters,
@@ -90,7 +93,9 @@ class PlaneExtractor
         std::optional<PlaneGaussian> plane,
         const CellCluster& cells,
         double numPixels,
-        int imageHeight) const;
+        cv::Size image) const;
+    [[nodiscard]] double correlatedPixels(
+        const PlaneMoments& plane, double numPixels, cv::Size image) const;
 
     TParams params_;
     DepthNoise noise_;

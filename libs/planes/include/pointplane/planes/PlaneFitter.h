@@ -14,8 +14,9 @@
 
 namespace pointplane
 {
-/** Plane with constant noise in inverse depth: Sigma_m = sigma^2 (sum r r^T)^-1, where sigma is the
- * sensor's or, when larger, the residuals'. Pixels count as independent. */
+/** Plane with constant noise in inverse depth: Sigma_m = sigma^2 (sum w r r^T)^-1, where sigma is
+ * noise.sigmaInverseDepth of a weighted pixel (CellGrid::weigh()) or, when larger, the residuals'.
+ * Pixels count as independent. */
 [[nodiscard]] std::optional<PlaneGaussian> fitInverseDepth(
     const PlaneMoments& moments, const DepthNoise& noise);
 

@@ -16,6 +16,10 @@ namespace pointplane
 struct PlaneMoments
 {
     double n{0}, x{0}, y{0}, xx{0}, xy{0}, yy{0}, q{0}, xq{0}, yq{0}, qq{0};
+    double numPixels{0};  //!< n is the sum of their weights
+
+    /** Weighs all pixels anew. */
+    PlaneMoments& operator*=(double weight);
 
     /** Adds one pixel. \param ray_x, ray_y normalised coordinates \param inverseDepth [1/m] */
     void add(double ray_x, double ray_y, double inverseDepth, double weight = 1);
@@ -34,7 +38,7 @@ struct PlaneMoments
 struct MomentsFit
 {
     Eigen::Vector3d theta_m{0, 0, -1};  //!< n / d [1/m]
-    double sse{0};            //!< sum of squared inverse-depth residuals [1/m^2]
+    double sse{0};                      //!< sum of squared inverse-depth residuals [1/m^2]
 };
 
 /** \return nothing when the pixels do not span a plane (fewer than 3, or collinear). */

@@ -52,6 +52,9 @@ class PointLifter
     explicit PointLifter(const DepthNoise& noise) : PointLifter(TParams{}, noise) {}
     PointLifter(const TParams& params, const DepthNoise& noise);
 
+    /** For points that are lifted from now on. */
+    void setNoise(const DepthNoise& noise) { noise_ = noise; }
+
     /** \param uv_px raw pixel \return nothing without usable depth there */
     [[nodiscard]] std::optional<PointFeature> lift(
         const RgbdFrame& frame, const Eigen::Vector2d& uv_px) const;

@@ -98,6 +98,9 @@ class PointTracker
     PointTracker(
         const TParams& params, const PointLifter::TParams& lifter, const DepthNoise& noise);
 
+    /** For points that are lifted from now on. */
+    void setNoise(const DepthNoise& noise);
+
     /** The image pyramid that track needs. */
     [[nodiscard]] std::vector<cv::Mat> pyramid(const cv::Mat& gray) const;
 
@@ -140,6 +143,8 @@ class PointTracker
         const Search& search) const;
 
     TParams params_;
+    [[nodiscard]] DepthNoise cornerNoise(const DepthNoise& noise) const;
+
     PointLifter lifter_;
 };
 }  // namespace pointplane

@@ -4,31 +4,95 @@
 #include <pointplane/core/PointGaussian.h>
 #include <pointplane/sensor/PinholeCamera.h>
 
+#include <cmath>
+#include <string>
+
 namespace pointplane
 {
-/** Noise of a structured-light depth camera: constant in inverse depth.
+/** Noise of a depth camera, sigma_Z^2 = sigmaDepth^2 + (sigmaRelative Z)^2 + (sigmaInverseDepth
+ * Z^2)^2.
  *
- * Khoshelham & Elberink 2012, quoted by [P17, after Eq. 2]: sigma_Z = 1.425e-6 Z^2 in mm, that is
- * sigma_Z = 1.425e-3 Z^2 in metres, hence sigma of 1/Z is 1.425e-3 per metre at every depth. */
+ * Triangulation (structured light, active stereo) errs by a constant in inverse depth. Khoshelham &
+ * Elberink 2012, quoted by [P17, after Eq. 2]: sigma_Z = 1.425e-6 Z^2 in mm, that is sigma_Z =
+ * 1.425e-3 Z^2 in metres, hence sigma of 1/Z is 1.425e-3 per metre at every depth of a Kinect. Time
+ * of flight errs by a constant. sigmaRelative is what surfaces are bent by, smoothly over many
+ * pixels: what is left of calibration, several paths of light, upsampling. */
 struct DepthNoise
 {
     double sigmaInverseDepth{1.425e-3};  //!< [1/m]
     double sigmaPixelPx{0.5};            //!< [px], key point localisation [P17, after Eq. 2]
+    double sigmaDepth{0};                //!< [m]
+    double sigmaRelative{0};             //!< of the depth
+    std::string kind{"learn"};           //!< what to do about the three; see visit()
 
     /** Standard deviation of a depth reading. \param z [m] \return [m] */
-    [[nodiscard]] double sigmaZ(double z) const { return sigmaInverseDepth * z * z; }
+    [[nodiscard]] double sigmaZ(double z) const
+    {
+        return isConstantInInverseDepth() ? sigmaInverseDepth * z * z
+                                          : z * z * std::sqrt(inverseDepthVariance(1 / z));
+    }
+
+    /** Variance of an inverse depth. \param q [1/m] \return [1/m^2] */
+    [[nodiscard]] double inverseDepthVariance(double q) const
+    {
+        const double relative = sigmaRelative * q, constant = sigmaDepth * q * q;
+        return sigmaInverseDepth * sigmaInverseDepth + relative * relative + constant * constant;
+    }
+
+    /** That makes the variance of a weighted inverse depth sigmaInverseDepth^2. */
+    [[nodiscard]] double weight(double q) const
+    {
+        return isConstantInInverseDepth()
+                   ? 1
+                   : sigmaInverseDepth * sigmaInverseDepth / inverseDepthVariance(q);
+    }
+
+    /** Part of that which bends surfaces, in [0, 1]. */
+    [[nodiscard]] double relativeShare(double q) const
+    {
+        const double relative = sigmaRelative * q;
+        return relative * relative / inverseDepthVariance(q);
+    }
+
+    [[nodiscard]] bool isConstantInInverseDepth() const
+    {
+        return sigmaDepth == 0 && sigmaRelative == 0;
+    }
+
+    /** The same with all standard deviations of depth times a factor. */
+    [[nodiscard]] DepthNoise scaled(double factor) const
+    {
+        DepthNoise out = *this;
+        out.sigmaInverseDepth *= factor;
+        out.sigmaDepth *= factor;
+        out.sigmaRelative *= factor;
+        return out;
+    }
 
     template <class V>
     void visit(V&& v)
     {
+        v("kind",
+          kind,
+          "-",
+          "learn (from the depth images), structuredLight, activeStereo, timeOfFlight, rendered "
+          "(levels learnt), or given (as the next three say)");
         v("sigmaInverseDepth",
           sigmaInverseDepth,
           "1/m",
-          "noise of the inverse depth; Khoshelham's sigma_Z = this * Z^2");
+          "noise of structured light's inverse depth; Khoshelham's sigma_Z = this * Z^2");
+        v("sigmaDepth", sigmaDepth, "m", "given: noise that does not depend on the depth");
+        v("sigmaRelative",
+          sigmaRelative,
+          "-",
+          "given: smooth error that bends surfaces, over the depth");
         v("sigmaPixelPx", sigmaPixelPx, "px", "noise of a key point's position");
     }
     void check() const;
 };
+
+/** For people: kind, and noise at 1 m and at 3 m. */
+[[nodiscard]] std::string describe(const DepthNoise& noise);
 
 /** Point at depth z behind a raw pixel, P = z (x, y, 1) [P17 Eq. 1], with its first-order
  * covariance J diag(sigma_p^2, sigma_p^2, sigma_Z^2) J^T [P17 Eq. 2]. Frame: camera, optical axes.

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/sensor/DepthNoiseLearner.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pointplane
+{
+namespace
+{
+constexpr int kCellPx = 10;
+constexpr int kEveryCell = 3;                              //!< in each direction
+constexpr double kLeastValid = 0.95;                       //!< of a cell
+constexpr double kLeastDepth = 0.125, kLeastSigma = 1e-6;  // [m]
+
+/** At first every image counts; then, one in so many. */
+constexpr long kFirstImages = 5, kEveryImage = 10;
+
+/** What is kept of earlier images whenever one is added. */
+constexpr double kKept = 0.95;
+
+/** Least of these cells are planar even in cluttered scenes. */
+constexpr double kPlanarCells = 0.25;
+
+/** A cell sees that part of the noise that changes within it; what is correlated over more pixels
+ * is about as much again. Measured between cells of 10 px and of 40 px on cameras of all kinds, and
+ * what the least of a Kinect's cells have to its published noise. */
+constexpr double kBeyondCell = 1.4;
+
+/** By how much cameras other than structured light's bend a surface, of its distance: calibration,
+ * several paths of light, upsampling. Data sheets and published measurements: 0.1 to 1 %. */
+constexpr double kBend = 0.005;
+
+/** Structured light: its disparities are multiples of 1/8 px, 2.9e-3 in 1/Z [1/m]. */
+constexpr double kStructuredStep = 2.9e-3;
+/** Below 0.7 of that lie 1 to 2 % of a Kinect's steps, and 18 % or more where there are no levels.
+ */
+constexpr double kFineShare = 0.08, kFineStep = 0.7, kLargestStep = 4;
+constexpr double kNearestStep = 0.75;  //!< nearer, millimetres are coarser than its steps [m]
+constexpr double kLeastSteps = 200, kLeastCells = 20;
+
+/** Noise of structured light over that which is given; between, something else. */
+constexpr double kLessNoise = 0.5, kMoreNoise = 2;
+/** Below this, an image was not measured: rounding to millimetres makes 0.3 mm. */
+constexpr double kRenderedSigma = 1e-4;  // [m]
+
+[[nodiscard]] double depthOfBin(int bin, double within = 0.5)
+{
+    return kLeastDepth * std::exp2(0.5 * (bin + within));
+}
+
+/** A quantile of a histogram of logarithms. \return 0 where it is empty */
+template <class Histogram>
+[[nodiscard]] double quantile(const Histogram& histogram, double share, double total)
+{
+    double below = 0;
+    for (std::size_t i = 0; i < histogram.size(); ++i)
+    {
+        if (histogram[i] > 0 && below + histogram[i] >= share * total)
+        {
+            const double within = (share * total - below) / histogram[i];
+            return kLeastSigma * std::exp2(0.25 * (static_cast<double>(i) + within));
+        }
+        below += histogram[i];
+    }
+    return 0;
+}
+}  // namespace
+
+DepthNoiseLearner::DepthNoiseLearner(const DepthNoise& given) : given_(given), noise_(given)
+{
+    given.check();
+    decide();
+}
+
+void DepthNoiseLearner::update(const cv::Mat& depth)
+{
+    const long image = numImages_++;
+    if (given_.kind == "given" || (image >= kFirstImages && image % kEveryImage != 0))
+    {
+        return;
+    }
+    for (Histogram& histogram : residuals_)
+    {
+        std::for_each(histogram.begin(), histogram.end(), [](double& count) { count *= kKept; });
+    }
+    std::for_each(cells_.begin(), cells_.end(), [](double& count) { count *= kKept; });
+    fineSteps_ *= kKept;
+    steps_ *= kKept;
+    const int stride = kEveryCell * kCellPx;
+    for (int v = 0; v + kCellPx <= depth.rows; v += stride)
+    {
+        // Columns are shifted from row to row, so that a grid in the scene is no grid here.
+        for (int u = v / stride % kEveryCell * kCellPx; u + kCellPx <= depth.cols; u += stride)
+        {
+            addCell(depth, u, v);
+        }
+    }
+    decide();
+}
+
+void DepthNoiseLearner::addCell(const cv::Mat& depth, int u0, int v0)
+{
+    constexpr double kMiddle = 0.5 * (kCellPx - 1);
+    Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d b = Eigen::Vector3d::Zero();
+    double qq = 0;
+    for (int v = 0; v < kCellPx; ++v)
+    {
+        const float* row = depth.ptr<float>(v0 + v) + u0;
+        for (int u = 0; u < kCellPx; ++u)
+        {
+            if (row[u] > 0)  // false for NaN
+            {
+                const double q = 1 / static_cast<double>(row[u]);
+                const Eigen::Vector3d x(1, u - kMiddle, v - kMiddle);
+                A += x * x.transpose();
+                b += x * q;
+                qq += q * q;
+            }
+        }
+    }
+    const double n = A(0, 0);
+    if (n < kLeastValid * kCellPx * kCellPx)
+    {
+        return;
+    }
+    addSteps(depth.ptr<float>(v0 + kCellPx / 2) + u0, kCellPx);
+    const Eigen::Vector3d plane = A.ldlt().solve(b);
+    const double z = n / b(0);
+    const double sigma = z * z * std::sqrt(std::max(0.0, qq - b.dot(plane)) / (n - 3));
+    const auto bin = static_cast<int>(std::floor(2 * std::log2(z / kLeastDepth)));
+    if (bin >= 0 && bin < kNumDepths)
+    {
+        const double level = 4 * std::log2(std::max(sigma, kLeastSigma) / kLeastSigma);
+        const auto i = static_cast<std::size_t>(std::min(level, kNumLevels - 1.0));
+        residuals_[static_cast<std::size_t>(bin)][i] += 1;
+        cells_[static_cast<std::size_t>(bin)] += 1;
+    }
+}
+
+void DepthNoiseLearner::addSteps(const float* row, int count)
+{
+    for (int u = 0; u + 1 < count; ++u)
+    {
+        const double a = static_cast<double>(row[u]), b = static_cast<double>(row[u + 1]);
+        const double step = std::abs(1 / a - 1 / b);
+        if (a > kNearestStep && b > kNearestStep && step > 0 &&
+            step < kLargestStep * kStructuredStep)
+        {
+            steps_ += 1;
+            fineSteps_ += step < kFineStep * kStructuredStep ? 1 : 0;
+        }
+    }
+}
+
+std::string DepthNoiseLearner::judgedKind() const
+{
+    if (steps_ > kLeastSteps && fineSteps_ < kFineShare * steps_)
+    {
+        return "structuredLight";
+    }
+    // Over that of structured light, where that is larger than what rounding makes, and anywhere.
+    double far = 0, farCells = 0, nearCells = 0, least = 1;
+    for (int bin = 0; bin < kNumDepths; ++bin)
+    {
+        const auto i = static_cast<std::size_t>(bin);
+        if (cells_[i] < kLeastCells)
+        {
+            continue;
+        }
+        const double z = depthOfBin(bin), sigma = quantile(residuals_[i], kPlanarCells, cells_[i]);
+        least = std::min(least, sigma);
+        if (z > kNearestStep)
+        {
+            far += cells_[i] *
+                   std::log(std::max(sigma, kLeastSigma) / (given_.sigmaInverseDepth * z * z));
+            farCells += cells_[i];
+        }
+        else
+        {
+            nearCells += cells_[i];
+        }
+    }
+    if (farCells + nearCells == 0)
+    {
+        return "structuredLight";
+    }
+    if (least < kRenderedSigma)
+    {
+        return "rendered";
+    }
+    const double level = farCells > 0 ? std::exp(far / farCells) : 0;
+    return level < kLessNoise   ? "timeOfFlight"
+           : level > kMoreNoise ? "activeStereo"
+                                : "structuredLight";
+}
+
+void DepthNoiseLearner::decide()
+{
+    noise_ = given_;
+    if (given_.kind == "given")
+    {
+        return;
+    }
+    noise_.kind = given_.kind == "learn" ? judgedKind() : given_.kind;
+    noise_.sigmaDepth = noise_.sigmaRelative = 0;
+    if (noise_.kind == "structuredLight" || noise_.kind == "rendered")
+    {
+        return;
+    }
+    // Least squares of sigma^2 = constant + slope z^4, relative to what is measured.
+    Eigen::Matrix2d A = Eigen::Matrix2d::Zero();
+    Eigen::Vector2d b = Eigen::Vector2d::Zero();
+    for (int bin = 0; bin < kNumDepths; ++bin)
+    {
+        const auto i = static_cast<std::size_t>(bin);
+        const double sigma =
+            cells_[i] < kLeastCells ? 0 : quantile(residuals_[i], kPlanarCells, cells_[i]);
+        if (sigma > 0)
+        {
+            const double z = depthOfBin(bin);
+            // Near readings alone tell nothing of how the noise grows.
+            const double fourth = z > kNearestStep ? z * z * z * z : 0;
+            const Eigen::Vector2d x(1 / (sigma * sigma), fourth / (sigma * sigma));
+            A += cells_[i] * x * x.transpose();
+            b += cells_[i] * x;
+        }
+    }
+    noise_.sigmaRelative = kBend;
+    Eigen::Vector2d variance =
+        A.determinant() > 0 ? Eigen::Vector2d(A.inverse() * b) : Eigen::Vector2d(0, -1);
+    if (!(variance.x() >= 0) || !(variance.y() >= 0))
+    {
+        const bool constant = !(variance.y() >= 0);
+        variance = constant ? Eigen::Vector2d(A(0, 0) > 0 ? b(0) / A(0, 0) : 0, 0)
+                            : Eigen::Vector2d(0, A(1, 1) > 0 ? b(1) / A(1, 1) : 0);
+    }
+    noise_.sigmaDepth = kBeyondCell * std::sqrt(variance.x());
+    noise_.sigmaInverseDepth = std::max(1e-6, kBeyondCell * std::sqrt(variance.y()));
+}
+}  // namespace pointplane

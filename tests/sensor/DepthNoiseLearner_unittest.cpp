@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/sensor/DepthNoiseLearner.h>
+
+#include <opencv2/imgproc.hpp>
+
+#include <cmath>
+#include <functional>
+
+#include "monte_carlo.h"
+#include <gtest/gtest.h>
+
+namespace pointplane
+{
+namespace
+{
+/** A floor that rises from `far` at the top of the image to `near` at its bottom, each depth [m]
+ * changed by the sensor. */
+cv::Mat floorImage(double near, double far, const std::function<double(double)>& sensor)
+{
+    cv::Mat depth(240, 320, CV_32FC1);
+    for (int v = 0; v < depth.rows; ++v)
+    {
+        const double share = static_cast<double>(v) / (depth.rows - 1);
+        const double q = (1 - share) / far + share / near;
+        for (int u = 0; u < depth.cols; ++u)
+        {
+            depth.at<float>(v, u) = static_cast<float>(sensor(1 / q));
+        }
+    }
+    return depth;
+}
+
+DepthNoise learnt(
+    double near, double far, const std::function<double(double)>& sensor, const DepthNoise& given)
+{
+    DepthNoiseLearner learner(given);
+    for (int i = 0; i < 3; ++i)
+    {
+        learner.update(floorImage(near, far, sensor));
+    }
+    return learner.noise();
+}
+
+double inMillimetres(double z) { return 1e-3 * std::round(1e3 * z); }
+
+class DepthNoiseLearnerTest : public testing::Test
+{
+ protected:
+    double normal() { return sampler_.normal(); }
+
+    test::GaussianSampler sampler_{5};
+};
+
+void expectGiven(const DepthNoise& noise)
+{
+    EXPECT_EQ(noise.sigmaInverseDepth, DepthNoise().sigmaInverseDepth);
+    EXPECT_TRUE(noise.isConstantInInverseDepth());
+}
+}  // namespace
+
+TEST_F(DepthNoiseLearnerTest, disparityLevelsAreStructuredLight)
+{
+    // A Kinect's levels, with half of the noise that is published, in millimetres.
+    const auto kinect = [&](double z)
+    { return inMillimetres(1 / (2.87e-3 * std::round((1 / z + 0.7e-3 * normal()) / 2.87e-3))); };
+    const DepthNoise noise = learnt(0.8, 4, kinect, {});
+    EXPECT_EQ(noise.kind, "structuredLight");
+    expectGiven(noise);
+}
+
+TEST_F(DepthNoiseLearnerTest, itsNoiseWithoutLevelsIsStructuredLight)
+{
+    const DepthNoise noise =
+        learnt(0.8, 4, [&](double z) { return 1 / (1 / z + 1.2e-3 * normal()); }, {});
+    EXPECT_EQ(noise.kind, "structuredLight");
+    expectGiven(noise);
+}
+
+TEST_F(DepthNoiseLearnerTest, constantNoiseIsTimeOfFlight)
+{
+    const DepthNoise noise =
+        learnt(0.5, 4, [&](double z) { return inMillimetres(z + 1e-3 * normal()); }, {});
+    EXPECT_EQ(noise.kind, "timeOfFlight");
+    // 1 mm and the rounding's 0.3 within a cell, times what cells do not see.
+    EXPECT_NEAR(noise.sigmaDepth, 1.4 * std::hypot(1e-3, 1e-3 / std::sqrt(12)), 3e-4);
+    EXPECT_GT(noise.sigmaRelative, 0);
+    EXPECT_LT(noise.sigmaInverseDepth, 2e-4);
+}
+
+TEST_F(DepthNoiseLearnerTest, muchNoiseInInverseDepthIsActiveStereo)
+{
+    const DepthNoise noise =
+        learnt(0.5, 4, [&](double z) { return inMillimetres(1 / (1 / z + 5e-3 * normal())); }, {});
+    EXPECT_EQ(noise.kind, "activeStereo");
+    EXPECT_NEAR(noise.sigmaInverseDepth, 1.4 * 5e-3, 2e-3);
+    EXPECT_GT(noise.sigmaRelative, 0);
+}
+
+TEST_F(DepthNoiseLearnerTest, noNoiseIsRendered)
+{
+    const DepthNoise noise = learnt(0.5, 4, [](double z) { return z; }, {});
+    EXPECT_EQ(noise.kind, "rendered");
+    expectGiven(noise);
+}
+
+TEST_F(DepthNoiseLearnerTest, nearReadingsDoNotTellHowNoiseGrows)
+{
+    const DepthNoise noise =
+        learnt(0.2, 0.4, [&](double z) { return inMillimetres(z + 0.4e-3 * normal()); }, {});
+    EXPECT_EQ(noise.kind, "timeOfFlight");
+    EXPECT_NEAR(noise.sigmaDepth, 1.4 * std::hypot(0.4e-3, 1e-3 / std::sqrt(12)), 2e-4);
+    EXPECT_LT(noise.sigmaInverseDepth, 1e-5);
+}
+
+TEST_F(DepthNoiseLearnerTest, whatIsSaidIsKept)
+{
+    DepthNoise given;
+    given.kind = "given";
+    given.sigmaDepth = 0.01;
+    given.sigmaRelative = 0.02;
+    const auto flight = [&](double z) { return inMillimetres(z + 1e-3 * normal()); };
+    const DepthNoise kept = learnt(0.5, 4, flight, given);
+    EXPECT_EQ(kept.kind, "given");
+    EXPECT_EQ(kept.sigmaDepth, 0.01);
+    EXPECT_EQ(kept.sigmaRelative, 0.02);
+
+    given = {};
+    given.kind = "structuredLight";
+    expectGiven(learnt(0.5, 4, flight, given));
+    given.kind = "activeStereo";
+    EXPECT_NEAR(learnt(0.5, 4, flight, given).sigmaDepth, 1.4e-3, 3e-4);
+}
+
+TEST_F(DepthNoiseLearnerTest, imagesThatTellNothingLeaveWhatIsGiven)
+{
+    DepthNoiseLearner learner({});
+    EXPECT_EQ(learner.noise().kind, "structuredLight");
+    learner.update(cv::Mat(240, 320, CV_32FC1, cv::Scalar(std::nan(""))));
+    learner.update(cv::Mat(5, 5, CV_32FC1, cv::Scalar(1)));
+    learner.update(cv::Mat());
+    EXPECT_EQ(learner.noise().kind, "structuredLight");
+    expectGiven(learner.noise());
+}
+
+/** A camera that first looks at something near is known when it has seen the room. */
+TEST_F(DepthNoiseLearnerTest, aKinectThatStartsNearIsKnownLater)
+{
+    const auto kinect = [&](double z)
+    { return inMillimetres(1 / (2.87e-3 * std::round((1 / z + 0.7e-3 * normal()) / 2.87e-3))); };
+    DepthNoiseLearner learner({});
+    for (int i = 0; i < 30; ++i)
+    {
+        learner.update(i < 5 ? floorImage(0.45, 0.7, kinect) : floorImage(0.8, 4, kinect));
+    }
+    EXPECT_EQ(learner.noise().kind, "structuredLight");
+}
+}  // namespace pointplane
