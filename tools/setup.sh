@@ -14,6 +14,7 @@ build_packages=(
     libeigen3-dev libopencv-dev libdlib-dev zlib1g-dev libdeflate-dev
     libmrpt-obs-dev libmrpt-graphslam-dev libcli11-dev nlohmann-json3-dev libgtest-dev libgmock-dev
     libopenni2-dev "libfreenect-dev?" help2man "pybind11-dev?" python3-dev
+    "librosbag-storage-dev?" "libsensor-msgs-dev?" "libtf2-msgs-dev?"
 )
 [[ ${CXX:-} != *clang* ]] || build_packages+=(clang)
 # MRPT's own programs and data sets, which the tests run on our output; a browser for the reports;

@@ -2,13 +2,18 @@
 #include "ConvertApp.h"
 
 #include <pointplane/mrpt_io/errors.h>
+#include <pointplane/mrpt_io/rawlog_names.h>
 
 #include <algorithm>
 #include <cmath>
 #include <ostream>
 
-#include "ProgressBar.h"
+#include "BagRecording.h"
+#include "FolderRecording.h"
+#include "KlgRecording.h"
+#include "OutputGuard.h"
 #include "TumConverter.h"
+#include "convert_recording.h"
 #include "run_program.h"
 #include <CLI/CLI.hpp>
 
@@ -38,6 +43,103 @@ void addTumCommand(CLI::App& app, TumConverterOptions& options)
     tum->add_flag("--quiet", options.quiet, "no progress");
 }
 
+void addOutputOptions(CLI::App& command, RecordingOutput& output)
+{
+    command.add_option("-o,--output", output.path, "rawlog to write")->required();
+    command.add_option("--label", output.label, "sensor label")->capture_default_str();
+    command.add_flag("--external", output.external, "images as files beside the rawlog");
+    command.add_flag(
+        "--strict",
+        output.strict,
+        "stop at a frame that cannot be read, instead of leaving it out");
+    command.add_flag("--quiet", output.quiet, "no progress");
+}
+
+constexpr const char* kCameraHelp =
+    "a file: MRPT's camera ini or one line `fx fy cx cy k1 k2 p1 p2 k3 width height unitsPerMetre`";
+
+CLI::App* addFolderCommand(CLI::App& app, FolderOptions& options, RecordingOutput& output)
+{
+    CLI::App* folder = app.add_subcommand(
+        "folder",
+        "Numbered or stamped images: ScanNet, 7-Scenes, Redwood, Replica, Bonn, Record3D, "
+        "StrayScanner, or any two folders like rgb and depth");
+    folder->add_option("folder", options.folder, "holds the images")->required();
+    folder->add_option(
+        "--camera",
+        options.camera,
+        std::string(kCameraHelp) +
+            " (default: camera.txt in the folder, or what its layout tells)");
+    folder->add_option(
+        "--depth-scale",
+        options.depthScale,
+        "depth units per metre (default: the "
+        "layout's, else 1000)");
+    folder->add_option(
+        "--fps",
+        options.fps,
+        "frames a second, by number (default: stamps, else the "
+        "layout's rate, else 30)");
+    folder->add_option("--max-difference", options.maxDifference, "between colour and depth [s]")
+        ->capture_default_str();
+    addOutputOptions(*folder, output);
+    return folder;
+}
+
+CLI::App* addKlgCommand(CLI::App& app, KlgOptions& options, RecordingOutput& output)
+{
+    CLI::App* klg = app.add_subcommand("klg", "A log of Kintinuous or ElasticFusion");
+    klg->add_option("file", options.file, "the log")->required();
+    klg->add_option(
+        "--camera", options.camera, std::string(kCameraHelp) + " (default: 528 px, 640x480)");
+    klg->add_option(
+        "--depth-scale", options.depthScale, "depth units per metre (default: the camera's, 1000)");
+    klg->add_flag("--bgr", options.bgr, "its colours are in the order blue, green, red");
+    addOutputOptions(*klg, output);
+    return klg;
+}
+
+CLI::App* addBagCommand(CLI::App& app, BagOptions& options, RecordingOutput& output)
+{
+    CLI::App* bag = app.add_subcommand("bag", "A ROS 1 bag, also of RealSense's recorder");
+    bag->add_option("file", options.file, "the bag")->required();
+    bag->add_option(
+        "--colour-topic", options.colourTopic, "colour images (default: the only ones)");
+    bag->add_option("--depth-topic", options.depthTopic, "depth images (default: the only ones)");
+    bag->add_option(
+        "--camera",
+        options.camera,
+        "of colour, " + std::string(kCameraHelp) + " (default: camera_info of the bag)");
+    bag->add_option(
+        "--depth-scale", options.depthScale, "units per metre of 16 bit depth (default: 1000)");
+    bag->add_option("--max-difference", options.maxDifference, "between colour and depth [s]")
+        ->capture_default_str();
+    addOutputOptions(*bag, output);
+    return bag;
+}
+
+/** \param inputs files or folders that are read */
+int convert(
+    Recording& recording,
+    const RecordingOutput& output,
+    const std::vector<std::string>& inputs,
+    std::ostream& out,
+    std::ostream& err)
+{
+    OutputGuard guard;
+    guard.addOutput("-o", output.path);
+    if (output.external)
+    {
+        guard.addOutputFolder("images of -o", imagesFolderOf(output.path), "");
+    }
+    for (const std::string& input : inputs)
+    {
+        guard.addInput(input);
+    }
+    const RecordingSummary summary = convertRecording(recording, output, err);
+    return report(summary, output, recording.notes(), out, err);
+}
+
 int convert(const TumConverterOptions& options, std::ostream& out, std::ostream& err)
 {
     const TumConversion done = convertTum(options, err);
@@ -64,6 +166,37 @@ int runConvert(const std::vector<std::string>& args, std::ostream& out, std::ost
     app.require_subcommand(1);
     TumConverterOptions options;
     addTumCommand(app, options);
-    return runCommand(app, args, out, err, [&] { return convert(options, out, err); });
+    RecordingOutput output;
+    FolderOptions folderOptions;
+    KlgOptions klgOptions;
+    BagOptions bagOptions;
+    const CLI::App* folder = addFolderCommand(app, folderOptions, output);
+    const CLI::App* klg = addKlgCommand(app, klgOptions, output);
+    const CLI::App* bag = addBagCommand(app, bagOptions, output);
+    return runCommand(
+        app,
+        args,
+        out,
+        err,
+        [&]
+        {
+            if (folder->parsed())
+            {
+                FolderRecording recording(folderOptions);
+                return convert(
+                    recording, output, {folderOptions.folder, folderOptions.camera}, out, err);
+            }
+            if (klg->parsed())
+            {
+                KlgRecording recording(klgOptions);
+                return convert(recording, output, {klgOptions.file, klgOptions.camera}, out, err);
+            }
+            if (bag->parsed())
+            {
+                const auto recording = openBag(bagOptions);
+                return convert(*recording, output, {bagOptions.file, bagOptions.camera}, out, err);
+            }
+            return convert(options, out, err);
+        });
 }
 }  // namespace pointplane

@@ -89,6 +89,7 @@ const std::array<Preset, 3> kPresets{{
     out.camera.width = static_cast<int>(numbers[9]);
     out.camera.height = static_cast<int>(numbers[10]);
     out.unitsPerMetre = numbers[11];
+    out.tellsUnits = true;
     return out;
 }
 

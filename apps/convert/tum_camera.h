@@ -13,6 +13,7 @@ struct TumCamera
 {
     PinholeCamera camera;
     double unitsPerMetre{5000};  //!< of depth images
+    bool tellsUnits{false};      //!< not the usual ones
     ShutterModel shutter;        //!< depthDelay is measured from the stamps instead
 };
 

@@ -27,20 +27,35 @@ using mrpt::obs::CObservation3DRangeScan;
 
 constexpr float kMaxRange = 10.0F;  // [m] where viewers clip
 
-void setCameras(CObservation3DRangeScan& out, const PinholeCamera& camera)
+[[nodiscard]] mrpt::img::TCamera withoutDistortion(const PinholeCamera& camera)
 {
-    auto& intensity = out.cameraParamsIntensity;
-    intensity.ncols = static_cast<std::uint32_t>(camera.width);
-    intensity.nrows = static_cast<std::uint32_t>(camera.height);
-    intensity.setIntrinsicParamsFromValues(camera.fx, camera.fy, camera.cx, camera.cy);
-    // Registered depth knows the ideal pinhole only.
-    out.cameraParams = intensity;
+    mrpt::img::TCamera out;
+    out.ncols = static_cast<std::uint32_t>(camera.width);
+    out.nrows = static_cast<std::uint32_t>(camera.height);
+    out.setIntrinsicParamsFromValues(camera.fx, camera.fy, camera.cx, camera.cy);
+    return out;
+}
+
+[[nodiscard]] mrpt::img::TCamera withDistortion(const PinholeCamera& camera)
+{
+    mrpt::img::TCamera out = withoutDistortion(camera);
     if (camera.isDistorted())
     {
-        intensity.distortion = mrpt::img::DistortionModel::plumb_bob;
-        std::copy(camera.distortion.begin(), camera.distortion.end(), intensity.dist.begin());
+        out.distortion = mrpt::img::DistortionModel::plumb_bob;
+        std::copy(camera.distortion.begin(), camera.distortion.end(), out.dist.begin());
     }
-    out.relativePoseIntensityWRTDepth = toMrpt(opticalInBody());
+    return out;
+}
+
+void setCameras(CObservation3DRangeScan& out, const RegisteredScan& scan)
+{
+    out.cameraParamsIntensity = withDistortion(scan.camera);
+    // Registered depth knows the ideal pinhole only.
+    out.cameraParams = scan.depthCamera ? withDistortion(scan.depthCamera->camera)
+                                        : withoutDistortion(scan.camera);
+    const Eigen::Isometry3d T_depth_colour =
+        scan.depthCamera ? scan.depthCamera->T_depth_colour : Eigen::Isometry3d::Identity();
+    out.relativePoseIntensityWRTDepth = toMrpt(opticalInBody() * T_depth_colour);
 }
 
 void setDepth(CObservation3DRangeScan& out, const RegisteredScan& scan)
@@ -113,13 +128,16 @@ void ScanWriter::writeComment(mrpt::Clock::time_point stamp, const std::string& 
 void ScanWriter::write(const RegisteredScan& scan)
 {
     const cv::Size size(scan.camera.width, scan.camera.height);
+    const PinholeCamera& ofDepth = scan.depthCamera ? scan.depthCamera->camera : scan.camera;
     POINTPLANE_CHECK(
-        scan.depth.type() == CV_16UC1 && scan.depth.size() == size && scan.colour.size() == size,
+        scan.depth.type() == CV_16UC1 &&
+            scan.depth.size() == cv::Size(ofDepth.width, ofDepth.height) &&
+            scan.colour.size() == size,
         "images do not fit the camera, " << size.width << "x" << size.height);
     CObservation3DRangeScan out;
     out.sensorLabel = label_;
     out.timestamp = scan.stamp;
-    setCameras(out, scan.camera);
+    setCameras(out, scan);
     setDepth(out, scan);
     out.hasIntensityImage = true;
     out.intensityImageChannel = CObservation3DRangeScan::CH_VISIBLE;

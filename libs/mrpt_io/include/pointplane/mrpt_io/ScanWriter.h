@@ -6,24 +6,34 @@
 
 #include <mrpt/core/Clock.h>
 
+#include <Eigen/Geometry>
 #include <opencv2/core/mat.hpp>
 
+#include <optional>
 #include <string>
 
 namespace pointplane
 {
-/** A colour image and the depth image registered to it. */
+/** A depth camera of its own, beside that of colour. */
+struct DepthCamera
+{
+    PinholeCamera camera;
+    Eigen::Isometry3d T_depth_colour{Eigen::Isometry3d::Identity()};  //!< optical axes
+};
+
+/** A colour image and the depth image registered to it, or that of another camera. */
 struct RegisteredScan
 {
     mrpt::Clock::time_point stamp;
     PinholeCamera camera;
+    std::optional<DepthCamera> depthCamera;  //!< nothing: depth is registered
     cv::Mat colour;  //!< CV_8UC3 BGR, or CV_8UC1, of the camera's size
-    cv::Mat depth;   //!< CV_16UC1 along the optical axis, of the camera's size; 0 = none
+    cv::Mat depth;   //!< CV_16UC1 along the optical axis, of its camera's size; 0 = none
     double unitsPerMetre{5000};  //!< of depth
     std::string colourFile;      //!< what colour was read from; copied where images are external
 };
 
-/** Writes registered images to a rawlog as CObservation3DRangeScan, pixels and readings unchanged.
+/** Writes images to a rawlog as CObservation3DRangeScan, pixels and readings unchanged.
  * Axes are MRPT's, sensorPose is the identity. What RawlogWriter says of complete and partial files
  * holds here. All members throw EnvironmentError naming the file that cannot be written. */
 class ScanWriter

@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FolderRecording.h"
+
+#include <pointplane/evaluation/association.h>
+#include <pointplane/mrpt_io/mrpt_poses.h>
+
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/videoio.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <sstream>
+
+namespace pointplane
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+/** Of depth in floating point metres: a quarter of a millimetre, up to 16 m. */
+constexpr double kUnitsOfFloat = 4000;
+constexpr std::uint16_t kNoReading = 65535;  //!< 7-Scenes; farther than any camera sees
+
+[[nodiscard]] cv::Mat readImage(const std::string& path, int flags)
+{
+    cv::Mat image;
+    try
+    {
+        image = cv::imread(path, flags);
+    }
+    catch (const cv::Exception& e)
+    {
+        throw BadFrame(path + ": " + e.err);
+    }
+    if (image.empty())
+    {
+        throw BadFrame(path + ": is not an image that can be read, or damaged");
+    }
+    return image;
+}
+
+[[nodiscard]] std::string sizeText(const cv::Mat& image)
+{
+    return std::to_string(image.cols) + "x" + std::to_string(image.rows);
+}
+}  // namespace
+
+struct FolderRecording::Video
+{
+    cv::VideoCapture capture;
+    long next{0};
+
+    /** Frame `key`, counted from 0, later than the one before. */
+    [[nodiscard]] cv::Mat frame(long key, const std::string& path)
+    {
+        cv::Mat image;
+        for (; next <= key; ++next)
+        {
+            if (!capture.read(image))
+            {
+                throw BadFrame(path + ": has no frame " + std::to_string(key));
+            }
+        }
+        return image;
+    }
+};
+
+FolderRecording::FolderRecording(const FolderOptions& options)
+    : folder_(options.folder), layout_(readFolderLayout(options.folder))
+{
+    const bool hasFile = fs::exists(folder_ + "/camera.txt");
+    unitsPerMetre_ = layout_.unitsPerMetre;
+    if (!options.camera.empty() || hasFile)
+    {
+        layout_.camera = loadTumCamera(options.camera, folder_);
+        layout_.cameraIsNominal = false;
+        layout_.depthCamera.reset();
+        if (layout_.camera->tellsUnits)
+        {
+            unitsPerMetre_ = layout_.camera->unitsPerMetre;
+        }
+    }
+    if (!layout_.camera)
+    {
+        throw InputError(folder_ + ": does not tell its camera; give a calibration by --camera");
+    }
+    if (options.depthScale > 0)
+    {
+        unitsPerMetre_ = options.depthScale;
+    }
+    fps_ = options.fps > 0 ? options.fps : layout_.fps.value_or(30);
+    const auto areStamped = [](const std::vector<ImageRef>& images)
+    {
+        return std::all_of(
+            images.begin(), images.end(), [](const ImageRef& image) { return image.stamp; });
+    };
+    hasStamps_ = options.fps <= 0 && areStamped(layout_.colour) && areStamped(layout_.depth);
+    if (hasStamps_)
+    {
+        pairByStamp(options.maxDifference);
+    }
+    else
+    {
+        pairByNumber();
+    }
+    if (pairs_.empty())
+    {
+        throw InputError(
+            folder_ + ": no colour image belongs to a depth image by its " +
+            (hasStamps_ ? "time stamp" : "number"));
+    }
+    if (!layout_.video.empty())
+    {
+        video_ = std::make_unique<Video>();
+        if (!fs::exists(layout_.video) || !video_->capture.open(layout_.video))
+        {
+            throw InputError(
+                "cannot open " + layout_.video +
+                "; extract its frames to a folder rgb: ffmpeg -i rgb.mp4 rgb/%06d.png "
+                "-start_number 0");
+        }
+    }
+}
+
+FolderRecording::~FolderRecording() = default;
+
+void FolderRecording::pairByStamp(double maxDifference)
+{
+    const auto stampsOf = [](const std::vector<ImageRef>& images)
+    {
+        std::vector<double> out;
+        for (const ImageRef& image : images)
+        {
+            out.push_back(*image.stamp);
+        }
+        return out;
+    };
+    for (const auto& [c, d] :
+         associate(stampsOf(layout_.colour), stampsOf(layout_.depth), 0.0, maxDifference))
+    {
+        pairs_.emplace_back(c, d);
+    }
+}
+
+void FolderRecording::pairByNumber()
+{
+    std::map<long, std::size_t> depthOf;
+    for (std::size_t i = 0; i < layout_.depth.size(); ++i)
+    {
+        depthOf.emplace(layout_.depth[i].key, i);
+    }
+    for (std::size_t i = 0; i < layout_.colour.size(); ++i)
+    {
+        const auto found = depthOf.find(layout_.colour[i].key);
+        if (found != depthOf.end())
+        {
+            pairs_.emplace_back(i, found->second);
+        }
+    }
+}
+
+double FolderRecording::stampOf(const ImageRef& image) const
+{
+    return hasStamps_ ? *image.stamp : static_cast<double>(image.key) / fps_;
+}
+
+cv::Mat FolderRecording::colourOf(const ImageRef& image)
+{
+    return video_ ? video_->frame(image.key, layout_.video)
+                  : readImage(image.path, cv::IMREAD_COLOR);
+}
+
+void FolderRecording::readDepth(const ImageRef& image, RegisteredScan& scan) const
+{
+    cv::Mat depth = readImage(image.path, cv::IMREAD_ANYDEPTH | cv::IMREAD_ANYCOLOR);
+    if (depth.type() == CV_32FC1)
+    {
+        scan.depth = depthInUnits(depth, kUnitsOfFloat);
+        scan.unitsPerMetre = kUnitsOfFloat;
+        return;
+    }
+    if (depth.type() != CV_16UC1)
+    {
+        throw BadFrame(image.path + ": is not a 16 bit or floating point depth image");
+    }
+    depth.setTo(0, depth == kNoReading);
+    scan.depth = depth;
+    scan.unitsPerMetre = unitsPerMetre_;
+}
+
+void FolderRecording::setCameras(RegisteredScan& scan, const std::string& name) const
+{
+    scan.camera = layout_.camera->camera;
+    if (scan.camera.width == 0)  // of a matrix without a size
+    {
+        scan.camera.width = scan.colour.cols;
+        scan.camera.height = scan.colour.rows;
+    }
+    // A calibration for another size of the same picture.
+    if (scan.colour.cols != scan.camera.width &&
+        scan.colour.cols * scan.camera.height == scan.colour.rows * scan.camera.width)
+    {
+        scan.camera = scan.camera.scaled(static_cast<double>(scan.colour.cols) / scan.camera.width);
+    }
+    if (scan.colour.cols != scan.camera.width || scan.colour.rows != scan.camera.height)
+    {
+        throw BadFrame(
+            name + ": is " + sizeText(scan.colour) + ", but the camera is for " +
+            std::to_string(scan.camera.width) + "x" + std::to_string(scan.camera.height));
+    }
+    if (layout_.depthCamera)
+    {
+        scan.depthCamera = DepthCamera{*layout_.depthCamera, Eigen::Isometry3d::Identity()};
+        scan.depthCamera->camera.width = scan.depth.cols;
+        scan.depthCamera->camera.height = scan.depth.rows;
+    }
+    else if (scan.depth.size() != scan.colour.size())
+    {
+        const PinholeCamera scaled =
+            scan.camera.scaled(static_cast<double>(scan.depth.cols) / scan.camera.width);
+        if (std::abs(scaled.height - scan.depth.rows) > 1)
+        {
+            throw BadFrame(
+                name + ": depth is " + sizeText(scan.depth) + " and colour " +
+                sizeText(scan.colour) + ", which are different views");
+        }
+        scan.depthCamera = DepthCamera{scaled, Eigen::Isometry3d::Identity()};
+        scan.depthCamera->camera.distortion = {};
+        scan.depthCamera->camera.height = scan.depth.rows;
+    }
+}
+
+std::optional<RecordedFrame> FolderRecording::next()
+{
+    if (next_ == pairs_.size())
+    {
+        return {};
+    }
+    const ImageRef& colour = layout_.colour[pairs_[next_].first];
+    const ImageRef& depth = layout_.depth[pairs_[next_].second];
+    ++next_;
+    RecordedFrame out;
+    out.scan.stamp = fromSeconds(stampOf(colour));
+    if (hasStamps_)
+    {
+        out.depthDelay = *depth.stamp - *colour.stamp;
+    }
+    readDepth(depth, out.scan);
+    out.scan.colour = colourOf(colour);
+    out.scan.colourFile = colour.path;
+    setCameras(out.scan, colour.path.empty() ? depth.path : colour.path);
+    return out;
+}
+
+double FolderRecording::progress() const
+{
+    return static_cast<double>(next_) / static_cast<double>(pairs_.size());
+}
+
+std::vector<std::string> FolderRecording::notes() const
+{
+    std::ostringstream layout;
+    layout << "read as " << layout_.name << ", " << unitsPerMetre_ << " depth units per metre, "
+           << (hasStamps_ ? std::string("stamps of the recording")
+                          : "frames numbered at " + std::to_string(std::lround(fps_)) + " Hz");
+    std::vector<std::string> out{layout.str()};
+    if (!hasStamps_)
+    {
+        out.emplace_back(
+            "stamps: regular by number only; say --fps if the rate is another one, and do not use "
+            "the velocity of a recording that dropped frames");
+    }
+    if (layout_.cameraIsNominal)
+    {
+        out.emplace_back("camera: nominal, that of the data set; --camera takes a calibration");
+    }
+    const std::size_t alone = layout_.colour.size() + layout_.depth.size() - 2 * pairs_.size();
+    if (alone > 0)
+    {
+        out.push_back(std::to_string(alone) + " images without a partner were left out");
+    }
+    return out;
+}
+}  // namespace pointplane

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "KlgRecording.h"
+
+#include <pointplane/mrpt_io/mrpt_poses.h>
+
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include <zlib.h>
+
+namespace pointplane
+{
+namespace
+{
+/** Largest block of a frame: what is more is damage. */
+constexpr std::int32_t kMaxBytes = 64 << 20;
+
+/** ElasticFusion's own default. */
+[[nodiscard]] TumCamera nominalCamera()
+{
+    TumCamera out;
+    out.camera.fx = out.camera.fy = 528;
+    out.camera.cx = 320;
+    out.camera.cy = 240;
+    out.unitsPerMetre = 1000;
+    return out;
+}
+}  // namespace
+
+KlgRecording::KlgRecording(const KlgOptions& options) : options_(options)
+{
+    isNominal_ = options.camera.empty();
+    camera_ = isNominal_ ? nominalCamera() : loadTumCamera(options.camera, "");
+    if (!isNominal_ && !camera_.tellsUnits)
+    {
+        camera_.unitsPerMetre = 1000;
+    }
+    if (options.depthScale > 0)
+    {
+        camera_.unitsPerMetre = options.depthScale;
+    }
+    std::error_code error;
+    fileSize_ = std::filesystem::file_size(options.file, error);
+    file_.open(options.file, std::ios::binary);
+    if (error || !file_)
+    {
+        throw InputError(
+            "cannot open " + options.file + ": " +
+            (error ? error.message() : std::string(std::strerror(errno))));
+    }
+    if (!read(numFrames_) || numFrames_ <= 0)
+    {
+        throw InputError(options.file + ": is not a klg log, or has no frames");
+    }
+}
+
+template <class T>
+bool KlgRecording::read(T& value)
+{
+    file_.read(reinterpret_cast<char*>(&value), sizeof(value));
+    return static_cast<bool>(file_);
+}
+
+bool KlgRecording::read(std::vector<unsigned char>& bytes, std::int32_t size)
+{
+    const auto at = static_cast<std::uint64_t>(file_.tellg());
+    if (size < 0 || size > kMaxBytes || at + static_cast<std::uint64_t>(size) > fileSize_)
+    {
+        return false;
+    }
+    bytes.resize(static_cast<std::size_t>(size));
+    file_.read(reinterpret_cast<char*>(bytes.data()), size);
+    return static_cast<bool>(file_);
+}
+
+std::string KlgRecording::where() const
+{
+    return options_.file + ": frame " + std::to_string(next_ - 1);
+}
+
+std::optional<RecordedFrame> KlgRecording::stopped()
+{
+    damage_ = options_.file + ": truncated or damaged in frame " + std::to_string(next_ - 1) +
+              " of " + std::to_string(numFrames_);
+    next_ = numFrames_;
+    return {};
+}
+
+cv::Mat KlgRecording::depthOf(const std::vector<unsigned char>& bytes) const
+{
+    cv::Mat out(camera_.camera.height, camera_.camera.width, CV_16UC1);
+    const std::size_t size = out.total() * out.elemSize();
+    if (bytes.size() == size)
+    {
+        std::memcpy(out.data, bytes.data(), size);
+        return out;
+    }
+    uLongf length = size;
+    const int code = uncompress(out.data, &length, bytes.data(), bytes.size());
+    if (code != Z_OK || length != size)
+    {
+        throw BadFrame(
+            where() + ": depth is damaged, or not " + std::to_string(out.cols) + "x" +
+            std::to_string(out.rows) + " (give another size by --camera)");
+    }
+    return out;
+}
+
+cv::Mat KlgRecording::colourOf(const std::vector<unsigned char>& bytes) const
+{
+    const cv::Size size(camera_.camera.width, camera_.camera.height);
+    cv::Mat out;
+    if (bytes.size() == static_cast<std::size_t>(size.area()) * 3)
+    {
+        out = cv::Mat(size, CV_8UC3);
+        std::memcpy(out.data, bytes.data(), bytes.size());
+        if (!options_.bgr)
+        {
+            cv::cvtColor(out, out, cv::COLOR_RGB2BGR);
+        }
+        return out;
+    }
+    try
+    {
+        out = bytes.empty() ? cv::Mat() : cv::imdecode(bytes, cv::IMREAD_COLOR);
+    }
+    catch (const cv::Exception&)
+    {
+        out.release();
+    }
+    if (out.size() != size)
+    {
+        throw BadFrame(
+            where() + ": colour is damaged, or not " + std::to_string(size.width) + "x" +
+            std::to_string(size.height));
+    }
+    if (!options_.bgr)
+    {
+        cv::cvtColor(out, out, cv::COLOR_RGB2BGR);  // Logger2 hands RGB to an encoder of BGR
+    }
+    return out;
+}
+
+std::optional<RecordedFrame> KlgRecording::next()
+{
+    if (next_ == numFrames_)
+    {
+        return {};
+    }
+    ++next_;
+    std::int64_t microseconds = 0;
+    std::int32_t depthSize = 0, colourSize = 0;
+    std::vector<unsigned char> depth, colour;
+    if (!read(microseconds) || !read(depthSize) || !read(colourSize) || !read(depth, depthSize) ||
+        !read(colour, colourSize))
+    {
+        return stopped();
+    }
+    RecordedFrame out;
+    out.scan.stamp = fromSeconds(1e-6 * static_cast<double>(microseconds));
+    out.scan.camera = camera_.camera;
+    out.scan.unitsPerMetre = camera_.unitsPerMetre;
+    out.scan.depth = depthOf(depth);
+    out.scan.colour = colourOf(colour);
+    return out;
+}
+
+double KlgRecording::progress() const { return static_cast<double>(next_) / numFrames_; }
+
+std::vector<std::string> KlgRecording::notes() const
+{
+    if (!isNominal_)
+    {
+        return {};
+    }
+    return {"camera: nominal (528 px, ElasticFusion's default); --camera takes a calibration"};
+}
+}  // namespace pointplane

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pointplane/mrpt_io/ScanWriter.h>
+#include <pointplane/mrpt_io/errors.h>
+
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <string>
+
+namespace pointplane
+{
+/** A frame of a recording. */
+struct RecordedFrame
+{
+    RegisteredScan scan;
+    /** Stamp of depth minus that of colour [s]; NaN = not known. */
+    double depthDelay{std::numeric_limits<double>::quiet_NaN()};
+};
+
+/** One frame cannot be read, the next one may. The message names file or message. */
+class BadFrame : public InputError
+{
+ public:
+    using InputError::InputError;
+};
+
+/** RGB-D frames in their order, from wherever they are. */
+class Recording
+{
+ public:
+    virtual ~Recording() = default;
+
+    /** \return nothing at the end \throws BadFrame, after which the next frame can be asked for;
+     * InputError when there is no going on */
+    [[nodiscard]] virtual std::optional<RecordedFrame> next() = 0;
+
+    /** How much has been read, in [0, 1]. */
+    [[nodiscard]] virtual double progress() const = 0;
+
+    /** After the end: where the input stopped before its time, or empty. */
+    [[nodiscard]] virtual std::string damage() const { return ""; }
+
+    /** What a user should know of how it was understood; lines without "\n". */
+    [[nodiscard]] virtual std::vector<std::string> notes() const { return {}; }
+};
+}  // namespace pointplane

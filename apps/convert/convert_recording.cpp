@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "convert_recording.h"
+
+#include <pointplane/mrpt_io/ObservationConverter.h>
+#include <pointplane/mrpt_io/mrpt_poses.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <ostream>
+
+#include "ProgressBar.h"
+#include "stamp_check.h"
+
+namespace pointplane
+{
+namespace
+{
+constexpr std::size_t kShown = 5;
+
+/** Delays this close are not told anew [s]. */
+constexpr double kSameDelay = 1e-4;
+
+/** Tells the delay between depth and colour where it changes. */
+class DelayWriter
+{
+ public:
+    void write(ScanWriter& writer, const std::string& label, const RecordedFrame& frame)
+    {
+        if (!std::isnan(frame.depthDelay) &&
+            !(std::abs(frame.depthDelay - shutter_.depthDelay) <= kSameDelay))
+        {
+            shutter_.depthDelay = frame.depthDelay;
+            writer.writeComment(frame.scan.stamp, shutterComment(label, shutter_));
+        }
+    }
+
+ private:
+    ShutterModel shutter_;
+};
+}  // namespace
+
+RecordingSummary convertRecording(
+    Recording& recording, const RecordingOutput& output, std::ostream& progress)
+{
+    ScanWriter writer(output.path, output.label, output.external);
+    std::optional<ProgressBar> bar;
+    if (!output.quiet)
+    {
+        bar.emplace(progress, standardErrorIsTerminal(), output.path);
+    }
+    RecordingSummary out;
+    DelayWriter delays;
+    std::vector<double> stamps;
+    for (;;)
+    {
+        try
+        {
+            const auto frame = recording.next();
+            if (!frame)
+            {
+                break;
+            }
+            delays.write(writer, output.label, *frame);
+            writer.write(frame->scan);
+            stamps.push_back(toSeconds(frame->scan.stamp));
+            ++out.numFrames;
+        }
+        catch (const BadFrame& bad)
+        {
+            if (output.strict)
+            {
+                throw;
+            }
+            ++out.numBad;
+            if (out.problems.size() < kShown)
+            {
+                out.problems.emplace_back(bad.what());
+            }
+        }
+        if (bar)
+        {
+            bar->update(recording.progress(), out.numFrames);
+        }
+    }
+    out.damage = recording.damage();
+    if (out.numFrames == 0)
+    {
+        throw InputError(
+            !out.problems.empty() ? out.problems.front()
+            : !out.damage.empty() ? out.damage
+                                  : "no frame with colour and depth in the recording");
+    }
+    if (output.strict && !out.damage.empty())
+    {
+        throw InputError(out.damage);
+    }
+    writer.close();
+    out.stamps = problemOfStamps(stamps);
+    return out;
+}
+
+int report(
+    const RecordingSummary& summary,
+    const RecordingOutput& output,
+    const std::vector<std::string>& notes,
+    std::ostream& out,
+    std::ostream& err)
+{
+    out << output.path << ": " << summary.numFrames << " frames\n";
+    for (const std::string& note : notes)
+    {
+        out << note << "\n";
+    }
+    if (!summary.stamps.empty())
+    {
+        out << "stamps: " << summary.stamps << "\n";
+    }
+    for (const std::string& problem : summary.problems)
+    {
+        err << "pointplane-convert: left out: " << problem << "\n";
+    }
+    if (summary.numBad > summary.problems.size())
+    {
+        err << "pointplane-convert: " << summary.numBad << " frames were left out in all\n";
+    }
+    if (!summary.damage.empty())
+    {
+        err << "pointplane-convert: " << summary.damage << "\n";
+    }
+    return summary.numBad == 0 && summary.damage.empty() ? kExitOk : kExitIncomplete;
+}
+}  // namespace pointplane

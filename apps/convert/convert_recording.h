@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "Recording.h"
+
+namespace pointplane
+{
+struct RecordingOutput
+{
+    std::string path;  //!< rawlog to write
+    std::string label{"RGBD"};
+    bool external{false};  //!< images as files in <path>_Images
+    bool strict{false};    //!< a frame that cannot be read ends the run
+    bool quiet{false};
+};
+
+struct RecordingSummary
+{
+    std::size_t numFrames{0}, numBad{0};
+    std::vector<std::string> problems;  //!< of the first bad frames
+    std::string damage;                 //!< where the input ended early, or empty
+    std::string stamps;                 //!< what is wrong with the stamps, or empty
+};
+
+/** Writes a recording as a rawlog. Frames that cannot be read are counted and left out, or end the
+ * run as an InputError (`strict`).
+ * \throws InputError, EnvironmentError; InputError, too, when not one frame can be read */
+[[nodiscard]] RecordingSummary convertRecording(
+    Recording& recording, const RecordingOutput& output, std::ostream& progress);
+
+/** The summary for people. \return the exit code (mrpt_io/errors.h) */
+[[nodiscard]] int report(
+    const RecordingSummary& summary,
+    const RecordingOutput& output,
+    const std::vector<std::string>& notes,
+    std::ostream& out,
+    std::ostream& err);
+}  // namespace pointplane

@@ -1,0 +1,425 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "folder_layout.h"
+
+#include <pointplane/mrpt_io/errors.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+
+namespace pointplane
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+[[nodiscard]] bool isImage(const fs::path& path)
+{
+    std::string extension = path.extension().string();
+    std::transform(
+        extension.begin(),
+        extension.end(),
+        extension.begin(),
+        [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    constexpr std::array known{
+        ".png", ".jpg", ".jpeg", ".pgm", ".ppm", ".bmp", ".tif", ".tiff", ".exr"};
+    return std::find(known.begin(), known.end(), extension) != known.end();
+}
+
+[[nodiscard]] std::optional<double> number(const std::string& text)
+{
+    std::istringstream in(text);
+    in.imbue(std::locale::classic());
+    double value = 0;
+    if (in >> value && in.peek() == std::istringstream::traits_type::eof() && std::isfinite(value))
+    {
+        return value;
+    }
+    return {};
+}
+
+/** Images of a folder whose names start and end as given, in order of their number or time.
+ *
+ * What is between is a number (frame 17), a decimal number (seconds), or two numbers with a dash
+ * (Redwood: frame and microseconds). Other names are left out. */
+[[nodiscard]] std::vector<ImageRef> imagesIn(
+    const fs::path& folder, const std::string& prefix = "", const std::string& suffix = "")
+{
+    std::vector<ImageRef> out;
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(folder, error))
+    {
+        std::string stem = entry.path().stem().string();
+        if (!isImage(entry.path()) || stem.size() < prefix.size() + suffix.size() ||
+            stem.compare(0, prefix.size(), prefix) != 0 ||
+            stem.compare(stem.size() - suffix.size(), suffix.size(), suffix) != 0)
+        {
+            continue;
+        }
+        stem = stem.substr(prefix.size(), stem.size() - prefix.size() - suffix.size());
+        ImageRef image;
+        image.path = entry.path().string();
+        const auto dash = stem.find('-', 1);
+        const auto first = number(stem.substr(0, dash));
+        const auto second =
+            dash == std::string::npos ? std::nullopt : number(stem.substr(dash + 1));
+        if (!first || (dash != std::string::npos && !second))
+        {
+            continue;
+        }
+        if (second)
+        {
+            image.stamp = 1e-6 * *second;
+        }
+        else if (stem.find('.') != std::string::npos)
+        {
+            image.stamp = *first;
+        }
+        image.key = std::abs(*first) < 1e15 ? std::lround(*first) : 0;
+        out.push_back(image);
+    }
+    std::sort(
+        out.begin(),
+        out.end(),
+        [](const ImageRef& a, const ImageRef& b)
+        {
+            return std::make_tuple(a.stamp.value_or(0), a.key, a.path) <
+                   std::make_tuple(b.stamp.value_or(0), b.key, b.path);
+        });
+    return out;
+}
+
+/** All numbers of a text file, separated by blanks or commas. */
+[[nodiscard]] std::vector<double> numbersOf(const fs::path& path)
+{
+    std::ifstream file(path);
+    std::string text((std::istreambuf_iterator<char>(file)), {});
+    std::replace(text.begin(), text.end(), ',', ' ');
+    std::istringstream words(text);
+    std::vector<double> out;
+    for (std::string word; words >> word;)
+    {
+        const auto value = number(word);
+        if (!value)
+        {
+            throw InputError(path.string() + ": '" + word + "' is not a number");
+        }
+        out.push_back(*value);
+    }
+    return out;
+}
+
+/** A 3x3 or 4x4 matrix, row by row. Its size is not in the file: 0x0. */
+[[nodiscard]] PinholeCamera cameraOfMatrix(const fs::path& path)
+{
+    const std::vector<double> m = numbersOf(path);
+    if (m.size() != 9 && m.size() != 16)
+    {
+        throw InputError(path.string() + ": is not a 3x3 or 4x4 matrix");
+    }
+    const std::size_t columns = m.size() == 9 ? 3 : 4;
+    PinholeCamera out;
+    out.width = out.height = 0;
+    out.fx = m[0];
+    out.cx = m[2];
+    out.fy = m[columns + 1];
+    out.cy = m[columns + 2];
+    return out;
+}
+
+[[nodiscard]] TumCamera colourCamera(const PinholeCamera& camera)
+{
+    TumCamera out;
+    out.camera = camera;
+    return out;
+}
+
+[[nodiscard]] PinholeCamera pinhole(int width, int height, double f, double cx, double cy)
+{
+    PinholeCamera out;
+    out.width = width;
+    out.height = height;
+    out.fx = out.fy = f;
+    out.cx = cx;
+    out.cy = cy;
+    return out;
+}
+
+/** ScanNet, exported from .sens: each camera with its own size, depth in the axes of colour. */
+[[nodiscard]] std::optional<FolderLayout> scanNet(const fs::path& folder)
+{
+    const fs::path intrinsic = folder / "intrinsic";
+    if (!fs::exists(intrinsic / "intrinsic_depth.txt"))
+    {
+        return {};
+    }
+    FolderLayout out;
+    out.name = "ScanNet";
+    out.colour = imagesIn(folder / "color");
+    out.depth = imagesIn(folder / "depth");
+    out.camera = colourCamera(cameraOfMatrix(intrinsic / "intrinsic_color.txt"));
+    out.depthCamera = cameraOfMatrix(intrinsic / "intrinsic_depth.txt");
+    out.fps = 30;
+    return out;
+}
+
+/** 7-Scenes: frame-000000.color.png, frame-000000.depth.png; calibration as its authors advise. */
+[[nodiscard]] std::optional<FolderLayout> sevenScenes(const fs::path& folder)
+{
+    FolderLayout out;
+    out.name = "7-Scenes";
+    out.colour = imagesIn(folder, "frame-", ".color");
+    out.depth = imagesIn(folder, "frame-", ".depth");
+    if (out.colour.empty() || out.depth.empty())
+    {
+        return {};
+    }
+    out.camera = colourCamera(pinhole(640, 480, 585, 320, 240));
+    out.cameraIsNominal = true;
+    out.fps = 30;
+    return out;
+}
+
+/** Reads a JSON file's object, or nothing if it is not there. */
+[[nodiscard]] std::optional<nlohmann::json> jsonOf(const fs::path& path)
+{
+    std::ifstream file(path);
+    if (!file)
+    {
+        return {};
+    }
+    nlohmann::json out = nlohmann::json::parse(file, nullptr, false);
+    if (!out.is_object())
+    {
+        throw InputError(path.string() + ": is not a JSON object");
+    }
+    return out;
+}
+
+[[nodiscard]] double valueOf(const nlohmann::json& json, const char* key, const fs::path& path)
+{
+    const auto found = json.find(key);
+    if (found == json.end() || !found->is_number())
+    {
+        throw InputError(path.string() + ": has no number '" + key + "'");
+    }
+    return found->get<double>();
+}
+
+/** Replica as rendered for iMAP and NICE-SLAM: results/frame000000.jpg, results/depth000000.png,
+ * cam_params.json beside or above. */
+[[nodiscard]] std::optional<FolderLayout> replica(const fs::path& folder)
+{
+    const fs::path results = fs::is_directory(folder / "results") ? folder / "results" : folder;
+    FolderLayout out;
+    out.name = "Replica";
+    out.colour = imagesIn(results, "frame");
+    out.depth = imagesIn(results, "depth");
+    if (out.colour.empty() || out.depth.empty())
+    {
+        return {};
+    }
+    for (const fs::path& path : {folder / "cam_params.json", folder / ".." / "cam_params.json"})
+    {
+        if (const auto json = jsonOf(path))
+        {
+            const nlohmann::json& c = json->contains("camera") ? (*json)["camera"] : *json;
+            PinholeCamera camera = pinhole(
+                static_cast<int>(valueOf(c, "w", path)),
+                static_cast<int>(valueOf(c, "h", path)),
+                valueOf(c, "fx", path),
+                valueOf(c, "cx", path),
+                valueOf(c, "cy", path));
+            camera.fy = valueOf(c, "fy", path);
+            out.camera = colourCamera(camera);
+            out.unitsPerMetre = valueOf(c, "scale", path);
+            break;
+        }
+    }
+    out.fps = 30;
+    return out;
+}
+
+/** StrayScanner: rgb.mp4, depth/000000.png in millimetres, camera_matrix.csv, odometry.csv. */
+[[nodiscard]] std::optional<FolderLayout> strayScanner(const fs::path& folder)
+{
+    if (!fs::exists(folder / "camera_matrix.csv"))
+    {
+        return {};
+    }
+    FolderLayout out;
+    out.name = "StrayScanner";
+    out.depth = imagesIn(folder / "depth");
+    out.camera = colourCamera(cameraOfMatrix(folder / "camera_matrix.csv"));
+    std::map<long, double> stamps;
+    std::ifstream odometry(folder / "odometry.csv");
+    for (std::string line; std::getline(odometry, line);)
+    {
+        const auto comma = line.find(',');
+        const auto second = line.find(',', comma + 1);
+        const auto stamp = number(line.substr(0, comma));
+        const auto frame = comma == std::string::npos
+                               ? std::nullopt
+                               : number(line.substr(
+                                     line.find_first_not_of(' ', comma + 1),
+                                     second - line.find_first_not_of(' ', comma + 1)));
+        if (stamp && frame)
+        {
+            stamps[std::lround(*frame)] = *stamp;
+        }
+    }
+    out.colour = imagesIn(folder / "rgb");
+    if (out.colour.empty())
+    {
+        out.video = (folder / "rgb.mp4").string();
+        out.colour = out.depth;
+        std::for_each(
+            out.colour.begin(), out.colour.end(), [](ImageRef& image) { image.path.clear(); });
+    }
+    for (auto* images : {&out.colour, &out.depth})
+    {
+        for (ImageRef& image : *images)
+        {
+            const auto found = stamps.find(image.key);
+            if (found != stamps.end())
+            {
+                image.stamp = found->second;
+            }
+        }
+    }
+    out.fps = 60;
+    return out;
+}
+
+/** Record3D's metadata: K column by column, sizes of colour and depth, rate, stamps. */
+void readRecord3d(const fs::path& folder, FolderLayout& out)
+{
+    for (const char* name : {"metadata.json", "metadata"})
+    {
+        const fs::path path = folder / name;
+        const auto json = jsonOf(path);
+        if (!json || !json->contains("K"))
+        {
+            continue;
+        }
+        const auto& K = (*json)["K"];
+        if (!K.is_array() || K.size() != 9 ||
+            !std::all_of(K.begin(), K.end(), [](const auto& k) { return k.is_number(); }))
+        {
+            throw InputError(path.string() + ": K is not a list of 9 numbers");
+        }
+        PinholeCamera camera = pinhole(
+            static_cast<int>(valueOf(*json, "w", path)),
+            static_cast<int>(valueOf(*json, "h", path)),
+            K[0].get<double>(),
+            K[6].get<double>(),
+            K[7].get<double>());
+        camera.fy = K[4].get<double>();
+        out.name = "Record3D";
+        out.camera = colourCamera(camera);
+        if (json->contains("fps"))
+        {
+            out.fps = valueOf(*json, "fps", path);
+        }
+        if (json->contains("frameTimestamps") && (*json)["frameTimestamps"].is_array())
+        {
+            const auto& stamps = (*json)["frameTimestamps"];
+            for (auto* images : {&out.colour, &out.depth})
+            {
+                for (ImageRef& image : *images)
+                {
+                    const auto i = static_cast<std::size_t>(std::max(0L, image.key));
+                    if (i < stamps.size() && stamps[i].is_number())
+                    {
+                        image.stamp = stamps[i].get<double>();
+                    }
+                }
+            }
+        }
+        return;
+    }
+}
+
+/** Cameras of data sets, as published with them, by the name of the folder. */
+void readPublishedCamera(const fs::path& folder, FolderLayout& out)
+{
+    const std::string path = fs::absolute(folder).lexically_normal().string();
+    if (path.find("bonn") != std::string::npos)
+    {
+        PinholeCamera camera = pinhole(640, 480, 542.822841, 315.593520, 237.756098);
+        camera.fy = 542.576870;
+        camera.distortion = {{0.039903, -0.099343, -0.000730, -0.000144, 0}};
+        out.name = "Bonn";
+        out.camera = colourCamera(camera);
+        out.unitsPerMetre = 5000;
+    }
+}
+
+/** Colour and depth in two folders beside each other. */
+[[nodiscard]] std::optional<FolderLayout> twoFolders(const fs::path& folder)
+{
+    FolderLayout out;
+    for (const char* name : {"rgb", "color", "colour", "image", "images", "RGB"})
+    {
+        if (out.colour.empty())
+        {
+            out.colour = imagesIn(folder / name);
+        }
+    }
+    for (const char* name : {"depth", "depths", "Depth"})
+    {
+        if (out.depth.empty())
+        {
+            out.depth = imagesIn(folder / name);
+        }
+    }
+    if (out.colour.empty() || out.depth.empty())
+    {
+        return {};
+    }
+    out.name = out.colour.front().stamp ? "stamped images" : "numbered images";
+    const std::string first = fs::path(out.colour.front().path).stem().string();
+    if (first.find('-', 1) != std::string::npos)
+    {
+        out.name = "Redwood";
+        out.camera = colourCamera(pinhole(640, 480, 525, 319.5, 239.5));
+        out.cameraIsNominal = true;
+    }
+    readPublishedCamera(folder, out);
+    readRecord3d(folder, out);
+    return out;
+}
+}  // namespace
+
+FolderLayout readFolderLayout(const std::string& folder)
+{
+    if (!fs::is_directory(folder))
+    {
+        throw InputError(folder + ": is not a folder");
+    }
+    for (const auto reader : {scanNet, strayScanner, sevenScenes, replica, twoFolders})
+    {
+        if (auto layout = reader(folder))
+        {
+            if (layout->depth.empty() || layout->colour.empty())
+            {
+                throw InputError(
+                    folder + ": looks like " + layout->name + ", but has no " +
+                    (layout->depth.empty() ? "depth" : "colour") + " images");
+            }
+            return *layout;
+        }
+    }
+    throw InputError(
+        folder +
+        ": no layout that is known: two folders like rgb and depth with numbered or stamped "
+        "images, ScanNet, 7-Scenes, Redwood, Replica, Bonn, Record3D or StrayScanner");
+}
+}  // namespace pointplane

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tum_camera.h"
+
+namespace pointplane
+{
+/** One picture of a folder: a file, or a frame of a video. */
+struct ImageRef
+{
+    std::string path;
+    long key{0};                  //!< its number
+    std::optional<double> stamp;  //!< where name or list tell it [s]
+};
+
+/** How a folder of numbered or stamped images is laid out. */
+struct FolderLayout
+{
+    std::string name;  //!< "ScanNet", "7-Scenes", ... or "numbered images", "stamped images"
+    std::vector<ImageRef> colour, depth;
+    std::string video;                //!< of colour, frame by frame; `colour` then has no paths
+    std::optional<TumCamera> camera;  //!< of colour, where the folder tells it
+    bool cameraIsNominal{false};      //!< a data set's usual camera, not this one's calibration
+    std::optional<PinholeCamera> depthCamera;  //!< where it is another
+    double unitsPerMetre{1000};
+    std::optional<double> fps;  //!< where the folder tells it
+};
+
+/** \throws InputError if there are no colour and depth images in a layout that is known */
+[[nodiscard]] FolderLayout readFolderLayout(const std::string& folder);
+}  // namespace pointplane

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "stamp_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace pointplane
+{
+namespace
+{
+constexpr std::size_t kLeastIntervals = 10;
+/** Rounding or jitter of less than this part of an interval is no matter. */
+constexpr double kTolerated = 0.1;
+/** Steps that stamps are rounded to [s]. */
+constexpr double kRoundings[] = {1, 0.1, 0.01};
+constexpr double kEpsilon = 1e-5;
+
+[[nodiscard]] double quantile(std::vector<double> values, double share)
+{
+    const auto at = values.begin() +
+                    static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
+}
+
+[[nodiscard]] bool areMultiples(const std::vector<double>& stamps, double step)
+{
+    return std::all_of(
+        stamps.begin(),
+        stamps.end(),
+        [&](double t) { return std::abs(t / step - std::round(t / step)) * step < kEpsilon; });
+}
+}  // namespace
+
+std::string problemOfStamps(const std::vector<double>& stamps)
+{
+    std::ostringstream out;
+    std::vector<double> intervals;
+    std::size_t numBack = 0;
+    for (std::size_t i = 1; i < stamps.size(); ++i)
+    {
+        intervals.push_back(stamps[i] - stamps[i - 1]);
+        numBack += intervals.back() <= 0 ? 1 : 0;
+    }
+    if (numBack > 0)
+    {
+        out << numBack << " of them are not after the one before";
+        return out.str();
+    }
+    if (intervals.size() < kLeastIntervals)
+    {
+        return "";
+    }
+    const double median = quantile(intervals, 0.5);
+    for (const double step : kRoundings)
+    {
+        // A camera of 10 or 20 Hz has true stamps like that.
+        const bool isEven = quantile(intervals, 0.9) - quantile(intervals, 0.1) < kEpsilon;
+        if (step > kTolerated * median && !isEven && areMultiples(stamps, step))
+        {
+            out << "rounded to " << step << " s, " << std::lround(100 * step / median)
+                << " % of the time between frames; velocities from them err as much";
+            return out.str();
+        }
+    }
+    // Frames that are missing make whole intervals more.
+    std::vector<double> deviations;
+    for (const double interval : intervals)
+    {
+        const double frames = std::max(1.0, std::round(interval / median));
+        deviations.push_back(std::abs(interval - frames * median));
+    }
+    const double jitter = 1.4826 * quantile(deviations, 0.5);
+    if (jitter > kTolerated * median)
+    {
+        out << "they jitter by " << std::lround(1e3 * jitter) << " ms about a frame every "
+            << std::lround(1e3 * median) << " ms, like a host's; velocities from them err as much";
+    }
+    return out.str();
+}
+}  // namespace pointplane

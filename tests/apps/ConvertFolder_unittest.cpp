@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <opencv2/videoio.hpp>
+
+#include <cmath>
+
+#include "converted_recordings.h"
+#include "stamp_check.h"
+
+namespace pointplane
+{
+namespace
+{
+using test::colourImage;
+using test::depthImage;
+using test::numbered;
+using testing::HasSubstr;
+
+class ConvertFolder : public test::ConvertedRecording
+{
+ protected:
+    /** Frames 0 to 2 under names with the frame's number in them. */
+    void writeFrames(const char* colour, const char* depth, int depthWidth = 64)
+    {
+        for (int i = 0; i < 3; ++i)
+        {
+            writeImage(numbered(colour, i), colourImage(i));
+            writeImage(numbered(depth, i), depthImage(i, depthWidth, depthWidth * 3 / 4));
+        }
+    }
+
+    /** Three frames, `fps` apart, at 1.000, 1.001 and 1.002 m, each with its own colour. */
+    void expectFrames(double fps, double unitsPerMetre = 1000)
+    {
+        const auto found = frames();
+        ASSERT_EQ(found.size(), 3U) << text_;
+        for (int i = 0; i < 3; ++i)
+        {
+            const RgbdFrame& frame = found[static_cast<std::size_t>(i)];
+            EXPECT_NEAR(frame.stamp - found[0].stamp, i / fps, 1e-6);
+            EXPECT_NEAR(
+                frame.depth.at<float>(frame.depth.rows / 2, frame.depth.cols / 2),
+                (1000 + i) / unitsPerMetre,
+                1e-5);
+            const double gray = 0.114 * 200 + 0.587 * (20 * i + 10) + 0.299 * 30;
+            EXPECT_NEAR(frame.gray.at<uchar>(20, 30), gray, 2);
+        }
+    }
+};
+
+constexpr const char* kCamera = "60 60 31.5 23.5 0 0 0 0 0 64 48 1000\n";
+}  // namespace
+
+TEST_F(ConvertFolder, numberedImagesWithACalibration)
+{
+    writeFrames("in/rgb/%d.jpg", "in/depth/%d.png");
+    write("in/camera.txt", "60 61 31 23 0.1 0 0 0 0 64 48 500\n");
+    ASSERT_EQ(run({"folder", in_, "--fps", "15"}), kExitOk) << text_;
+    EXPECT_THAT(text_, HasSubstr("3 frames"));
+    EXPECT_THAT(text_, HasSubstr("regular by number only"));
+    expectFrames(15, 500);
+    const PinholeCamera camera = frames()[0].camera;
+    EXPECT_DOUBLE_EQ(camera.fy, 61);
+    EXPECT_DOUBLE_EQ(camera.distortion[0], 0.1);
+}
+
+TEST_F(ConvertFolder, withoutACalibrationNothingIsGuessed)
+{
+    writeFrames("in/rgb/%d.jpg", "in/depth/%d.png");
+    EXPECT_EQ(run({"folder", in_}), kExitBadInput);
+    EXPECT_THAT(text_, HasSubstr("--camera"));
+    EXPECT_FALSE(std::filesystem::exists(out_));
+}
+
+TEST_F(ConvertFolder, scanNetHasTwoCamerasInOnePlace)
+{
+    writeFrames("in/color/%d.jpg", "in/depth/%d.png", 32);
+    write("in/intrinsic/intrinsic_color.txt", "60 0 31.5 0\n0 60 23.5 0\n0 0 1 0\n0 0 0 1\n");
+    write("in/intrinsic/intrinsic_depth.txt", "30 0 15.5 0\n0 30 11.5 0\n0 0 1 0\n0 0 0 1\n");
+    ASSERT_EQ(run({"folder", in_}), kExitOk) << text_;
+    EXPECT_THAT(text_, HasSubstr("ScanNet"));
+    expectFrames(30);
+    const auto scan = scans()[0];
+    EXPECT_EQ(scan->cameraParams.ncols, 32U);
+    EXPECT_DOUBLE_EQ(scan->cameraParams.fx(), 30);
+    EXPECT_DOUBLE_EQ(scan->cameraParamsIntensity.fx(), 60);
+}
+
+TEST_F(ConvertFolder, sevenScenesMarksNoReadingBy65535)
+{
+    for (int i = 0; i < 3; ++i)
+    {
+        cv::Mat depth = depthImage(i, 640, 480);
+        depth.at<std::uint16_t>(0, 0) = 65535;
+        writeImage(numbered("in/frame-%06d.color.png", i), colourImage(i, 640, 480));
+        writeImage(numbered("in/frame-%06d.depth.png", i), depth);
+        write(numbered("in/frame-%06d.pose.txt", i), "1 0 0 0\n");
+    }
+    ASSERT_EQ(run({"folder", in_}), kExitOk) << text_;
+    EXPECT_THAT(text_, HasSubstr("7-Scenes"));
+    EXPECT_THAT(text_, HasSubstr("nominal"));
+    expectFrames(30);
+    EXPECT_DOUBLE_EQ(frames()[0].camera.fx, 585);
+    EXPECT_TRUE(std::isnan(frames()[0].depth.at<float>(0, 0)));
+}
+
+TEST_F(ConvertFolder, redwoodTellsMicroseconds)
+{
+    for (int i = 0; i < 3; ++i)
+    {
+        const int us = 1000000 + 33000 * i;
+        writeImage(
+            numbered("in/image/%07d", i + 1) + numbered("-%012d.jpg", us),
+            colourImage(i, 640, 480));
+        writeImage(
+            numbered("in/depth/%07d", i + 1) + numbered("-%012d.png", us + 4000),
+            depthImage(i, 640, 480));
+    }
+    ASSERT_EQ(run({"folder", in_}), kExitOk) << text_;
+    EXPECT_THAT(text_, HasSubstr("Redwood"));
+    expectFrames(1 / 0.033);
+    EXPECT_DOUBLE_EQ(frames()[0].stamp, 1);
+    EXPECT_NEAR(frames()[0].shutter.depthDelay, 0.004, 1e-6);
+}
+
+TEST_F(ConvertFolder, replicaTellsItsScaleInJson)
+{
+    writeFrames("in/room0/results/frame%06d.jpg", "in/room0/results/depth%06d.png");
+    write(
+        "in/cam_params.json",
+        R"({"camera": {"w": 64, "h": 48, "fx": 60, "fy": 60, "cx": 31.5, "cy": 23.5, "scale": 6553.5}})");
+    ASSERT_EQ(run({"folder", in_ + "/room0"}), kExitOk) << text_;
+    EXPECT_THAT(text_, HasSubstr("Replica"));
+    expectFrames(30, 6553.5);
+}
+
+TEST_F(ConvertFolder, bonnHasStampsInItsNames)
+{
+    for (int i = 0; i < 3; ++i)
+    {
+        const std::string whole = std::to_string(1548266470 + i);
+        writeImage("in/rgbd_bonn_x/rgb/" + whole + ".88633.png", colourImage(i, 640, 480));
+        writeImage("in/rgbd_bonn_x/depth/" + whole + ".89633.png", depthImage(i, 640, 480));
+    }
+    ASSERT_EQ(run({"folder", in_ + "/rgbd_bonn_x"}), kExitOk) << text_;
+    EXPECT_THAT(text_, HasSubstr("Bonn"));
+    expectFrames(1, 5000);
+    EXPECT_NEAR(frames()[0].stamp, 1548266470.88633, 1e-6);
+    EXPECT_DOUBLE_EQ(frames()[0].camera.fx, 542.822841);
+}
+
+TEST_F(ConvertFolder, record3dHasSmallDepthImages)
+{
+    writeFrames("in/rgb/%d.jpg", "in/depth/%d.png", 16);
+    write(
+        "in/metadata.json",
+        R"({"w": 64, "h": 48, "K": [60, 0, 0, 0, 61, 0, 31.5, 23.5, 1], "fps": 60})");
+    ASSERT_EQ(run({"folder", in_}), kExitOk) << text_;
+    EXPECT_THAT(text_, HasSubstr("Record3D"));
+    expectFrames(60);
+    EXPECT_DOUBLE_EQ(scans()[0]->cameraParams.fx(), 15);
+    EXPECT_DOUBLE_EQ(scans()[0]->cameraParamsIntensity.fy(), 61);
+    write("in/metadata.json", R"({"w": 64, "h": 48, "K": [60, 0], "fps": 60})");
+    EXPECT_EQ(run({"folder", in_}), kExitBadInput);
+    EXPECT_THAT(text_, HasSubstr("metadata.json"));
+}
+
+TEST_F(ConvertFolder, strayScannerHasItsColourInAVideo)
+{
+    writeFrames("in/rgb/%06d.png", "in/depth/%06d.png", 16);
+    write("in/camera_matrix.csv", "60, 0, 31.5\n0, 60, 23.5\n0, 0, 1\n");
+    write(
+        "in/odometry.csv",
+        "timestamp, frame, x, y, z, qx, qy, qz, qw\n"
+        "7.5, 000000, 0,0,0,0,0,0,1\n7.6, 000001, 0,0,0,0,0,0,1\n7.7, 000002, 0,0,0,0,0,0,1\n");
+    ASSERT_EQ(run({"folder", in_}), kExitOk) << text_;
+    EXPECT_THAT(text_, HasSubstr("StrayScanner"));
+    expectFrames(10);
+    EXPECT_NEAR(frames()[0].stamp, 7.5, 1e-6);
+
+    std::filesystem::remove_all(dir_ / "in/rgb");
+    cv::VideoWriter video(
+        dir_ / "in/rgb.mp4", cv::VideoWriter::fourcc('m', 'p', '4', 'v'), 60, {64, 48});
+    if (!video.isOpened())
+    {
+        GTEST_SKIP() << "no encoder for the test's video here";
+    }
+    for (int i = 0; i < 3; ++i)
+    {
+        video.write(colourImage(i));
+    }
+    video.release();
+    ASSERT_EQ(run({"folder", in_}), kExitOk) << text_;
+    ASSERT_EQ(frames().size(), 3U);
+    EXPECT_NEAR(frames()[2].gray.at<uchar>(20, 30), 0.114 * 200 + 0.587 * 50 + 0.299 * 30, 8);
+}
+
+TEST_F(ConvertFolder, depthInFloatingPointMetres)
+{
+    writeFrames("in/rgb/%d.png", "in/depth/%d.png");
+    for (int i = 0; i < 3; ++i)
+    {
+        std::filesystem::remove(dir_ / numbered("in/depth/%d.png", i));
+        writeImage(
+            numbered("in/depth/%d.tiff", i),
+            cv::Mat(48, 64, CV_32FC1, cv::Scalar((1000 + i) / 500.0)));
+    }
+    write("in/camera.txt", kCamera);
+    ASSERT_EQ(run({"folder", in_}), kExitOk) << text_;
+    const auto found = frames();
+    ASSERT_EQ(found.size(), 3U);
+    EXPECT_NEAR(found[2].depth.at<float>(20, 30), 2.004, 1.3e-4);
+}
+
+TEST_F(ConvertFolder, aBadImageIsNamedAndLeftOut)
+{
+    writeFrames("in/rgb/%d.png", "in/depth/%d.png");
+    write("in/camera.txt", kCamera);
+    const std::string whole = test::readBytes(dir_ / "in/depth/1.png");
+    write("in/depth/1.png", whole.substr(0, 20));
+    EXPECT_EQ(run({"folder", in_}), kExitIncomplete);
+    EXPECT_THAT(text_, HasSubstr("in/depth/1.png"));
+    EXPECT_EQ(frames().size(), 2U);
+
+    std::filesystem::remove(out_);
+    EXPECT_EQ(run({"folder", in_, "--strict"}), kExitBadInput);
+    EXPECT_THAT(text_, HasSubstr("in/depth/1.png"));
+    EXPECT_FALSE(std::filesystem::exists(out_));
+
+    // Of another size, or not depth at all.
+    writeImage("in/depth/1.png", depthImage(1, 64, 20));
+    EXPECT_EQ(run({"folder", in_}), kExitIncomplete);
+    EXPECT_THAT(text_, HasSubstr("64x20"));
+    writeImage("in/depth/1.png", colourImage(1));
+    EXPECT_EQ(run({"folder", in_}), kExitIncomplete);
+    EXPECT_EQ(frames().size(), 2U);
+}
+
+TEST_F(ConvertFolder, otherFoldersAreErrorsThatSayWhatIsKnown)
+{
+    EXPECT_EQ(run({"folder", in_}), kExitBadInput);
+    std::filesystem::create_directories(in_);
+    EXPECT_EQ(run({"folder", in_}), kExitBadInput);
+    EXPECT_THAT(text_, HasSubstr("ScanNet"));
+    writeImage("in/rgb/1.png", colourImage(1));
+    writeImage("in/depth/2.png", depthImage(1));
+    write("in/camera.txt", kCamera);
+    EXPECT_EQ(run({"folder", in_}), kExitBadInput);
+    EXPECT_THAT(text_, HasSubstr("number"));
+}
+
+TEST(ProblemOfStamps, saysWhatIsWrong)
+{
+    std::vector<double> even, rounded, jittering, back, gaps;
+    for (int i = 0; i < 60; ++i)
+    {
+        const double t = 1000 + i / 30.0;
+        even.push_back(t);
+        rounded.push_back(std::round(100 * t) / 100);
+        jittering.push_back(t + 0.008 * std::sin(7.0 * i));
+        back.push_back(i == 30 ? t - 1 : t);
+        if (i % 7 != 3)
+        {
+            gaps.push_back(t);
+        }
+    }
+    EXPECT_EQ(problemOfStamps({}), "");
+    EXPECT_EQ(problemOfStamps(even), "");
+    EXPECT_EQ(problemOfStamps(gaps), "");
+    EXPECT_THAT(problemOfStamps(rounded), HasSubstr("rounded to 0.01 s"));
+    EXPECT_THAT(problemOfStamps(jittering), HasSubstr("jitter"));
+    EXPECT_THAT(problemOfStamps(back), HasSubstr("not after"));
+}
+}  // namespace pointplane

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <opencv2/imgproc.hpp>
+
+#include <cstdint>
+
+#include "converted_recordings.h"
+#include <zlib.h>
+
+namespace pointplane
+{
+namespace
+{
+using testing::HasSubstr;
+
+template <class T>
+void append(std::string& out, const T& value)
+{
+    out.append(reinterpret_cast<const char*>(&value), sizeof(value));
+}
+
+[[nodiscard]] std::string bytesOf(const cv::Mat& image)
+{
+    return {reinterpret_cast<const char*>(image.data), image.total() * image.elemSize()};
+}
+
+[[nodiscard]] std::string compressed(const std::string& bytes)
+{
+    uLongf size = compressBound(bytes.size());
+    std::string out(size, 0);
+    EXPECT_EQ(
+        compress(
+            reinterpret_cast<Bytef*>(out.data()),
+            &size,
+            reinterpret_cast<const Bytef*>(bytes.data()),
+            bytes.size()),
+        Z_OK);
+    out.resize(size);
+    return out;
+}
+
+/** As ElasticFusion's Logger2 writes it: RGB, which OpenCV's encoder takes for BGR. */
+[[nodiscard]] std::string log(int numFrames, bool isCompressed)
+{
+    std::string out;
+    append(out, static_cast<std::int32_t>(numFrames));
+    for (int i = 0; i < numFrames; ++i)
+    {
+        cv::Mat rgb;
+        cv::cvtColor(test::colourImage(i), rgb, cv::COLOR_BGR2RGB);
+        std::string depth = bytesOf(test::depthImage(i)), colour = bytesOf(rgb);
+        if (isCompressed)
+        {
+            depth = compressed(depth);
+            std::vector<uchar> jpeg;
+            cv::imencode(".jpg", rgb, jpeg);
+            colour.assign(jpeg.begin(), jpeg.end());
+        }
+        append(out, static_cast<std::int64_t>(5000000 + 33333 * i));
+        append(out, static_cast<std::int32_t>(depth.size()));
+        append(out, static_cast<std::int32_t>(colour.size()));
+        out += depth + colour;
+    }
+    return out;
+}
+
+class ConvertKlg : public test::ConvertedRecording
+{
+ protected:
+    void SetUp() override { write("camera.txt", "60 60 31.5 23.5 0 0 0 0 0 64 48 1000\n"); }
+    [[nodiscard]] int convert(const std::string& bytes, std::vector<std::string> more = {})
+    {
+        write("in.klg", bytes);
+        more.insert(more.begin(), {"klg", dir_ / "in.klg", "--camera", dir_ / "camera.txt"});
+        return run(more);
+    }
+};
+}  // namespace
+
+TEST_F(ConvertKlg, plainAndCompressed)
+{
+    for (const bool isCompressed : {false, true})
+    {
+        ASSERT_EQ(convert(log(3, isCompressed)), kExitOk) << text_;
+        const auto found = frames();
+        ASSERT_EQ(found.size(), 3U);
+        for (int i = 0; i < 3; ++i)
+        {
+            const RgbdFrame& frame = found[static_cast<std::size_t>(i)];
+            EXPECT_NEAR(frame.stamp, 5 + 0.033333 * i, 1e-6);
+            EXPECT_NEAR(frame.depth.at<float>(20, 30), 1 + 1e-3 * i, 1e-6);
+            EXPECT_NEAR(
+                frame.gray.at<uchar>(20, 30), 0.114 * 200 + 0.587 * (20 * i + 10) + 0.299 * 30, 3);
+        }
+    }
+}
+
+TEST_F(ConvertKlg, truncatedAnywhereKeepsWhatIsBefore)
+{
+    const std::string whole = log(3, true);
+    const std::string two = log(2, true);
+    for (const std::size_t size : {two.size() + 3, two.size() + 14, whole.size() - 1})
+    {
+        ASSERT_EQ(convert(whole.substr(0, size)), kExitIncomplete) << size;
+        EXPECT_THAT(text_, HasSubstr("frame 2 of 3"));
+        EXPECT_EQ(frames().size(), 2U);
+    }
+    std::filesystem::remove(out_);
+    EXPECT_EQ(convert(whole.substr(0, whole.size() - 1), {"--strict"}), kExitBadInput);
+    EXPECT_FALSE(std::filesystem::exists(out_));
+    EXPECT_EQ(convert(""), kExitBadInput);
+    EXPECT_EQ(convert("abc"), kExitBadInput);
+    EXPECT_EQ(run({"klg", dir_ / "none.klg"}), kExitBadInput);
+}
+
+TEST_F(ConvertKlg, damagedFramesAreLeftOut)
+{
+    const std::string one = log(1, true);
+    std::string bytes = log(3, true);
+    for (std::size_t i = 0; i < 30; ++i)
+    {
+        bytes[one.size() + 18 + i] = '\x55';  // the depth of frame 1
+    }
+    EXPECT_EQ(convert(bytes), kExitIncomplete);
+    EXPECT_THAT(text_, HasSubstr("frame 1: depth"));
+    EXPECT_EQ(frames().size(), 2U);
+    // A size that cannot be: no going on.
+    bytes = log(3, true);
+    bytes[one.size() + 8 + 3] = '\x7f';
+    EXPECT_EQ(convert(bytes), kExitIncomplete);
+    EXPECT_EQ(frames().size(), 1U);
+}
+}  // namespace pointplane
