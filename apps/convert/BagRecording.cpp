@@ -374,9 +374,11 @@ void BagRecording::pair()
             (message.getTopic() == depth_.name ? depth : colour).push_back(stamp);
         }
     }
-    catch (const ros::Exception&)
+    catch (const ros::Exception& e)
     {
-        // next() comes to the same place and tells it.
+        // Read again, the library may go on as if nothing were wrong.
+        damage_ = options_.file + ": damaged after message " +
+                  std::to_string(colour.size() + depth.size()) + " of its images: " + e.what();
     }
     for (const auto& [c, d] : associate(colour, depth, 0.0, options_.maxDifference))
     {
@@ -490,8 +492,11 @@ std::optional<RecordedFrame> BagRecording::next()
     }
     catch (const ros::Exception& e)
     {
-        damage_ = options_.file + ": damaged after message " + std::to_string(numRead_) +
-                  " of its images: " + e.what();
+        if (damage_.empty())
+        {
+            damage_ = options_.file + ": damaged after message " + std::to_string(numRead_) +
+                      " of its images: " + e.what();
+        }
         at_ = view_->end();
     }
     return {};

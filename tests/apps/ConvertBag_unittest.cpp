@@ -364,13 +364,12 @@ TEST_F(ConvertBag, truncatedAndDamagedBagsEndInOneLine)
     ASSERT_NE(chunk, std::string::npos);
     damaged.replace(chunk, 16, "compression=nonx");
     test::writeBytes(path_, damaged);
-    const int code = convert();
-    EXPECT_TRUE(code == kExitIncomplete || code == kExitBadInput) << text_;
-    if (code == kExitIncomplete)
-    {
-        EXPECT_THAT(text_, HasSubstr("damaged"));
-        EXPECT_GE(frames().size(), 1U);
-    }
+    EXPECT_EQ(convert(), kExitIncomplete) << text_;
+    EXPECT_THAT(text_, HasSubstr("damaged after message"));
+    EXPECT_GE(frames().size(), 1U);
+    std::filesystem::remove(out_);
+    EXPECT_EQ(convert({"--strict"}), kExitBadInput);
+    EXPECT_FALSE(std::filesystem::exists(out_));
     EXPECT_EQ(run({"bag", dir_ / "none.bag"}), kExitBadInput);
 }
 }  // namespace pointplane
