@@ -16,6 +16,8 @@ mutants=(
     'libs/core/src/se3.cpp|topRightCorner<3, 3>() = hat|bottomLeftCorner<3, 3>() = hat|core_se3 core_PoseGaussian'
     'libs/core/src/Plane.cpp|= -n.transpose() / (norm * norm)|= n.transpose() / (norm * norm)|core_Plane'
     'libs/sensor/src/DepthNoise.cpp|topLeftCorner<2, 2>() +=|bottomRightCorner<2, 2>() +=|sensor_DepthNoise'
+    'libs/sensor/src/DepthNoiseLearner.cpp|kBeyondCell * std::sqrt(variance.x())|std::sqrt(variance.x())|sensor_DepthNoiseLearner'
+    'libs/planes/src/PlaneClustering.cpp|return part * part|return part|planes_PlaneClustering'
     'libs/sensor/src/PinholeCamera.cpp|6 * k[3] * x|2 * k[3] * x|sensor_PinholeCamera'
     'libs/planes/src/PlaneFitter.cpp|b -= w * P|b += w * P|planes_PlaneFitter'
     'libs/odometry/src/uncertainty/JointCovariance.cpp|at(0, 0) - at(0, k) - at(k, 0)|at(0, 0) + at(0, k) - at(k, 0)|odometry_JointCovariance'
