@@ -9,6 +9,12 @@ problem() {
     failed=1
 }
 
+# helpOf PROGRAM [SUBCOMMAND]: asked for once, kept in helps.
+declare -A helps
+helpOf() {
+    [[ -n ${helps["$*"]:-} ]] || helps["$*"]=$("$@" --help)
+}
+
 for command in demo test; do
     [[ -x $command ]] || problem "./$command is not executable"
     grep -qF "./$command" README.md || problem "README.md does not name ./$command"
@@ -28,9 +34,11 @@ for page in README.md CONTRIBUTING.md docs/*.md; do
             problem "$page: $(basename "$program") is not built"
             continue
         fi
-        help=$("$program" --help)
+        helpOf "$program"
+        help=${helps["$program"]}
         if [[ ${words[1]} != -* ]] && grep -qE "^  ${words[1]}( |$)" <<<"$help"; then
-            help+=$("$program" "${words[1]}" --help)
+            helpOf "$program" "${words[1]}"
+            help+=${helps["$program ${words[1]}"]}
         fi
         for word in "${words[@]:1}"; do
             option=${word%%=*}
