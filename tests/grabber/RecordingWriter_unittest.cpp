@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/grabber/DurableFile.h>
 #include <pointplane/grabber/RecordingWriter.h>
+#include <pointplane/mrpt_io/ObservationConverter.h>
 #include <pointplane/mrpt_io/errors.h>
 
 #include <mrpt/io/lazy_load_path.h>
@@ -184,6 +185,50 @@ TEST_F(Recording, anImpossibleFolderIsAnEnvironmentError)
     auto o = options();
     o.path = dir_ / "missing/out.rawlog";
     EXPECT_THROW(RecordingWriter(o, builder_), EnvironmentError);
+}
+
+/** Told at the start of each file and where it changes, as the odometry reads it. */
+TEST_F(Recording, tellsTheDelayBetweenTheTwoImages)
+{
+    auto o = options();
+    o.tellDelay = true;
+    o.splitAfter = 1.0;
+    RecordingWriter writer(o, builder_);
+    for (std::size_t k = 0; k < frames_.size(); ++k)
+    {
+        ImagePair pair = makePair(frames_[k], stamp(k));
+        pair.colour.deviceTime = 5 + static_cast<double>(k) / 30;
+        pair.depth.deviceTime = pair.colour.deviceTime + (k < 10 ? 0.004 : -0.012);
+        ASSERT_TRUE(writer.push(pair));
+    }
+    writer.finish();
+    std::size_t frame = 0, comments = 0;
+    ASSERT_EQ(writer.paths().size(), 2U);
+    for (const std::string& path : writer.paths())
+    {
+        ObservationConverter converter;
+        RawlogReader reader(path);
+        while (const auto object = reader.next())
+        {
+            if (const auto comment =
+                    std::dynamic_pointer_cast<mrpt::obs::CObservationComment>(object))
+            {
+                converter.readComment(*comment);
+                ++comments;
+                continue;
+            }
+            const auto scan =
+                std::dynamic_pointer_cast<mrpt::obs::CObservation3DRangeScan>(object);
+            ASSERT_TRUE(scan);
+            EXPECT_NEAR(
+                converter.convert(*scan).frame.shutter.depthDelay,
+                frame < 10 ? 0.004 : -0.012,
+                1e-9);
+            ++frame;
+        }
+    }
+    EXPECT_EQ(frame, frames_.size());
+    EXPECT_EQ(comments, 3U);
 }
 
 TEST_F(Recording, aFullQueueRefusesInsteadOfWaiting)

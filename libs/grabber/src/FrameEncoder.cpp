@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/grabber/DurableFile.h>
 #include <pointplane/grabber/FrameEncoder.h>
+#include <pointplane/mrpt_io/ObservationConverter.h>
 
 #include <mrpt/io/CMemoryStream.h>
+#include <mrpt/obs/CObservationComment.h>
 #include <mrpt/serialization/CArchive.h>
 
 #include <opencv2/imgcodecs.hpp>
@@ -111,7 +113,10 @@ std::vector<std::uint8_t> FrameEncoder::compressed(const void* data, std::size_t
 }
 
 std::vector<std::uint8_t> FrameEncoder::encode(
-    const ImagePair& pair, const std::string& imagesFolder, std::uint64_t& externalBytes)
+    const ImagePair& pair,
+    const std::string& imagesFolder,
+    std::uint64_t& externalBytes,
+    bool tellDelay)
 {
     externalBytes = 0;
     ExternalObservation observation;
@@ -136,6 +141,15 @@ std::vector<std::uint8_t> FrameEncoder::encode(
         }
     }
     mrpt::io::CMemoryStream stream;
+    if (tellDelay)
+    {
+        ShutterModel shutter;
+        shutter.depthDelay = pair.depthDelay();
+        mrpt::obs::CObservationComment comment;
+        comment.timestamp = observation.timestamp;
+        comment.text = shutterComment(observation.sensorLabel, shutter);
+        serialise(comment, stream);
+    }
     serialise<mrpt::obs::CObservation3DRangeScan>(observation, stream);
     return compressed(stream.getRawBufferData(), stream.getTotalBytesCount());
 }

@@ -4,6 +4,7 @@
 #include <pointplane/grabber/RecordingWriter.h>
 #include <pointplane/mrpt_io/errors.h>
 
+#include <cmath>
 #include <filesystem>
 
 namespace pointplane
@@ -15,6 +16,9 @@ using Clock = std::chrono::steady_clock;
 
 // Encoded frames that may wait for the writer, besides those in the queue.
 constexpr std::size_t kMaxEncoded = 16;
+
+// Delays this close are not told anew [s].
+constexpr double kSameDelay = 1e-4;
 }  // namespace
 
 std::string segmentPath(const std::string& path, int segment)
@@ -100,6 +104,9 @@ RecordingWriter::Job RecordingWriter::makeJob(const ImagePair& pair) const
     {
         job.segment = static_cast<int>((pair.stamp - firstStamp_) / options_.splitAfter);
     }
+    job.tellsDelay =
+        options_.tellDelay && !pair.colour.pixels.empty() &&
+        (job.segment != toldSegment_ || std::abs(pair.depthDelay() - toldDelay_) > kSameDelay);
     return job;
 }
 
@@ -108,6 +115,11 @@ void RecordingWriter::accepted(const Job& job)
     if (numJobs_++ == 0)
     {
         firstStamp_ = job.pair.stamp;
+    }
+    if (job.tellsDelay)
+    {
+        toldDelay_ = job.pair.depthDelay();
+        toldSegment_ = job.segment;
     }
 }
 
@@ -156,7 +168,7 @@ void RecordingWriter::compressLoop()
         }
         Record record;
         record.segment = job->segment;
-        record.bytes = encoder.encode(job->pair, folder, record.externalBytes);
+        record.bytes = encoder.encode(job->pair, folder, record.externalBytes, job->tellsDelay);
         encoded_.put(job->number, std::move(record));
     }
 }

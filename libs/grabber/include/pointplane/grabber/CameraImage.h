@@ -40,5 +40,8 @@ struct ImagePair
     CameraImage depth;
     CameraImage colour;  //!< without pixels when the camera has no colour
     double stamp{0};     //!< [s] UTC, of the colour image if there is one
+
+    /** By the camera's own clock [s]. */
+    [[nodiscard]] double depthDelay() const { return depth.deviceTime - colour.deviceTime; }
 };
 }  // namespace pointplane

@@ -37,9 +37,13 @@ class FrameEncoder
 
     /** \param imagesFolder where external images go (existing), unused for embedded ones
      * \param[out] externalBytes size of the external files
+     * \param tellDelay puts a pointplane-camera comment with the delay between the two images first
      * \return what to append to the rawlog \throws EnvironmentError if a file cannot be written */
     [[nodiscard]] std::vector<std::uint8_t> encode(
-        const ImagePair& pair, const std::string& imagesFolder, std::uint64_t& externalBytes);
+        const ImagePair& pair,
+        const std::string& imagesFolder,
+        std::uint64_t& externalBytes,
+        bool tellDelay = false);
 
  private:
     [[nodiscard]] std::vector<std::uint8_t> compressed(const void* data, std::size_t size) const;

@@ -23,9 +23,10 @@ struct RecordingOptions
 {
     std::string path;  //!< of the rawlog; with splitting: name_001.rawlog, name_002.rawlog, ...
     EncodingOptions encoding;
-    double splitAfter{0};                         //!< [s] of recorded time per file; 0 = one file
-    std::size_t queueFrames{150};                 //!< that wait in memory, 1.5 MB each at 640x480
-    int numThreads{2};                            //!< that compress
+    double splitAfter{0};          //!< [s] of recorded time per file; 0 = one file
+    std::size_t queueFrames{150};  //!< that wait in memory, 1.5 MB each at 640x480
+    int numThreads{2};             //!< that compress
+    bool tellDelay{false};  //!< of depth after colour, where it changes; images have device times
     std::chrono::milliseconds syncInterval{500};  //!< how much a power failure may cost
 };
 
@@ -78,6 +79,7 @@ class RecordingWriter
     {
         std::uint64_t number{0};
         int segment{0};
+        bool tellsDelay{false};
         ImagePair pair;
     };
     struct Record
@@ -102,6 +104,8 @@ class RecordingWriter
     const ObservationBuilder& builder_;
     std::uint64_t numJobs_{0};  // of the pushing thread
     double firstStamp_{0};
+    double toldDelay_{0};  // of the last segment that told one
+    int toldSegment_{-1};
     BoundedQueue<Job> queue_;
     ReorderBuffer<Record> encoded_;
     std::unique_ptr<DurableFile> file_;  // of the writing thread, after construction
