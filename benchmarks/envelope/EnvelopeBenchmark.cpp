@@ -134,7 +134,7 @@ EnvelopeBenchmark::EnvelopeBenchmark(CLI::App& app)
         ->envname("POINTPLANE_DATA");
     app.add_option("--config-directory", configDirectory_, "with config.ini and its relatives")
         ->capture_default_str();
-    app.add_option("--configs", configs_, "files in it, the first is the table's")
+    app.add_option("--configs", configs_, "files in it, the first is the table's; none: only peers")
         ->delimiter(',')
         ->capture_default_str();
     app.add_option("--set", settings_, "Section.key=value for all of them, any number of times")
@@ -142,9 +142,16 @@ EnvelopeBenchmark::EnvelopeBenchmark(CLI::App& app)
         ->take_all();
     app.add_option(
         "--only", only_, "regular expression: only cells with a part of 'SEQUENCE, CONDITION'");
-    app.add_flag("--peers", peers_, "also the odometries in OpenCV and MRPT (slow)");
+    app.add_flag(
+        "--peers",
+        peers_,
+        "also OpenCV's RgbdOdometry and RgbdICPOdometry and MRPT's DIFODO, where there is truth "
+        "(slow)");
     app.add_flag("--quick", quick_, "fewer conditions, places and scenes: two minutes");
     app.add_option("--places", places_, "of each gap in a sequence, at most")
+        ->capture_default_str()
+        ->check(CLI::PositiveNumber);
+    app.add_option("--phases", phases_, "of each rate: starting frames, at most")
         ->capture_default_str()
         ->check(CLI::PositiveNumber);
     app.add_option("--duration", duration_, "of simulated scenes [s]")
@@ -155,21 +162,27 @@ EnvelopeBenchmark::EnvelopeBenchmark(CLI::App& app)
         ->check(CLI::Range(1U, 64U));
     app.add_flag("--details", details_, "print each sequence's table, too");
     app.add_option("--csv", csvFile_, "write a line per sequence, condition and method");
+    app.add_option(
+        "--add",
+        addedFile_,
+        "show the methods of an earlier run's --csv, too: peers do not change");
     app.add_option("--failures", failuresFile_, "write the tracked steps that are wrong (CSV)");
-    app.add_option("--markdown", markdownFile_, "replace the section `envelope` of this page");
+    app.add_option("--markdown", markdownFile_, "replace a section of this page");
+    app.add_option("--section", section_, "which one")->capture_default_str();
 }
 
 ConditionOptions EnvelopeBenchmark::conditionOptions() const
 {
     ConditionOptions out;
     out.places = places_;
+    out.phases = phases_;
     if (quick_)
     {
         out.rates = {30, 15, 10, 6, 3, 2};
         out.gaps = {6, 15, 50};
         out.frozen = {15};
         out.places = std::min(3, places_);
-        out.phases = 2;
+        out.phases = std::min(2, phases_);
     }
     return out;
 }
@@ -185,7 +198,7 @@ std::vector<SequenceSource> EnvelopeBenchmark::sources() const
     }
     const std::regex rest(
         "simulated (corner|cabinet.*|corridor|push|door|.*(twice as fast|blurred)|"
-        "notexture, .*)");
+        "notexture .*)");
     const auto isLeftOut = [&](const SequenceSource& source)
     { return (quick_ && std::regex_match(source.name, rest)) || !mayBeWanted(source); };
     out.erase(std::remove_if(out.begin(), out.end(), isLeftOut), out.end());
@@ -197,16 +210,19 @@ std::vector<NamedMethod> EnvelopeBenchmark::methods() const
     std::vector<NamedMethod> out;
     for (const std::string& config : configs_)
     {
+        if (config == "none")
+        {
+            continue;
+        }
         std::vector<std::string> settings = settings_;
         settings.emplace_back("Pipeline.numThreads=1");
         out.push_back(ourMethod(config, configDirectory_ + "/" + config, settings));
     }
     if (peers_)
     {
-        for (NamedMethod& peer : peerMethods())
-        {
-            out.push_back(std::move(peer));
-        }
+        out.push_back(openCvMethod("RgbdOdometry"));
+        out.push_back(openCvMethod("RgbdICPOdometry"));
+        out.push_back(difodoMethod(160));
     }
     return out;
 }
@@ -244,9 +260,15 @@ std::vector<Condition> EnvelopeBenchmark::conditionsOf(
 
 std::vector<EnvelopeScore> EnvelopeBenchmark::scoreSequence(
     const BenchmarkSequence& sequence,
-    const std::vector<NamedMethod>& methods,
+    const std::vector<NamedMethod>& allMethods,
     std::ostream& err) const
 {
+    std::vector<NamedMethod> methods = allMethods;
+    if (sequence.kind == Truth::None)
+    {
+        const auto isPeer = [](const NamedMethod& method) { return method.isPeer; };
+        methods.erase(std::remove_if(methods.begin(), methods.end(), isPeer), methods.end());
+    }
     if (conditionsOf(sequence, kUsualRate).empty())
     {
         return {};  // before all of its frames are read
@@ -326,6 +348,10 @@ void EnvelopeBenchmark::run(std::ostream& out, std::ostream& err) const
     {
         throw InputError("--only " + only_ + ": matches no 'SEQUENCE, CONDITION'");
     }
+    if (!addedFile_.empty())
+    {
+        all = withMethodsOf(all, scoresFromCsv(addedFile_));
+    }
     out << envelopeSummary(all);
     if (!csvFile_.empty())
     {
@@ -338,7 +364,7 @@ void EnvelopeBenchmark::run(std::ostream& out, std::ostream& err) const
     if (!markdownFile_.empty())
     {
         const std::string text = "\n" + envelopeSummary(all) + "\n" + envelopeTables(all) + "\n";
-        replaceMarkdownSection(markdownFile_, "envelope", text);
+        replaceMarkdownSection(markdownFile_, section_, text);
     }
 }
 }  // namespace pointplane

@@ -36,10 +36,11 @@ class EnvelopeBenchmark
         const std::vector<NamedMethod>& methods,
         std::ostream& err) const;
 
-    std::string data_, configDirectory_{"."}, only_, csvFile_, failuresFile_, markdownFile_;
+    std::string data_, configDirectory_{"."}, only_, csvFile_, addedFile_, failuresFile_;
+    std::string markdownFile_, section_{"envelope"};
     std::vector<std::string> configs_{"config.ini"}, settings_;
     double duration_{4};  //!< of simulated scenes [s]
-    int places_{10};
+    int places_{10}, phases_{30};
     unsigned int jobs_{1};
     bool quick_{false}, peers_{false}, details_{false};
 };

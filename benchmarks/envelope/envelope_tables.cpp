@@ -5,7 +5,9 @@
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
+#include <fstream>
 #include <functional>
+#include <iterator>
 #include <sstream>
 
 namespace pointplane
@@ -280,6 +282,79 @@ std::string envelopeCsv(const std::vector<EnvelopeScore>& scores)
             mm(s.largestSigma));
         out += s.neesMedian ? text("%.4f,%.4f", *s.neesMedian, *s.nees99) : ",";
         out += "," + s.failure + "\n";
+    }
+    return out;
+}
+
+std::vector<EnvelopeScore> scoresFromCsv(const std::string& path)
+{
+    constexpr std::size_t kColumns = 16;
+    std::ifstream file(path);
+    std::string line;
+    if (!std::getline(file, line))
+    {
+        throw std::runtime_error(path + ": cannot be read or is empty");
+    }
+    std::vector<EnvelopeScore> out;
+    for (int number = 2; std::getline(file, line); ++number)
+    {
+        std::vector<std::string> v;
+        std::istringstream fields(line);
+        for (std::string field; std::getline(fields, field, ',');)
+        {
+            v.push_back(field);
+        }
+        // The last one may be empty, or hold commas, of which the first part will do.
+        v.resize(kColumns - 1 <= v.size() ? kColumns : 0);
+        if (v.empty())
+        {
+            throw std::runtime_error(path + ":" + std::to_string(number) + ": not 16 columns");
+        }
+        EnvelopeScore s;
+        s.sequence = v[0];
+        s.condition = v[1];
+        s.method = v[2];
+        s.isPeer = v[3] == "1";
+        s.numSteps = std::stoul(v[4]);
+        s.numTracked = std::stoul(v[5]);
+        s.beyond.resize(std::stoul(v[6]));
+        s.large.resize(std::stoul(v[7]));
+        if (!v[8].empty())
+        {
+            s.numPairs = 1;
+            s.rpeTranslation = std::stod(v[8]) / 1e3;
+            s.rpeRotation = std::stod(v[9]) * M_PI / 180;
+        }
+        s.worstTranslation = std::stod(v[10]) / 1e3;
+        s.worstRotation = std::stod(v[11]) * M_PI / 180;
+        s.largestSigma = std::stod(v[12]) / 1e3;
+        s.failure = v[15];
+        out.push_back(std::move(s));
+    }
+    return out;
+}
+
+std::vector<EnvelopeScore> withMethodsOf(
+    const std::vector<EnvelopeScore>& scores, const std::vector<EnvelopeScore>& others)
+{
+    const auto isSameCell = [](const EnvelopeScore& a, const EnvelopeScore& b)
+    { return a.sequence == b.sequence && a.condition == b.condition; };
+    std::vector<EnvelopeScore> out;
+    for (std::size_t k = 0; k < scores.size(); ++k)
+    {
+        out.push_back(scores[k]);
+        if (k + 1 < scores.size() && isSameCell(scores[k], scores[k + 1]))
+        {
+            continue;
+        }
+        for (const EnvelopeScore& other : others)
+        {
+            if (isSameCell(other, scores[k]))
+            {
+                out.push_back(other);
+                out.back().truth = scores[k].truth;
+            }
+        }
     }
     return out;
 }

@@ -19,6 +19,13 @@ namespace pointplane
 /** A line per sequence, condition and method. */
 [[nodiscard]] std::string envelopeCsv(const std::vector<EnvelopeScore>& scores);
 
+/** What envelopeCsv() has written, without the single steps. \throws InputError naming the line */
+[[nodiscard]] std::vector<EnvelopeScore> scoresFromCsv(const std::string& path);
+
+/** The scores with those that others have of the same cells, in the order of the first. */
+[[nodiscard]] std::vector<EnvelopeScore> withMethodsOf(
+    const std::vector<EnvelopeScore>& scores, const std::vector<EnvelopeScore>& others);
+
 /** A line per tracked step that is beyond five standard deviations, or off by more than 50 mm or
  * 5 deg: where to look. */
 [[nodiscard]] std::string failuresCsv(const std::vector<EnvelopeScore>& scores);

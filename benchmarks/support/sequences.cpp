@@ -191,15 +191,15 @@ std::vector<SequenceSource> hardSimulatedSequences(double duration)
     {
         SimulationParams params = usual;
         params.motionSpeed = 2;
-        add(scene, ", twice as fast", params);
+        add(scene, " twice as fast", params);
         params.motionSpeed = 4;
-        add(scene, ", four times as fast", params);
+        add(scene, " four times as fast", params);
         params = usual;
         params.exposure = 0.030;
         params.maxBlurSamples = 16;
-        add(scene, ", blurred", params);
+        add(scene, " blurred", params);
         params.light = 0.1;
-        add(scene, ", dim", params);
+        add(scene, " dim", params);
     }
     for (const std::string scene : {"person", "push", "door", "half"})
     {

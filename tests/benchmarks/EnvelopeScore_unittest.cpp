@@ -4,7 +4,9 @@
 #include <pointplane/core/se3.h>
 
 #include <cmath>
+#include <fstream>
 
+#include "TempDir.h"
 #include "envelope_tables.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -165,6 +167,36 @@ TEST(EnvelopeScore, LooseOrMissingTruthDoesNotJudgeCovariances)
     EXPECT_EQ(none.numPairs, 0U);
     EXPECT_NEAR(none.worstTranslation, std::hypot(0.06, 0.03), 1e-9);  // the step itself
     EXPECT_THAT(envelopeTables({none}), HasSubstr("largest step"));
+}
+
+TEST(EnvelopeTables, ScoresOfAnEarlierRunComeBesideTheSameCells)
+{
+    const BenchmarkSequence sequence = straight(31);
+    std::vector<MethodStep> steps = perfect(sequence);
+    steps[12].T_prev_cur.translation().x() = 0.06;
+    EnvelopeScore peer = scoreOf(sequence, steps);
+    peer.method = "peer";
+    peer.isPeer = true;
+    EnvelopeScore elsewhere = peer;
+    elsewhere.condition = "3 Hz";
+    const test::TempDir dir;
+    std::ofstream(dir / "a.csv") << envelopeCsv({peer, elsewhere});
+    const std::vector<EnvelopeScore> read = scoresFromCsv(dir / "a.csv");
+    ASSERT_EQ(read.size(), 2U);
+    EXPECT_TRUE(read[0].isPeer);
+    EXPECT_EQ(read[0].numSteps, 30U);
+    EXPECT_EQ(read[0].beyond.size(), 1U);
+    EXPECT_NEAR(read[0].rpeTranslation, peer.rpeTranslation, 1e-6);
+    EXPECT_NEAR(read[0].worstTranslation, 0.06, 1e-6);
+
+    const auto both = withMethodsOf({scoreOf(sequence, perfect(sequence))}, read);
+    ASSERT_EQ(both.size(), 2U);
+    EXPECT_EQ(both[1].method, "peer");
+    EXPECT_EQ(both[1].condition, "10 Hz");
+
+    std::ofstream(dir / "b.csv") << "header\none,two\n";
+    EXPECT_THROW((void)scoresFromCsv(dir / "b.csv"), std::runtime_error);
+    EXPECT_THROW((void)scoresFromCsv(dir / "none.csv"), std::runtime_error);
 }
 
 TEST(EnvelopeTables, CellsBehindAPeerAreNamed)
