@@ -197,7 +197,7 @@ std::vector<SequenceSource> EnvelopeBenchmark::sources() const
         out.insert(out.end(), scenes.begin(), scenes.end());
     }
     const std::regex rest(
-        "simulated (corner|cabinet.*|corridor|push|door|.*(twice as fast|blurred)|"
+        "simulated (corner|cabinet.*|corridor|.*(twice as fast|blurred|without .*|from .*)|"
         "notexture .*)");
     const auto isLeftOut = [&](const SequenceSource& source)
     { return (quick_ && std::regex_match(source.name, rest)) || !mayBeWanted(source); };

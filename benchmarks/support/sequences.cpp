@@ -203,7 +203,15 @@ std::vector<SequenceSource> hardSimulatedSequences(double duration)
     }
     for (const std::string scene : {"person", "push", "door", "half"})
     {
-        add(scene, "", usual);
+        SimulationParams params = usual;
+        add(scene, "", params);
+        params.movers = false;
+        add(scene, " without what moves", params);
+        params = usual;
+        params.motionSpeed = 0;
+        add(scene, " from a camera that stands", params);
+        params.motionSpeed = 3;
+        add(scene, " from a fast camera", params);
     }
     return out;
 }

@@ -53,7 +53,8 @@ struct SequenceSource
 [[nodiscard]] std::vector<SequenceSource> simulatedSequences(double duration);
 
 /** Simulated scenes, moved 2 and 4 times as fast, blurred by exposures of 30 ms, in a tenth of the
- * light with such exposures, and those in which something moves. \param duration [s] */
+ * light with such exposures; and those in which something moves, without that, and with a camera
+ * that stands or goes three times as fast. \param duration [s] */
 [[nodiscard]] std::vector<SequenceSource> hardSimulatedSequences(double duration);
 
 /** Both, with the simulated ones alone when `data` is empty. */
