@@ -65,10 +65,12 @@ bool FrameSource::refill()
         if (auto observation = std::dynamic_pointer_cast<mrpt::obs::CObservation>(object))
         {
             pending_.push_back(observation);
+            pendingIsObject_ = true;
         }
         else if (auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(object))
         {
             pending_.insert(pending_.end(), frame->begin(), frame->end());
+            pendingIsObject_ = false;
         }
         // Actions are the odometry of somebody else.
     }
@@ -126,6 +128,8 @@ SourceItem FrameSource::item(const mrpt::obs::CObservation::Ptr& observation)
 {
     SourceItem out;
     out.observation = observation;
+    const bool copies = !options_.output.empty() && !options_.onlyPoses && pendingIsObject_;
+    out.record = copies ? std::make_shared<RawlogRecord>(reader_->takeRecord()) : nullptr;
     out.progress = (static_cast<double>(nextInput_ - 1) + reader_->progress()) /
                    static_cast<double>(options_.inputs.size());
     if (const auto comment = std::dynamic_pointer_cast<CObservationComment>(observation))
@@ -145,7 +149,10 @@ SourceItem FrameSource::item(const mrpt::obs::CObservation::Ptr& observation)
     {
         return out;
     }
-    makeExternalsAbsolute(*scan, reader_->externalsDirectory());
+    if (makeExternalsAbsolute(*scan, reader_->externalsDirectory()))
+    {
+        out.record.reset();
+    }
     checkExternals(*scan);
     ++framesOf_[scan->sensorLabel];
     if (label_.empty() && numFrames_ == 0)

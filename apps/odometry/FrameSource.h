@@ -23,6 +23,8 @@ namespace pointplane
 struct SourceItem
 {
     mrpt::obs::CObservation::Ptr observation;
+    std::shared_ptr<RawlogRecord>
+        record;  //!< the observation as it is in the file, if it may stay so
     std::optional<ConvertedFrame> converted;
     std::size_t frameIndex{0};  //!< in the input, counted over RGB-D frames of the camera
     double progress{0};         //!< fraction of the input read, 0 to 1
@@ -63,6 +65,7 @@ class FrameSource
     std::unique_ptr<RawlogReader> reader_;
     ObservationConverter converter_;
     std::deque<mrpt::obs::CObservation::Ptr> pending_;
+    bool pendingIsObject_{false};  //!< not out of a sensory frame
     std::string label_;
     std::map<std::string, std::size_t> framesOf_;
     std::size_t numReplaced_{0};  //!< observations of an earlier run

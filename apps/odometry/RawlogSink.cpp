@@ -94,7 +94,11 @@ mrpt::obs::CObservation::Ptr RawlogSink::observationOf(const OutputItem& item) c
 
 void RawlogSink::addFormat2(const OutputItem& item)
 {
-    if (!onlyPoses_)
+    if (!onlyPoses_ && item.source.record && !withPoints_)
+    {
+        writer_.write(*item.source.record);
+    }
+    else if (!onlyPoses_)
     {
         writer_.write(*observationOf(item));
     }

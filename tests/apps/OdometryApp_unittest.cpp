@@ -362,7 +362,7 @@ TEST_F(OdometryApp, badInputIsNamedWithExitCode2)
     writeBytes(dir_ / "empty.rawlog", "");
     expect({dir_ / "empty.rawlog", "-o", out_}, "empty.rawlog: is empty");
     writeBytes(dir_ / "text.rawlog", "hello");
-    expect({dir_ / "text.rawlog", "-o", out_}, "is it a rawlog?");
+    expect({dir_ / "text.rawlog", "-o", out_}, "is a text file, not a rawlog");
     expect(
         {in_, "-o", out_, "--sensor-label", "LEFT"},
         "'LEFT' in the range asked for; labels in it: 'RGBD'");

@@ -114,8 +114,79 @@ TEST(RawlogDamage, onRequestMrptIsNotAskedForClassesThatAreNotKnown)
     RawlogReader reader(dir / "a.rawlog", RawlogClasses::Known);
     EXPECT_TRUE(reader.next());
     EXPECT_FALSE(reader.next());
-    EXPECT_EQ(reader.ending().kind, RawlogEnd::Damaged);
-    EXPECT_THAT(reader.ending().message, testing::HasSubstr("class CObservationRange of"));
+    EXPECT_EQ(reader.ending().kind, RawlogEnd::NotSupported);
+    EXPECT_THAT(reader.ending().message, testing::HasSubstr("class CObservationRange, version"));
+}
+
+/** Whose lengths MRPT would believe: a flipped bit anywhere in the file is enough. */
+TEST(RawlogDamage, withAWrongChecksumMrptIsNotAskedForClassesThatAreNotKnown)
+{
+    const TempDir dir;
+    {
+        RawlogWriter writer(dir / "a.rawlog");
+        writer.write(*test::sampleScan(0, 160, 120));
+        writer.write(mrpt::obs::CObservationRange());
+        writer.write(*test::sampleScan(1, 160, 120));
+        writer.close();
+    }
+    std::string bytes = readBytes(dir / "a.rawlog");
+    bytes[bytes.size() - 1000] = static_cast<char>(bytes[bytes.size() - 1000] ^ 4);
+    writeBytes(dir / "b.rawlog", bytes);
+    const RawlogContents contents = readAll(dir / "b.rawlog");
+    EXPECT_EQ(contents.objects.size(), 1U);
+    EXPECT_EQ(contents.ending.kind, RawlogEnd::Damaged);
+    EXPECT_THAT(contents.ending.message, testing::HasSubstr("class CObservationRange, version"));
+}
+
+/** A count of four billion observations must not become an allocation, whatever the version. */
+TEST(RawlogDamage, countsOfObservationsAreNotBelieved)
+{
+    const TempDir dir;
+    for (int version = 0; version < 5; ++version)
+    {
+        std::string bytes =
+            "\x8d"
+            "CSensoryFrame";
+        bytes += static_cast<char>(version);
+        bytes += std::string(1500, '\xff');
+        writeBytes(dir / "a.rawlog", bytes);
+        rusage before{}, after{};
+        getrusage(RUSAGE_SELF, &before);
+        EXPECT_THROW(RawlogReader(dir / "a.rawlog"), InputError) << version;
+        getrusage(RUSAGE_SELF, &after);
+        EXPECT_LT(after.ru_maxrss - before.ru_maxrss, 100'000) << version;
+    }
+}
+
+/** Also between two objects, where nothing is missing but what follows. */
+TEST(RawlogDamage, noCutOfAWrittenFileLooksComplete)
+{
+    const TempDir dir;
+    RawlogWriterOptions options;
+    options.flushEveryObjects = 1;
+    {
+        RawlogWriter writer(dir / "a.rawlog", options);
+        for (int i = 0; i < 4; ++i)
+        {
+            mrpt::obs::CObservationComment comment;
+            comment.text = std::to_string(i);
+            writer.write(comment);
+        }
+        writer.close();
+    }
+    const std::string bytes = readBytes(dir / "a.rawlog");
+    for (std::size_t cut = 0; cut < bytes.size(); ++cut)
+    {
+        writeBytes(dir / "cut.rawlog", bytes.substr(0, cut));
+        try
+        {
+            EXPECT_EQ(readAll(dir / "cut.rawlog").ending.kind, RawlogEnd::Truncated) << cut;
+        }
+        catch (const InputError& error)  // before the first object's end
+        {
+            EXPECT_LT(cut, bytes.size() / 3);
+        }
+    }
 }
 
 /** A scan whose colour is JPEG, as MRPT serialises it. */

@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include "gz_members.h"
 #include <sys/stat.h>
 
 namespace pointplane
@@ -57,6 +58,7 @@ GzInput::GzInput(const std::string& path) : buffer_(1U << 18U)
     {
         throw EnvironmentError("cannot read " + path + ": out of memory");
     }
+    expectHeader();
 }
 
 GzInput::~GzInput()
@@ -91,11 +93,31 @@ void GzInput::finish(End end, const std::string& problem)
     }
 }
 
+void GzInput::expectHeader()
+{
+    if (compressed_)
+    {
+        header_ = {};
+        header_.extra = extra_;
+        header_.extra_max = sizeof(extra_);
+        inflateGetHeader(&zlib_, &header_);
+        atMemberStart_ = true;
+    }
+}
+
+bool GzInput::isLastMember() const
+{
+    return header_.extra_len < kAnotherFollows.size() ||
+           !std::equal(kAnotherFollows.begin(), kAnotherFollows.end(), extra_);
+}
+
 void GzInput::startNextMember()
 {
+    keptAll_ = true;
     if (zlib_.avail_in == 0 && !refill())
     {
-        finish(End::Clean);
+        isLastMember() ? finish(End::Clean)
+                       : finish(End::Truncated, "the file stops between two records");
         return;
     }
     // zlib itself ignores what follows; here it would hide a damaged second stream.
@@ -105,6 +127,72 @@ void GzInput::startNextMember()
         return;
     }
     inflateReset(&zlib_);
+    expectHeader();
+}
+
+int GzInput::inflateSome()
+{
+    keeping_ = keeping_ && !keptAll_;  // else the object goes on in another member
+    const std::uint8_t* from = zlib_.next_in;
+    const int code = inflate(&zlib_, Z_NO_FLUSH);
+    atMemberStart_ = false;
+    if (keeping_)
+    {
+        kept_.insert(kept_.end(), from, static_cast<const std::uint8_t*>(zlib_.next_in));
+    }
+    return code;
+}
+
+void GzInput::beginMember()
+{
+    keeping_ = compressed_ && atMemberStart_ && end_ == End::Open;
+    keptAll_ = false;
+    kept_.clear();
+}
+
+std::vector<std::uint8_t> GzInput::endMember()
+{
+    // The end of the data and the checksum may still be to be read. Where more data come, zlib
+    // waits for room to put them.
+    std::uint8_t nothing = 0;
+    zlib_.next_out = &nothing;
+    zlib_.avail_out = 0;
+    int code = Z_OK;
+    while (keeping_ && !keptAll_ && code == Z_OK && (zlib_.avail_in > 0 || refill()))
+    {
+        code = inflateSome();
+        if (code == Z_STREAM_END)
+        {
+            startNextMember();
+        }
+        else if (code != Z_OK && code != Z_BUF_ERROR)
+        {
+            finish(End::Damaged, zlib_.msg != nullptr ? zlib_.msg : "not gz data");
+        }
+    }
+    const bool isWhole = keeping_ && keptAll_;
+    keeping_ = false;
+    return isWhole ? std::vector<std::uint8_t>(
+                         kept_.begin() + static_cast<std::ptrdiff_t>(headerSize()), kept_.end())
+                   : std::vector<std::uint8_t>();
+}
+
+std::size_t GzInput::headerSize() const
+{
+    constexpr std::uint8_t kChecksum = 2, kExtra = 4, kName = 8, kComment = 16;  // RFC 1952
+    const std::uint8_t flags = kept_.at(3);
+    std::size_t at = 10;
+    if ((flags & kExtra) != 0)
+    {
+        at += 2U + kept_.at(at) + 256U * kept_.at(at + 1);
+    }
+    for (const std::uint8_t text : {kName, kComment})
+    {
+        while ((flags & text) != 0 && kept_.at(at++) != 0)
+        {
+        }
+    }
+    return (flags & kChecksum) != 0 ? at + 2 : at;
 }
 
 void GzInput::inflateInto(std::uint8_t* bytes, std::size_t size)
@@ -118,7 +206,7 @@ void GzInput::inflateInto(std::uint8_t* bytes, std::size_t size)
             finish(End::Truncated, "the compressed data stop too early");
             break;
         }
-        const int code = inflate(&zlib_, Z_NO_FLUSH);
+        const int code = inflateSome();
         if (code == Z_STREAM_END)
         {
             startNextMember();

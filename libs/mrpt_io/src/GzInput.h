@@ -12,8 +12,8 @@
 
 namespace pointplane
 {
-/** Bytes of a file that is plain or one or more gz streams, telling apart its complete end, an
- * early one and corruption. */
+/** Bytes of a file that is plain or one or more gz streams (members), telling apart its complete
+ * end, an early one and corruption. */
 class GzInput
 {
  public:
@@ -41,6 +41,12 @@ class GzInput
     [[nodiscard]] std::uint64_t fileSize() const { return fileSize_; }
     [[nodiscard]] bool isCompressed() const { return compressed_; }
 
+    /** Keeps the compressed bytes of the member that begins here, if one does. */
+    void beginMember();
+    /** \return the compressed data of that member, its checksum and length (after which GzOutput
+     * can put them), if it ends here; else empty */
+    [[nodiscard]] std::vector<std::uint8_t> endMember();
+
  private:
     struct FileCloser
     {
@@ -51,6 +57,10 @@ class GzInput
     void finish(End end, const std::string& problem = {});
     void inflateInto(std::uint8_t* bytes, std::size_t size);
     void startNextMember();
+    void expectHeader();
+    int inflateSome();
+    [[nodiscard]] bool isLastMember() const;
+    [[nodiscard]] std::size_t headerSize() const;
 
     std::unique_ptr<std::FILE, FileCloser> file_;
     std::uint64_t fileSize_{0};
@@ -58,6 +68,12 @@ class GzInput
     std::vector<std::uint8_t> buffer_;
     z_stream zlib_{};
     bool compressed_{false};
+    bool atMemberStart_{false};
+    gz_header header_{};        //!< of the member at hand
+    std::uint8_t extra_[64]{};  //!< extra field of that header
+    bool keeping_{false};
+    bool keptAll_{false};             //!< the member that is kept has ended
+    std::vector<std::uint8_t> kept_;  //!< of the member at hand, header included
     End end_{End::Open};
     std::string problem_;
 };

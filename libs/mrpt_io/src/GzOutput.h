@@ -5,38 +5,46 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include <zlib.h>
+struct libdeflate_compressor;
 
 namespace pointplane
 {
-/** gz file of which every write is checked, complete or marked as not (OutputFile). zlib's gzFile
- * cannot do it: its close adds the trailer to a file that was not finished, and hides its
- * descriptor from fsync. All members throw EnvironmentError. */
+/** gz file, complete or marked as not (OutputFile), made of members: each can be decompressed by
+ * itself, and taken over into another file as it is (GzInput::endMember()).
+ *
+ * Every member says in its header that another one follows, but for an empty one at the end: no cut
+ * looks like a complete file, not even one between two members. All members throw EnvironmentError.
+ */
 class GzOutput
 {
  public:
     GzOutput(const std::string& path, int compressionLevel);
-    ~GzOutput();
-    GzOutput(const GzOutput&) = delete;
-    GzOutput& operator=(const GzOutput&) = delete;
 
+    /** Appends to the member at hand. */
     void write(const void* bytes, std::size_t size);
-    /** Everything so far can be decompressed from the file, even if the process is killed. */
+    /** Ends the member at hand: everything so far is in the file, even if the process is killed. */
     void flush();
-    /** Ends the gz stream and gives the file its name. */
+    /** Takes over a member. \param body its compressed data and what follows them */
+    void copyMember(const std::vector<std::uint8_t>& body);
+    /** Ends the file and gives it its name. */
     void commit();
     void discard() noexcept { file_.discard(); }
+
     [[nodiscard]] const OutputFile& file() const { return file_; }
 
  private:
-    void deflateInput(int flushMode);
+    struct Freer
+    {
+        void operator()(libdeflate_compressor* c) const;
+    };
 
     OutputFile file_;
-    z_stream zlib_{};
-    bool usable_{true};
+    std::unique_ptr<libdeflate_compressor, Freer> compressor_;
+    std::vector<std::uint8_t> member_;  //!< not compressed yet
     std::vector<std::uint8_t> compressed_;
 };
 }  // namespace pointplane

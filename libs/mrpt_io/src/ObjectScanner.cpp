@@ -1,29 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ObjectScanner.h"
 
-#include <pointplane/mrpt_io/errors.h>
-
-#include <mrpt/serialization/CArchive.h>
-#include <mrpt/serialization/CSerializable.h>
-
 #include <algorithm>
 #include <cstring>
-
-#include "ReplayStream.h"
 
 namespace pointplane
 {
 namespace
 {
 constexpr std::uint8_t kEndFlag = 0x88;
-constexpr std::uint64_t kMaxString = 1ULL << 20U;
+constexpr std::uint64_t kMaxString = 1ULL << 26U;
 constexpr std::uint64_t kMaxObjects = 1ULL << 16U;
 constexpr std::uint64_t kChunk = 1ULL << 20U;
 constexpr int kMaxDepth = 4;
 
 using scanning::kMaxPixels;
-using scanning::numPixels;
 using scanning::require;
+using scanning::requireKnown;
 }  // namespace
 
 void ObjectScanner::copy(std::uint64_t size)
@@ -104,6 +97,7 @@ bool ObjectScanner::scan(std::vector<std::uint8_t>& bytes)
     bytes_ = &bytes;
     bytes.clear();
     resolutions_.clear();
+    edits_.clear();
     try
     {
         copyAnyObject(0);
@@ -119,6 +113,27 @@ bool ObjectScanner::scan(std::vector<std::uint8_t>& bytes)
     return true;
 }
 
+void ObjectScanner::noteEdit(std::size_t at, std::size_t originalSize, std::size_t size)
+{
+    const auto from = bytes_->begin() + static_cast<std::ptrdiff_t>(at);
+    edits_.push_back({at, size, {from, from + static_cast<std::ptrdiff_t>(originalSize)}});
+}
+
+void ObjectScanner::restore(std::vector<std::uint8_t>& bytes) const
+{
+    for (auto edit = edits_.rbegin(); edit != edits_.rend(); ++edit)
+    {
+        const auto at = bytes.begin() + static_cast<std::ptrdiff_t>(edit->at);
+        if (edit->size == edit->original.size())
+        {
+            std::copy(edit->original.begin(), edit->original.end(), at);
+            continue;
+        }
+        const auto next = bytes.erase(at, at + static_cast<std::ptrdiff_t>(edit->size));
+        bytes.insert(next, edit->original.begin(), edit->original.end());
+    }
+}
+
 void ObjectScanner::copyAnyObject(int depth)
 {
     require(depth < kMaxDepth, "objects nested too deeply");
@@ -128,7 +143,7 @@ void ObjectScanner::copyAnyObject(int depth)
 void ObjectScanner::copyObject(const char* expectedClass)
 {
     const Header header = copyHeader();
-    require(
+    requireKnown(
         header.className == expectedClass,
         "class " + header.className + " where " + expectedClass + " belongs");
     copyBody(header, 0);
@@ -148,9 +163,15 @@ void ObjectScanner::copyBody(const Header& header, int depth)
 {
     const std::string& name = header.className;
     const int version = header.version;
-    if (name == "CObservation3DRangeScan" && version <= 10)
+    if (name == "CObservation3DRangeScan" && (version == 9 || version == 10))
     {
         range3DScan(version);
+    }
+    else if (name == "CSensoryFrame" && version < 2)
+    {
+        copy(version == 0 ? 4 : 12);  // identifier, time stamp
+        require(copyValue<std::uint32_t>() <= kMaxObjects, "a frame of too many observations");
+        throw Unknown("class CSensoryFrame, version " + std::to_string(version));
     }
     else if (name == "CSensoryFrame" && version == 2)
     {
@@ -197,36 +218,10 @@ void ObjectScanner::copyBody(const Header& header, int depth)
     {
         camera(version);
     }
-    else if (name == "CMatrixF" && version == 0)
-    {
-        const auto rows = copyValue<std::uint32_t>();
-        copyArray(numPixels(copyValue<std::uint32_t>(), rows), sizeof(float));
-    }
     else if (!otherSensor(header, depth))
     {
-        opaque(header);
-        return;
+        throw Unknown("class " + name + ", version " + std::to_string(version));
     }
     copyEndFlag(header);
-}
-
-void ObjectScanner::opaque(const Header& header)
-{
-    require(
-        askMrpt_,
-        "class " + header.className + " of serialisation version " +
-            std::to_string(header.version) + ", whose layout is not known");
-    // MRPT reads the header again from our copy, then the rest from the file; all is recorded.
-    ReplayStream stream(*bytes_, header.begin, &in_);
-    auto archive = mrpt::serialization::archiveFrom(static_cast<mrpt::io::CStream&>(stream));
-    try
-    {
-        (void)archive.ReadObject();
-    }
-    catch (const std::exception& e)
-    {
-        require(in_.problem().empty(), in_.problem());
-        throw Problem("an object of class " + header.className + ": " + oneLine(e));
-    }
 }
 }  // namespace pointplane

@@ -17,8 +17,8 @@ namespace pointplane
  * MRPT allocates what a length field says before it reads, unchecked: a flipped bit means gigabytes
  * or a crash. The scanner knows the layout of the classes of RGB-D rawlogs (observations, poses,
  * images, frames and actions, in the versions listed in the source) and of the sensors that robots
- * commonly log beside, and grows its buffer only as bytes arrive. Objects of other classes are
- * measured by letting MRPT read them: their length fields are believed. */
+ * commonly log beside, and grows its buffer only as bytes arrive. Objects of other classes and
+ * versions are Unknown. */
 class ObjectScanner
 {
  public:
@@ -29,20 +29,29 @@ class ObjectScanner
         using std::runtime_error::runtime_error;
     };
 
+    /** A class or version whose layout is not known here: no sign of damage. */
+    class Unknown : public Problem
+    {
+     public:
+        using Problem::Problem;
+    };
+
     /** What a range scan says about its depth camera. MRPT replaces it by the size of the range
      * image while reading, which hides intrinsics of another resolution. */
     struct Resolution
     {
         std::uint32_t rows{0}, cols{0};
-        bool isKnown{false};
     };
 
-    /** \param askMrpt otherwise objects of other classes are a Problem */
-    ObjectScanner(GzInput& in, bool askMrpt) : in_(in), askMrpt_(askMrpt) {}
+    explicit ObjectScanner(GzInput& in) : in_(in) {}
 
-    /** Copies the next object. False if the input ended before its first byte.
-     * \throws Problem */
+    /** Copies the next object, as MRPT shall see it: JPEG images decoded, resolutions exchanged.
+     * False if the input ended before its first byte.
+     * \throws Problem, Unknown; the bytes so far are in `bytes` then */
     bool scan(std::vector<std::uint8_t>& bytes);
+
+    /** Makes the bytes of the latest object those of the file again. */
+    void restore(std::vector<std::uint8_t>& bytes) const;
 
     /** Of the depth camera of each range scan in the object, in order, as it was in the file; in
      * the copied bytes the size of the range image stands in its place. */
@@ -73,7 +82,7 @@ class ObjectScanner
 
     // Bodies, each named after its class.
     void range3DScan(int version);
-    void rangeImage(int version);
+    void rangeImage();
     void exchangeResolution(const Resolution& range);
     void pixelLabels();
     void image(int version);
@@ -92,11 +101,17 @@ class ObjectScanner
     void velocities();
     void wheels();
 
-    void opaque(const Header& header);
+    /** What was put in place of the file's bytes. */
+    struct Edit
+    {
+        std::size_t at{0}, size{0};
+        std::vector<std::uint8_t> original;
+    };
+    void noteEdit(std::size_t at, std::size_t originalSize, std::size_t size);
 
     GzInput& in_;
-    bool askMrpt_;
     std::vector<std::uint8_t>* bytes_{nullptr};
+    std::vector<Edit> edits_;
     std::vector<Resolution> resolutions_;
     std::size_t cameraResolutionAt_{0};  // in the buffer, of the latest camera
 };
@@ -119,6 +134,15 @@ inline void require(bool condition, const std::string& problem)
     if (!condition)
     {
         throw ObjectScanner::Problem(problem);
+    }
+}
+
+/** For what MRPT may know better. */
+inline void requireKnown(bool condition, const std::string& what)
+{
+    if (!condition)
+    {
+        throw ObjectScanner::Unknown(what);
     }
 }
 

@@ -7,7 +7,11 @@
 #include <mrpt/serialization/CArchive.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
+#include <fstream>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "GzInput.h"
@@ -18,9 +22,11 @@ namespace pointplane
 {
 namespace
 {
-[[nodiscard]] mrpt::serialization::CSerializable::Ptr deserialise(std::vector<std::uint8_t>& bytes)
+/** \param live what the object goes on with, or nullptr */
+[[nodiscard]] mrpt::serialization::CSerializable::Ptr deserialise(
+    std::vector<std::uint8_t>& bytes, GzInput* live)
 {
-    ReplayStream stream(bytes, 0, nullptr);
+    ReplayStream stream(bytes, 0, live);
     auto archive = mrpt::serialization::archiveFrom(static_cast<mrpt::io::CStream&>(stream));
     return archive.ReadObject();
 }
@@ -52,11 +58,8 @@ void restoreResolutions(
         if (auto* scan = dynamic_cast<mrpt::obs::CObservation3DRangeScan*>(&o);
             scan != nullptr && i < resolutions.size())
         {
-            if (resolutions[i].isKnown)
-            {
-                scan->cameraParams.nrows = resolutions[i].rows;
-                scan->cameraParams.ncols = resolutions[i].cols;
-            }
+            scan->cameraParams.nrows = resolutions[i].rows;
+            scan->cameraParams.ncols = resolutions[i].cols;
             ++i;
         }
     };
@@ -69,20 +72,85 @@ void restoreResolutions(
         }
     }
 }
+/** What the checksums of a file say about it. */
+enum class Sum
+{
+    None,  //!< there are none, or the file stops before them
+    Right,
+    Wrong
+};
+
+[[nodiscard]] Sum sumOf(const std::string& path)
+{
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(path, error))
+    {
+        return Sum::None;
+    }
+    GzInput in(path);
+    std::vector<std::uint8_t> chunk(1U << 20U);
+    while (in.isCompressed() && in.read(chunk.data(), chunk.size()) == chunk.size())
+    {
+    }
+    return in.end() == GzInput::End::Clean     ? Sum::Right
+           : in.end() == GzInput::End::Damaged ? Sum::Wrong
+                                               : Sum::None;
+}
+
+/** "a text file", or empty if it may be a rawlog. */
+[[nodiscard]] std::string otherFileType(const std::string& path)
+{
+    static const std::vector<std::pair<std::string, const char*>> kTypes{
+        {"#ROSBAG", "a ROS bag"},
+        {"SQLite format 3", "a database (of ROS 2, perhaps)"},
+        {"\x89MCAP", "an MCAP recording"},
+        {"NI10", "an OpenNI recording (pointplane-grabber --device FILE.oni converts it)"},
+        {"\x89PNG", "a picture"},
+        {"\xff\xd8\xff", "a picture"},
+        {"PK\x03\x04", "a zip archive"},
+        {"BZh", "bzip2-compressed"},
+        {"\xfd"
+         "7zXZ",
+         "xz-compressed"}};
+    std::ifstream file(path, std::ios::binary);
+    std::string head(256, '\0');
+    file.read(head.data(), static_cast<std::streamsize>(head.size()));
+    head.resize(static_cast<std::size_t>(file.gcount()));
+    for (const auto& [magic, name] : kTypes)
+    {
+        if (head.compare(0, magic.size(), magic) == 0)
+        {
+            return name;
+        }
+    }
+    const bool isText =
+        !head.empty() && std::all_of(
+                             head.begin(),
+                             head.end(),
+                             [](unsigned char c) { return std::isprint(c) || std::isspace(c); });
+    return isText ? "a text file" : "";
+}
 }  // namespace
 
 struct RawlogReader::Impl
 {
-    Impl(const std::string& thePath, RawlogClasses classes)
-        : path(thePath), in(thePath), scanner(in, classes == RawlogClasses::All)
+    Impl(const std::string& thePath, RawlogClasses theClasses)
+        : path(thePath), classes(theClasses), in(thePath), scanner(in)
     {
     }
 
     void readAhead();
+    void scanOrAskMrpt();
+    void askMrpt(const std::string& what);
+    [[nodiscard]] Sum sum();
     void endHere(const std::string& problem);
+    void endHere(RawlogEnd kind, const std::string& problem);
 
     std::string path;
+    RawlogClasses classes;
     std::string externals;
+    std::optional<Sum> knownSum;
+    std::vector<std::uint8_t> member;  // of the object ahead
     GzInput in;
     ObjectScanner scanner;
     std::vector<std::uint8_t> bytes;
@@ -93,21 +161,92 @@ struct RawlogReader::Impl
     RawlogEnding endingSeen;  // by the caller
 };
 
-void RawlogReader::Impl::endHere(const std::string& problem)
+Sum RawlogReader::Impl::sum()
 {
+    if (!knownSum)
+    {
+        knownSum = sumOf(path);
+    }
+    return *knownSum;
+}
+
+void RawlogReader::Impl::endHere(RawlogEnd kind, const std::string& problem)
+{
+    static constexpr const char* kWords[] = {"", "", "truncated", "damaged", "not supported"};
+    static_assert(static_cast<std::size_t>(RawlogEnd::NotSupported) + 1 == std::size(kWords));
+    ahead.reset();
+    ending.kind = kind;
     ending.objectIndex = numRead;
     ending.byteOffset = in.fileOffset();
-    if (problem.empty())
+    if (kind != RawlogEnd::Clean)
     {
-        ending.kind = RawlogEnd::Clean;
-        return;
+        ending.message = path + ": " + kWords[static_cast<std::size_t>(kind)] + " at byte " +
+                         std::to_string(ending.byteOffset) + ", object " + std::to_string(numRead) +
+                         ": " + problem;
     }
+}
+
+void RawlogReader::Impl::endHere(const std::string& problem)
+{
     // A plain file that stops inside an object ends "clean" as a file, but not as a rawlog.
     const bool truncated = in.end() == GzInput::End::Truncated || in.end() == GzInput::End::Clean;
-    ending.kind = truncated ? RawlogEnd::Truncated : RawlogEnd::Damaged;
-    ending.message = path + ": " + (truncated ? "truncated" : "damaged") + " at byte " +
-                     std::to_string(ending.byteOffset) + ", object " + std::to_string(numRead) +
-                     ": " + problem;
+    endHere(
+        truncated ? RawlogEnd::Truncated : RawlogEnd::Damaged,
+        in.problem().empty() ? problem : in.problem());
+}
+
+void RawlogReader::Impl::askMrpt(const std::string& what)
+{
+    if (classes == RawlogClasses::Known)
+    {
+        endHere(RawlogEnd::NotSupported, what + ", whose layout is not known");
+        return;
+    }
+    if (sum() == Sum::Wrong)
+    {
+        endHere(RawlogEnd::Damaged, "the checksum is wrong, so this is not read: " + what);
+        return;
+    }
+    scanner.restore(bytes);
+    try
+    {
+        ahead = deserialise(bytes, &in);
+    }
+    catch (const std::exception& e)
+    {
+        if (!in.problem().empty() || in.end() != GzInput::End::Open)
+        {
+            endHere(oneLine(e));
+            return;
+        }
+        endHere(
+            RawlogEnd::NotSupported,
+            what + (sum() == Sum::Right ? "" : " (or damage: the file has no checksum)"));
+    }
+}
+
+void RawlogReader::Impl::scanOrAskMrpt()
+{
+    try
+    {
+        if (!scanner.scan(bytes))
+        {
+            endHere(RawlogEnd::Clean, "");
+            return;
+        }
+        member = in.endMember();
+        if (in.end() == GzInput::End::Damaged)  // by the member's checksum
+        {
+            endHere("");
+            return;
+        }
+        ahead = deserialise(bytes, nullptr);
+    }
+    catch (const ObjectScanner::Unknown& e)
+    {
+        askMrpt(e.what());
+        member = in.endMember();
+    }
 }
 
 void RawlogReader::Impl::readAhead()
@@ -117,25 +256,23 @@ void RawlogReader::Impl::readAhead()
     {
         return;
     }
+    in.beginMember();
     try
     {
-        if (!scanner.scan(bytes))
-        {
-            endHere({});
-            return;
-        }
-        ahead = deserialise(bytes);
-        if (ahead)
-        {
-            restoreResolutions(*ahead, scanner.cameraResolutions());
-            ++numRead;
-            return;
-        }
-        endHere("a null object");
+        scanOrAskMrpt();
     }
     catch (const std::exception& e)
     {
         endHere(oneLine(e));
+    }
+    if (ahead)
+    {
+        restoreResolutions(*ahead, scanner.cameraResolutions());
+        ++numRead;
+    }
+    else if (ending.kind == RawlogEnd::Open)
+    {
+        endHere("a null object");
     }
 }
 
@@ -146,9 +283,13 @@ RawlogReader::RawlogReader(const std::string& path, RawlogClasses classes)
     impl_->readAhead();
     if (!impl_->ahead)
     {
+        const std::string type = otherFileType(path);
         throw InputError(
-            impl_->ending.message.empty() ? path + ": contains no objects"
-                                          : impl_->ending.message + " (is it a rawlog?)");
+            !type.empty()                   ? path + ": is " + type + ", not a rawlog"
+            : impl_->ending.message.empty() ? path + ": contains no objects"
+            : impl_->ending.kind == RawlogEnd::NotSupported
+                ? impl_->ending.message
+                : impl_->ending.message + " (is it a rawlog?)");
     }
 }
 
@@ -171,6 +312,16 @@ mrpt::serialization::CSerializable::Ptr RawlogReader::next()
         impl_->endingSeen = impl_->ending;
     }
     return out;
+}
+
+RawlogRecord RawlogReader::takeRecord()
+{
+    if (!impl_->member.empty())
+    {
+        return {{}, std::exchange(impl_->member, {})};
+    }
+    impl_->scanner.restore(impl_->bytes);
+    return {std::exchange(impl_->bytes, {}), {}};
 }
 
 const RawlogEnding& RawlogReader::ending() const { return impl_->endingSeen; }

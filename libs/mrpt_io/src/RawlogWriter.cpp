@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/mrpt_io/RawlogReader.h>
 #include <pointplane/mrpt_io/RawlogWriter.h>
 #include <pointplane/mrpt_io/errors.h>
 
@@ -27,6 +28,19 @@ void writeComment(
             << static_cast<std::uint64_t>(comment.timestamp.time_since_epoch().count())
             << std::uint8_t{0x88};
 }
+/** Objects of this size are members of their own: images. */
+constexpr std::size_t kOwnMember = 1U << 14U;
+
+/** Of the object in it: the last field, little endian. */
+[[nodiscard]] std::size_t sizeOfMember(const std::vector<std::uint8_t>& member)
+{
+    std::uint32_t size = 0;
+    for (std::size_t i = 1; i <= sizeof(size) && i <= member.size(); ++i)
+    {
+        size = size << 8U | member[member.size() - i];
+    }
+    return size;
+}
 }  // namespace
 
 struct RawlogWriter::Impl
@@ -35,14 +49,48 @@ struct RawlogWriter::Impl
         : options(theOptions), file(thePath, theOptions.compressionLevel)
     {
     }
+    void requireOpen() const
+    {
+        if (closed)
+        {
+            throw std::logic_error("RawlogWriter::write after close: " + file.file().path());
+        }
+    }
+    void count(std::size_t bytes)
+    {
+        ++numObjects;
+        numBytes += bytes;
+    }
+    void nothingWaits() { objectsWaiting = bytesWaiting = 0; }
+    void append(const void* bytes, std::size_t size);
+
     Options options;
     GzOutput file;
     bool closed{false};
     std::size_t numObjects{0};
     std::uint64_t numBytes{0};
-    std::size_t objectsSinceFlush{0};
-    std::size_t bytesSinceFlush{0};
+    std::size_t objectsWaiting{0};  // in the member at hand
+    std::size_t bytesWaiting{0};
 };
+
+void RawlogWriter::Impl::append(const void* bytes, std::size_t size)
+{
+    const bool alone = size >= kOwnMember;
+    if (alone)
+    {
+        file.flush();
+        nothingWaits();
+    }
+    file.write(bytes, size);
+    count(size);
+    bytesWaiting += size;
+    if (alone || ++objectsWaiting >= options.flushEveryObjects ||
+        bytesWaiting >= options.flushEveryBytes)
+    {
+        file.flush();
+        nothingWaits();
+    }
+}
 
 RawlogWriter::RawlogWriter(const std::string& path, const Options& options)
     : impl_(std::make_unique<Impl>(path, options))
@@ -65,10 +113,7 @@ RawlogWriter::~RawlogWriter()
 
 void RawlogWriter::write(const mrpt::serialization::CSerializable& object)
 {
-    if (impl_->closed)
-    {
-        throw std::logic_error("RawlogWriter::write after close: " + path());
-    }
+    impl_->requireOpen();
     mrpt::io::CMemoryStream buffer;
     auto archive = mrpt::serialization::archiveFrom(buffer);
     const auto* comment = dynamic_cast<const mrpt::obs::CObservationComment*>(&object);
@@ -80,23 +125,26 @@ void RawlogWriter::write(const mrpt::serialization::CSerializable& object)
     {
         archive << object;
     }
-    const auto size = static_cast<std::size_t>(buffer.getTotalBytesCount());
-    impl_->file.write(buffer.getRawBufferData(), size);
-    ++impl_->numObjects;
-    impl_->numBytes += size;
-    impl_->bytesSinceFlush += size;
-    if (++impl_->objectsSinceFlush >= impl_->options.flushEveryObjects ||
-        impl_->bytesSinceFlush >= impl_->options.flushEveryBytes)
+    impl_->append(buffer.getRawBufferData(), static_cast<std::size_t>(buffer.getTotalBytesCount()));
+}
+
+void RawlogWriter::write(const RawlogRecord& record)
+{
+    impl_->requireOpen();
+    if (record.member.empty())
     {
-        flush();
+        impl_->append(record.bytes.data(), record.bytes.size());
+        return;
     }
+    impl_->file.copyMember(record.member);
+    impl_->count(sizeOfMember(record.member));
+    impl_->nothingWaits();
 }
 
 void RawlogWriter::flush()
 {
     impl_->file.flush();
-    impl_->objectsSinceFlush = 0;
-    impl_->bytesSinceFlush = 0;
+    impl_->nothingWaits();
 }
 
 void RawlogWriter::close()

@@ -78,7 +78,7 @@ void moveRangeToFile(
     }
 }
 
-void makeExternalsAbsolute(mrpt::obs::CObservation3DRangeScan& scan, const std::string& directory)
+bool makeExternalsAbsolute(mrpt::obs::CObservation3DRangeScan& scan, const std::string& directory)
 {
     /** MRPT has no setter for the names of external ranges and points. */
     struct Access : mrpt::obs::CObservation3DRangeScan
@@ -92,13 +92,17 @@ void makeExternalsAbsolute(mrpt::obs::CObservation3DRangeScan& scan, const std::
             return &Access::m_points3D_external_file;
         }
     };
-    const auto absolute = [&directory](const std::string& name)
+    bool changed = false;
+    const auto absolute = [&](const std::string& name)
     {
-        return name.empty() || name.front() == '/'
-                   ? name
-                   : std::filesystem::absolute(std::filesystem::path(directory) / name)
-                         .lexically_normal()
-                         .string();
+        if (name.empty() || name.front() == '/')
+        {
+            return name;
+        }
+        changed = true;
+        return std::filesystem::absolute(std::filesystem::path(directory) / name)
+            .lexically_normal()
+            .string();
     };
     if (scan.rangeImage_isExternallyStored())
     {
@@ -115,6 +119,7 @@ void makeExternalsAbsolute(mrpt::obs::CObservation3DRangeScan& scan, const std::
             image->setExternalStorage(absolute(image->getExternalStorageFile()));
         }
     }
+    return changed;
 }
 
 cv::Mat readExternalImage(const std::string& path)

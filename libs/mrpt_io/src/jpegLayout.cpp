@@ -62,6 +62,8 @@ void ObjectScanner::jpegPixels(std::size_t versionAt, std::int32_t width, std::i
     const cv::Mat image = decoded(bytes_->data() + at, size);
     require(image.type() == CV_8UC3 && image.size() == expected, "a damaged JPEG image");
 
+    noteEdit(versionAt, 1, 1);
+    noteEdit(sizeAt, bytes_->size() - sizeAt, 2 * sizeof(std::int32_t) + pixels * 3);
     // Negative sizes: pixels follow.
     const std::int32_t sizes[2] = {-width, -height};
     std::memcpy(bytes_->data() + sizeAt, sizes, sizeof(sizes));

@@ -9,46 +9,26 @@ namespace pointplane
 {
 using scanning::numPixels;
 using scanning::require;
+using scanning::requireKnown;
 
 void ObjectScanner::range3DScan(int version)
 {
     copy(sizeof(float));  // maxRange
     copyObject("CPose3D");
-    if (version == 0 || copyBool())
+    if (copyBool())  // points, and their pixels
     {
-        const auto n = copyValue<std::uint32_t>();
-        copyArray(n, 3 * sizeof(float));
-        if (version == 0)
-        {
-            copyArray(n, 1);
-        }
-        if (version >= 8)
-        {
-            copyArray(n, 2 * sizeof(std::uint16_t));
-        }
+        copyArray(copyValue<std::uint32_t>(), 3 * sizeof(float) + 2 * sizeof(std::uint16_t));
     }
-    if (version >= 1)
-    {
-        rangeImage(version);
-    }
+    rangeImage();
     copy(sizeof(float) + sizeof(std::uint64_t));  // stdError, time stamp
     copyString();
-    if (version >= 3)
-    {
-        copyBool();  // external points and their file
-        copyString();
-        copyBool();  // external ranges and their file
-        copyString();
-    }
-    if (version >= 5)
-    {
-        copyBool();  // range_is_depth
-    }
-    if (version >= 6)
-    {
-        copy(sizeof(std::int8_t));  // intensity channel
-    }
-    if (version >= 7 && copyBool())
+    copyBool();  // external points and their file
+    copyString();
+    copyBool();  // external ranges and their file
+    copyString();
+    copyBool();                 // range_is_depth
+    copy(sizeof(std::int8_t));  // intensity channel
+    if (copyBool())
     {
         pixelLabels();
     }
@@ -64,19 +44,12 @@ void ObjectScanner::range3DScan(int version)
     }
 }
 
-void ObjectScanner::rangeImage(int version)
+void ObjectScanner::rangeImage()
 {
     Resolution range;
     const bool hasRange = copyBool();
-    if (version >= 9)
-    {
-        copy(sizeof(float));  // rangeUnits
-    }
-    if (hasRange && version < 9)
-    {
-        copyObject("CMatrixF");
-    }
-    else if (hasRange)
+    copy(sizeof(float));  // rangeUnits
+    if (hasRange)
     {
         range.rows = copyValue<std::uint32_t>();
         range.cols = copyValue<std::uint32_t>();
@@ -90,23 +63,10 @@ void ObjectScanner::rangeImage(int version)
     {
         copyObject("CImage");  // confidence
     }
-    if (version >= 2)
-    {
-        copyObject("TCamera");
-        if (version >= 9)
-        {
-            exchangeResolution(range);
-        }
-        else
-        {
-            resolutions_.emplace_back();  // rows and columns were swapped; MRPT's repair is right
-        }
-    }
-    if (version >= 4)
-    {
-        copyObject("TCamera");
-        copyObject("CPose3D");
-    }
+    copyObject("TCamera");
+    exchangeResolution(range);
+    copyObject("TCamera");
+    copyObject("CPose3D");
 }
 
 void ObjectScanner::exchangeResolution(const Resolution& range)
@@ -114,9 +74,10 @@ void ObjectScanner::exchangeResolution(const Resolution& range)
     std::uint32_t size[2];  // rows, columns
     std::uint8_t* at = bytes_->data() + cameraResolutionAt_;
     std::memcpy(size, at, sizeof(size));
-    resolutions_.push_back({size[0], size[1], true});
+    resolutions_.push_back({size[0], size[1]});
     if (range.rows > 0 && range.cols > 0)
     {
+        noteEdit(cameraResolutionAt_, sizeof(size), sizeof(size));
         size[0] = range.rows;
         size[1] = range.cols;
         std::memcpy(at, size, sizeof(size));
@@ -125,7 +86,7 @@ void ObjectScanner::exchangeResolution(const Resolution& range)
 
 void ObjectScanner::pixelLabels()
 {
-    require(copyValue<std::uint8_t>() == 1, "pixel labels of an unknown version");
+    requireKnown(copyValue<std::uint8_t>() == 1, "pixel labels of another version");
     const auto bytesPerPixel = copyValue<std::uint8_t>();
     require(bytesPerPixel >= 1 && bytesPerPixel <= 8, "pixel labels of an unknown size");
     const auto rows = copyValue<std::uint32_t>();
@@ -144,7 +105,7 @@ void ObjectScanner::pixelLabels()
 
 void ObjectScanner::image(int version)
 {
-    require(
+    requireKnown(
         version >= 7 && version <= 9,
         "an image of serialisation version " + std::to_string(version) + " (7 to 9 are supported)");
     const std::size_t versionAt = bytes_->size() - 1;
@@ -204,7 +165,7 @@ void ObjectScanner::colourPixels(std::size_t versionAt, int version)
 
 void ObjectScanner::camera(int version)
 {
-    require(
+    requireKnown(
         version >= 2 && version <= 6,
         "a camera of serialisation version " + std::to_string(version) + " (2 to 6 are supported)");
     const std::uint64_t numDistortion = version >= 3 ? 8 : 5;
@@ -229,7 +190,7 @@ void ObjectScanner::camera(int version)
 
 void ObjectScanner::pose3D(int version)
 {
-    require(
+    requireKnown(
         version == 2 || version == 3,
         "a pose of serialisation version " + std::to_string(version) + " (2, 3 are supported)");
     // Translation and rotation matrix; a quaternion in version 2.

@@ -8,24 +8,26 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace pointplane
 {
 enum class RawlogEnd
 {
-    Open,       //!< not reached yet
-    Clean,      //!< after the last object, checksum right
-    Truncated,  //!< the file stops too early
-    Damaged     //!< the bytes are not what was written
+    Open,         //!< not reached yet
+    Clean,        //!< after the last object, checksum right
+    Truncated,    //!< the file stops too early
+    Damaged,      //!< the bytes are not what was written
+    NotSupported  //!< an object of a class or version that MRPT's library for observations lacks
 };
 
 /** Which objects a reader takes. */
 enum class RawlogClasses
 {
     /** Also those that MRPT alone can read. It believes the lengths in them, so that a damaged one
-     * may take gigabytes of memory. */
+     * in a file without a checksum may take gigabytes of memory. */
     All,
-    Known  //!< only those whose layout is known here; another one is damage: for files of strangers
+    Known  //!< only those whose layout is known here: for files of strangers
 };
 
 /** How and where reading ended. */
@@ -37,15 +39,26 @@ struct RawlogEnding
     std::string message;          //!< one line that names the file; empty when clean
 };
 
+/** An object as it is in the file, for RawlogWriter::write(). */
+struct RawlogRecord
+{
+    std::vector<std::uint8_t> bytes;  //!< as MRPT serialised it
+    /** Instead of them, where the object is a gz member by itself: its compressed data, checksum
+     * and length. */
+    std::vector<std::uint8_t> member;
+};
+
 /** Streams the objects of a rawlog, one at a time: observations (format 2), or CActionCollection
  * and CSensoryFrame in turns (format 1); plain or gz.
  *
  * Damage is never taken for the end of the file, as it is by MRPT's own reader: the checksum and
  * the length of gz data are verified, and sizes inside images, range images and strings are checked
  * against what the file holds before MRPT sees them, which would otherwise allocate without limit
- * or crash (in the classes of RGB-D, wheels, IMU, 2D laser and single cameras). A plain (not gz)
- * file that stops exactly between two objects cannot be told from a complete one. Not thread-safe.
- */
+ * or crash (in the current versions of the classes of RGB-D, wheels, IMU, 2D laser and single
+ * cameras). An object of another class or version is left to MRPT, once the checksums of the whole
+ * file are found right; where there are none (a plain file, a pipe, a truncated file), it is left
+ * to MRPT, too; where one is wrong, the object counts as damaged. A plain file that stops exactly
+ * between two objects cannot be told from a complete one. Not thread-safe. */
 class RawlogReader
 {
  public:
@@ -58,6 +71,9 @@ class RawlogReader
     /** The next object, or nullptr when there is none; ending() then says why. Never throws for
      * what is in the file. External images are not loaded. */
     [[nodiscard]] mrpt::serialization::CSerializable::Ptr next();
+
+    /** The object that next() has returned last, once. */
+    [[nodiscard]] RawlogRecord takeRecord();
 
     [[nodiscard]] const RawlogEnding& ending() const;
     [[nodiscard]] std::size_t numObjects() const;  //!< delivered so far

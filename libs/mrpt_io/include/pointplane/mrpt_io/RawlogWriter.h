@@ -13,12 +13,14 @@ class CSerializable;
 
 namespace pointplane
 {
+struct RawlogRecord;
+
 struct RawlogWriterOptions
 {
-    int compressionLevel{1};  //!< zlib level 0 to 9; 0 keeps the gz frame and its checksum
-    /** After so many objects or bytes, whichever comes first, everything so far is handed to the
-     * operating system; a killed process loses at most the rest. Counts, not time: the bytes
-     * written must not depend on the clock. */
+    int compressionLevel{1};  //!< 0 to 9; 0 keeps the gz frame and its checksum
+    /** After so many objects or bytes, whichever comes first, everything so far is compressed and
+     * handed to the operating system; a killed process loses at most the rest. Counts, not time:
+     * the bytes written must not depend on the clock. */
     std::size_t flushEveryObjects{30};
     std::size_t flushEveryBytes{1U << 20U};
 };
@@ -27,7 +29,8 @@ struct RawlogWriterOptions
  *
  * Objects go to `<path>.partial`, which close() renames to `path`. Without close() the partial file
  * stays, readable up to the last flush. Every write is checked (MRPT's own stream swallows a full
- * disk). The file is gz-compressed, as MRPT's are. Not thread-safe. */
+ * disk). The file is gz-compressed, as MRPT's are; a large object is a member by itself, so that a
+ * later program can take it over as it is. Not thread-safe. */
 class RawlogWriter
 {
  public:
@@ -44,6 +47,10 @@ class RawlogWriter
     /** Appends an observation, a CSensoryFrame or a CActionCollection.
      * \throws EnvironmentError if the disk is full or the like */
     void write(const mrpt::serialization::CSerializable& object);
+
+    /** Appends an object as it was in a file (RawlogReader::takeRecord()): nothing is serialised,
+     * and nothing compressed that was. \throws EnvironmentError */
+    void write(const RawlogRecord& record);
 
     /** Hands everything written so far to the operating system. \throws EnvironmentError */
     void flush();

@@ -24,6 +24,6 @@ void moveRangeToFile(
     const std::string& name);
 
 /** Makes the names of external files absolute, so that the observation can move to a rawlog in
- * another folder. \param directory where relative names are */
-void makeExternalsAbsolute(mrpt::obs::CObservation3DRangeScan& scan, const std::string& directory);
+ * another folder. \param directory where relative names are \return whether any was changed */
+bool makeExternalsAbsolute(mrpt::obs::CObservation3DRangeScan& scan, const std::string& directory);
 }  // namespace pointplane
