@@ -21,6 +21,19 @@ namespace pointplane
 {
 namespace
 {
+[[nodiscard]] CLI::Validator isScale()
+{
+    return {
+        [](const std::string& text)
+        {
+            double value = 0;
+            const bool good =
+                CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value > 0;
+            return good ? std::string() : "'" + text + "' is not a positive number of units";
+        },
+        "POSITIVE"};
+}
+
 void addTumCommand(CLI::App& app, TumConverterOptions& options)
 {
     CLI::App* tum = app.add_subcommand("tum", "A folder of the TUM RGB-D benchmark's layout");
@@ -33,7 +46,10 @@ void addTumCommand(CLI::App& app, TumConverterOptions& options)
         "fr1, fr2, fr3, or a file: MRPT's camera ini or one line `fx fy cx cy k1 k2 p1 p2 k3 width "
         "height unitsPerMetre` (default: camera.txt in the folder, or by the folder's name)");
     tum->add_option(
-        "--depth-scale", options.depthScale, "depth units per metre (default: the camera's, 5000)");
+           "--depth-scale",
+           options.depthScale,
+           "depth units per metre (default: the camera's, 5000)")
+        ->check(isScale());
     tum->add_option("--max-difference", options.maxDifference, "between colour and depth [s]")
         ->capture_default_str();
     tum->add_option("--label", options.label, "sensor label")->capture_default_str();
@@ -70,11 +86,13 @@ CLI::App* addFolderCommand(CLI::App& app, FolderOptions& options, RecordingOutpu
         options.camera,
         std::string(kCameraHelp) +
             " (default: camera.txt in the folder, or what its layout tells)");
-    folder->add_option(
-        "--depth-scale",
-        options.depthScale,
-        "depth units per metre (default: the "
-        "layout's, else 1000)");
+    folder
+        ->add_option(
+            "--depth-scale",
+            options.depthScale,
+            "depth units per metre (default: the "
+            "layout's, else 1000)")
+        ->check(isScale());
     folder->add_option(
         "--fps",
         options.fps,
@@ -93,7 +111,10 @@ CLI::App* addKlgCommand(CLI::App& app, KlgOptions& options, RecordingOutput& out
     klg->add_option(
         "--camera", options.camera, std::string(kCameraHelp) + " (default: 528 px, 640x480)");
     klg->add_option(
-        "--depth-scale", options.depthScale, "depth units per metre (default: the camera's, 1000)");
+           "--depth-scale",
+           options.depthScale,
+           "depth units per metre (default: the camera's, 1000)")
+        ->check(isScale());
     klg->add_flag("--bgr", options.bgr, "its colours are in the order blue, green, red");
     addOutputOptions(*klg, output);
     return klg;
@@ -111,7 +132,8 @@ CLI::App* addBagCommand(CLI::App& app, BagOptions& options, RecordingOutput& out
         options.camera,
         "of colour, " + std::string(kCameraHelp) + " (default: camera_info of the bag)");
     bag->add_option(
-        "--depth-scale", options.depthScale, "units per metre of 16 bit depth (default: 1000)");
+           "--depth-scale", options.depthScale, "units per metre of 16 bit depth (default: 1000)")
+        ->check(isScale());
     bag->add_option("--max-difference", options.maxDifference, "between colour and depth [s]")
         ->capture_default_str();
     addOutputOptions(*bag, output);

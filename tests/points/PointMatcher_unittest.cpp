@@ -244,8 +244,11 @@ TEST(PointMatcher, inconsistentInputIsRefused)
         (void)PointMatcher().match({{1, 1}}, floats({1, 2}), {{1, 1}}, floats({1})),
         std::invalid_argument);
     PointMatcher::TParams params;
-    params.searchRadiusPx = 0;
-    EXPECT_THROW(PointMatcher{params}, std::invalid_argument);
+    for (const double radius : {0.0, 1e-10, 0.9, 1e5})
+    {
+        params.searchRadiusPx = radius;
+        EXPECT_THROW(PointMatcher{params}, std::invalid_argument) << radius;
+    }
     params = {};
     params.maxRatio = 1.5;
     EXPECT_THROW(PointMatcher{params}, std::invalid_argument);

@@ -176,4 +176,7 @@ TEST(PinholeCamera, problemNamesWhatIsWrong)
     camera = {};
     camera.height = 0;
     EXPECT_THAT(camera.problem(), HasSubstr("640x0"));
+    camera = {};
+    camera.cx = -1e9;
+    EXPECT_THAT(camera.problem(), HasSubstr("principal point is far outside the image"));
 }

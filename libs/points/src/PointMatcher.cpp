@@ -146,8 +146,8 @@ void checkInput(const Positions& points, const cv::Mat& descriptors, const char*
 void PointMatcher::TParams::check() const
 {
     POINTPLANE_CHECK(
-        searchRadiusPx > 0 && searchRadiusPx < 1e5,
-        "searchRadiusPx = " << searchRadiusPx << " is not in (0, 100000)");
+        searchRadiusPx >= 1 && searchRadiusPx < 1e5,  // the grid of points has cells of this size
+        "searchRadiusPx = " << searchRadiusPx << " is not in [1, 100000)");
     POINTPLANE_CHECK(neighbours >= 0, "neighbours = " << neighbours << " is negative");
     POINTPLANE_CHECK(
         maxRatio > 0 && maxRatio <= 1, "maxRatio = " << maxRatio << " is not in (0, 1]");

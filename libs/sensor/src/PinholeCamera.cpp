@@ -10,6 +10,9 @@ namespace pointplane
 {
 namespace
 {
+/** In image sizes: no lens looks that far aside, not even one whose image has been cropped. */
+constexpr double kFarPrincipalPoint = 10;
+
 /** Brown's model as in OpenCV: normalised undistorted -> normalised distorted. */
 Eigen::Vector2d distorted(const std::array<double, 5>& k, const Eigen::Vector2d& p)
 {
@@ -54,6 +57,12 @@ std::string PinholeCamera::problem() const
     else if (width < 1 || height < 1)
     {
         out << "image is empty (" << width << "x" << height << ")";
+    }
+    else if (
+        std::abs(cx) > kFarPrincipalPoint * width || std::abs(cy) > kFarPrincipalPoint * height)
+    {
+        out << "principal point is far outside the image (cx=" << cx << " cy=" << cy << ", image "
+            << width << "x" << height << ")";
     }
     return out.str();
 }
