@@ -29,7 +29,7 @@ void writeComment(
             << std::uint8_t{0x88};
 }
 /** Objects of this size are members of their own: images. */
-constexpr std::size_t kOwnMember = 1U << 14U;
+constexpr std::size_t kOwnMember = 1U << 12U;
 
 /** Of the object in it: the last field, little endian. */
 [[nodiscard]] std::size_t sizeOfMember(const std::vector<std::uint8_t>& member)
