@@ -52,8 +52,8 @@ TEST(ConfigFiles, theOthersHoldOnlyWhatDiffersFromTheDefaults)
         std::size_t written = 0;
         for (std::string line; std::getline(lines, line);)
         {
-            const bool isAssignment = !line.empty() && std::isalpha(line[0]) != 0 &&
-                                      line.find('=') != std::string::npos;
+            const bool isAssignment =
+                !line.empty() && std::isalpha(line[0]) != 0 && line.find('=') != std::string::npos;
             written += isAssignment ? 1 : 0;
         }
         EXPECT_GT(written, 0U) << name;
@@ -110,6 +110,11 @@ const NamedByThePaper kNamed[] = {
     {"after Eq. 10: planes have no M-estimator", "PoseSolver.planeStudentDof", "0"},
     {"Experiments: alpha = 10", "PoseSolver.alpha", "10"},
     {"Pose estimation: or else the decaying velocity", "Pipeline.degeneracy", "gate"},
+    {"Pose estimation: Sigma = H^-1", "PoseSolver.covariance", "hessian"},
+    {"Matching: small frame-to-frame motion", "Pipeline.searchAround", "previous"},
+    {"Matching: consecutive frames", "Reference.reference", "adjacent"},
+    {"nothing but the velocity is predicted", "Shutter.correct", "false"},
+    {"after Eq. 10: the increment's own", "Covariance.model", "independent"},
     {"Pose estimation: uncertainties as propagated", "NoiseScale.adaptive", "false"},
 };
 INSTANTIATE_TEST_SUITE_P(Paper, PapersConfiguration, testing::ValuesIn(kNamed));

@@ -48,6 +48,19 @@ TEST(ShutterCalibrator, believesASourceThatKnowsItsShutter)
     EXPECT_EQ(out.depthDelay, -0.010);
 }
 
+TEST(ShutterCalibrator, canTakeImagesForThoseOfOneInstant)
+{
+    ShutterCalibrator::TParams still = params();
+    still.correct = false;
+    for (const ShutterModel& source : {ShutterModel{}, ShutterModel{0.027, 0.024, -0.010}})
+    {
+        const ShutterModel out = ShutterCalibrator(still).complete(source);
+        EXPECT_EQ(out.readoutColour, 0);
+        EXPECT_EQ(out.readoutDepth, 0);
+        EXPECT_EQ(out.depthDelay, 0);
+    }
+}
+
 TEST(ShutterCalibrator, refusesParametersOutOfRange)
 {
     const auto refused = [](auto change)

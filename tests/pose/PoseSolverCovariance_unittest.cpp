@@ -46,7 +46,7 @@ Consistency consistency(
             prior.pose = priorCov->inverse();
         }
         const PoseEstimate e = solver.solve(
-            world.drawPoints(noiseScale), world.drawPlanes(noiseScale), prior.mean, prior, noise);
+            {world.drawPoints(noiseScale), world.drawPlanes(noiseScale), prior, noise}, prior.mean);
         errors.push_back(leftError(world.T_prev_cur, e.pose().mean));
         out.nees += errors.back().dot(e.pose().cov.ldlt().solve(errors.back())) / kRuns;
         meanCov += e.pose().cov / kRuns;
@@ -123,6 +123,25 @@ TEST(PoseSolverCovariance, ofSuboptimalWeights)
         params.alpha = 10;
         expectConsistent(consistency(world, params));
     }
+}
+
+/** The paper's: H = J^T W J of all weighted residuals, alpha with them. */
+TEST(PoseSolverCovariance, hessianIsTheInverseOfTheInformation)
+{
+    auto world = makeWorld(39, 25, 4);
+    PoseSolver::TParams params = test::gaussianSolver();
+    params.weighting = "diagonal";
+    params.planeResidual = "closestPoint";
+    params.alpha = 10;
+    params.covariance = "hessian";
+    PoseProblem problem{world.drawPoints(), world.drawPlanes(), MotionPrior::fixedVelocity({}), {}};
+    const PoseEstimate e = PoseSolver(params).solve(problem, {});
+    const Matrix6d H = e.infoPoints + 10 * e.infoPlanes;
+    EXPECT_LT(test::whitenedDifference(e.pose().cov, H.inverse()), 1e-5);
+    params.covariance = "sandwich";
+    EXPECT_GT(
+        test::whitenedDifference(PoseSolver(params).solve(problem, {}).pose().cov, H.inverse()),
+        0.1);
 }
 
 TEST(PoseSolverCovariance, ofCorrelatedNoiseByItsFactor)

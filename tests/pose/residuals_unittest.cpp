@@ -109,6 +109,23 @@ TEST(Residuals, planesByHand)
         test::IsMatrixNear(Eigen::Vector3d(0, 0, -2.1 + 2.05), 1e-14));
 }
 
+/** C~ = N'R (N't + d') - dN, letter by letter [P17 Eq. 9]. */
+TEST(Residuals, closestPointIsThePapersEquation)
+{
+    test::GaussianSampler sampler(6);
+    for (int i = 0; i < 50; ++i)
+    {
+        const PlanePair pair = randomPlanePair(sampler);
+        const Eigen::Isometry3d T = randomPose(sampler);
+        const Plane ref = hessianForm(pair.ref.theta_m), cur = hessianForm(pair.cur.theta_m);
+        const Eigen::RowVector3d moved = ref.n.transpose() * T.linear();
+        const Eigen::Vector3d expected =
+            (moved * (ref.n.dot(T.translation()) + ref.d) - cur.d * cur.n.transpose()).transpose();
+        EXPECT_THAT(
+            planeResidualClosestPoint(pair, still(T)).r, test::IsMatrixNear(expected, 1e-12));
+    }
+}
+
 TEST(Residuals, planesMoveAsTheirHessianFormsDo)
 {
     test::GaussianSampler sampler(1);

@@ -51,6 +51,7 @@ double maxSigma(const Matrix6d& cov)
 Aligner::Aligner(const OdometryParams& params)
     : params_(params.pipeline),
       fuses_(params.pipeline.fuses()),
+      searchesAhead_(params.pipeline.searchesAhead()),
       minOverlap_(params.reference.keyframeMinOverlap),
       solver_(params.poseSolver)
 {
@@ -69,13 +70,17 @@ Alignment Aligner::align(
     const auto associateAt = [&](const Eigen::Isometry3d& T_prev_cur, double radiusFactor)
     { return associate(frontEnd, current, track, T_prev_cur, radiusFactor); };
 
+    // [P17, section Matching] capitalises on small motion.
+    const Eigen::Isometry3d expected =
+        searchesAhead_ ? out.predicted.pose.mean : Eigen::Isometry3d::Identity();
+
     const Stopwatch matching;
-    out.associations = associateAt(out.predicted.pose.mean, 1);
+    out.associations = associateAt(expected, 1);
     if (track.overlap(out.associations) < minOverlap_)
     {
         // A jerk that the motion model did not foresee: look farther, then closely again. Other
         // candidates for the motion, from the images alone, would be tried here.
-        out.associations = associateAt(out.predicted.pose.mean, kWideSearch);
+        out.associations = associateAt(expected, kWideSearch);
         estimate(out, pairs, errors, diagnostics);
         out.associations = associateAt(out.estimate.motion.mean.T_prev_cur, 1);
     }
@@ -149,9 +154,14 @@ void Aligner::judge(Alignment& alignment, FrameDiagnostics& d) const
     {
         reason << matches << " point and plane matches";
     }
-    else if (!fuses_ && sigma > params_.gateSigma)
+    else if (!fuses_)
     {
-        reason << "largest standard deviation " << sigma << " is above the gate";
+        // [P17, section Pose estimation]: the largest eigenvalue, and nothing else.
+        alignment.holds = sigma <= params_.gateSigma;
+        if (!alignment.holds)
+        {
+            reason << "largest standard deviation " << sigma << " is above the gate";
+        }
     }
     else if (solver_.isWeighted() && d.pointChi2PerDof > params_.maxPointChi2)
     {
@@ -159,7 +169,7 @@ void Aligner::judge(Alignment& alignment, FrameDiagnostics& d) const
                << d.pointChi2PerDof << ")";
     }
     else if (
-        fuses_ && d.numPointPairs + 3 * d.numPlanePairs < kFewPoints &&
+        d.numPointPairs + 3 * d.numPlanePairs < kFewPoints &&
         surprise(estimate, predicted) > kMostSurprise)
     {
         reason << "only " << matches << " point and plane matches, far from the predicted motion";

@@ -61,7 +61,7 @@ class Aligner
     [[nodiscard]] int minMatches() const;
 
     PipelineParams params_;
-    bool fuses_;
+    bool fuses_, searchesAhead_;
     double minOverlap_;
     PoseSolver solver_;
 };

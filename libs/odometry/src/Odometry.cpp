@@ -162,11 +162,16 @@ void Odometry::Impl::predict(
     result.reason = reason;
     std::optional<Reference> unmatched = referenceOf(current);
     unmatched->points = frontEnd.pointReference(current);
-    if (unmatched->planes.planes.empty() && unmatched->points.points.empty())
+    const bool isAdjacent = params.reference.isAdjacent();
+    if (!isAdjacent && unmatched->planes.planes.empty() && unmatched->points.points.empty())
     {
         unmatched.reset();
     }
     result.increment = track.predict(current.frame.stamp, std::move(unmatched));
+    if (isAdjacent)
+    {
+        (void)track.restartAtUnmatched();
+    }
 }
 
 void Odometry::Impl::lose(double stamp, const std::string& reason, OdometryResult& result)

@@ -13,10 +13,16 @@ bool PipelineParams::fuses() const
     return chosen<bool>("degeneracy", degeneracy, {{"fuse", true}, {"gate", false}});
 }
 
+bool PipelineParams::searchesAhead() const
+{
+    return chosen<bool>("searchAround", searchAround, {{"prediction", true}, {"previous", false}});
+}
+
 void PipelineParams::check() const
 {
     POINTPLANE_CHECK(usePoints || usePlanes, "usePoints and usePlanes are both off");
     (void)fuses();
+    (void)searchesAhead();
     POINTPLANE_CHECK(gateSigma > 0, "gateSigma = " << gateSigma << " is not positive");
     POINTPLANE_CHECK(maxPointChi2 > 0, "maxPointChi2 = " << maxPointChi2 << " is not positive");
     POINTPLANE_CHECK(maxGap > 0, "maxGap = " << maxGap << " is not positive");

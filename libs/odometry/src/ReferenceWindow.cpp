@@ -12,8 +12,11 @@ namespace pointplane
 {
 bool ReferenceWindow::TParams::isFrameToFrame() const
 {
-    return chosen<bool>("reference", reference, {{"keyframes", false}, {"previous", true}});
+    return chosen<bool>(
+        "reference", reference, {{"keyframes", false}, {"previous", true}, {"adjacent", true}});
 }
+
+bool ReferenceWindow::TParams::isAdjacent() const { return reference == "adjacent"; }
 
 void ReferenceWindow::TParams::check() const
 {

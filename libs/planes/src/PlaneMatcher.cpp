@@ -11,6 +11,8 @@ namespace
 {
 constexpr int kStridePx = 8;  //!< segments that move are compared on a grid of this pitch
 
+constexpr double kStill = 1e-9;  //!< rounding errors of a motion that is none
+
 /** Samples common to each pair of segments, and of each segment alone. */
 struct OverlapCounts
 {
@@ -120,7 +122,7 @@ std::vector<PlaneMatch> PlaneMatcher::match(
     {
         return {};
     }
-    const OverlapCounts counts = T_cur_ref.matrix().isIdentity(0)
+    const OverlapCounts counts = T_cur_ref.matrix().isIdentity(kStill)
                                      ? countOverlaps(ref, cur)
                                      : countOverlaps(ref, cur, camera, T_cur_ref);
     const double minCosine = std::cos(params_.maxNormalAngleDeg * M_PI / 180);

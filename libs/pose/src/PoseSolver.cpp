@@ -156,12 +156,22 @@ PoseSolver::PlaneResidual planeResidualOf(const PoseSolver::TParams& params)
         params.planeResidual,
         {{"minimal", PlaneResidual::Minimal}, {"closestPoint", PlaneResidual::ClosestPoint}});
 }
+
+PoseSolver::CovarianceForm covarianceFormOf(const PoseSolver::TParams& params)
+{
+    using Form = PoseSolver::CovarianceForm;
+    return chosen<Form>(
+        "covariance",
+        params.covariance,
+        {{"sandwich", Form::Sandwich}, {"hessian", Form::Hessian}});
+}
 }  // namespace
 
 void PoseSolver::TParams::check() const
 {
     (void)weightingOf(*this);
     (void)planeResidualOf(*this);
+    (void)covarianceFormOf(*this);
     POINTPLANE_CHECK(alpha >= 0, "alpha = " << alpha << " is negative");
     POINTPLANE_CHECK(tukeySigmas >= 0, "tukeySigmas = " << tukeySigmas << " is negative");
     POINTPLANE_CHECK(
@@ -174,7 +184,7 @@ void PoseSolver::TParams::check() const
 }
 
 PoseSolver::PoseSolver(const TParams& params)
-    : settings_{params, weightingOf(params), planeResidualOf(params)}
+    : settings_{params, weightingOf(params), planeResidualOf(params), covarianceFormOf(params)}
 {
     params.check();
 }
@@ -195,7 +205,11 @@ PoseEstimate PoseSolver::solve(const PoseProblem& problem, const Motion& start) 
     PoseEstimate out;
     out.iterations = descent.iterations();
     out.converged = descent.converged();
-    out.motion = {x, propagate(at.H_inverse, p.M + m.M + at.known)};
+    out.motion = {
+        x,
+        settings_.covariance == CovarianceForm::Hessian
+            ? at.H_inverse  // [P17, section Pose estimation]
+            : propagate(at.H_inverse, p.M + m.M + at.known)};
     out.infoPoints = p.H.topLeftCorner<6, 6>();
     out.infoPlanes = m.H.topLeftCorner<6, 6>();
     if (settings_.params.alpha > 0)

@@ -164,8 +164,8 @@ std::vector<FeatureResidual> SolutionAnalysis::residuals(
             out[member->second] = {
                 pair.reference,
                 pair.inReference,
-                residual.r,
-                residual.curCov,
+                residual.R_prev_r * residual.r,
+                propagate(residual.R_prev_r, residual.curCov),
                 1 - 2.0 / 3 * J.cwiseProduct(follows.transpose()).sum(),
                 seen.cwiseProduct(of.points * J.transpose()).sum(),
                 seen.cwiseProduct(of.planes * J.transpose()).sum()};

@@ -7,7 +7,7 @@ namespace pointplane
 {
 namespace
 {
-/** C = d n = theta / |theta|^2 and its Jacobian. */
+/** C = d n = theta / |theta|^2 [P17, before Eq. 7] and its Jacobian. */
 struct ClosestPoint
 {
     explicit ClosestPoint(const Eigen::Vector3d& theta)
@@ -85,17 +85,20 @@ Residual planeResidualMinimal(const PlanePair& pair, const Motion& motion)
 
 Residual planeResidualClosestPoint(const PlanePair& pair, const Motion& motion)
 {
-    const Residual minimal = planeResidualMinimal(pair, motion);
-    const Eigen::Vector3d theta_cur = pair.ref.theta_m - minimal.r;
-    const ClosestPoint measured(theta_cur), reference(pair.ref.theta_m);
+    const Eigen::Isometry3d T_cur_prev = motion.T_prev_cur.inverse();
+    const PlaneTransform moved(T_cur_prev, pair.ref.theta_m);
+    const ClosestPoint reference(moved.theta),
+        cur(pair.cur.theta_m + pair.dCur_dV * motion.velocity);
+    const Eigen::Matrix3d byReference = reference.J * moved.J;
     Residual out;
-    out.r = reference.C - measured.C;  // [P17 Eq. 9], up to the sign of both
-    out.curCov = propagate(measured.J, minimal.curCov);
-    out.cov = propagate(reference.J, pair.ref.cov_m) + out.curCov;
-    out.J = measured.J * minimal.J;
-    out.J_V = measured.J * minimal.J_V;
-    out.ofCamera =
-        reference.J * pair.dRef_dCamera + measured.J * (minimal.ofCamera - pair.dRef_dCamera);
+    out.r = reference.C - cur.C;  // [P17 Eq. 9]
+    out.curCov = propagate(cur.J, pair.cur.cov_m);
+    out.cov = propagate(byReference, pair.ref.cov_m) + out.curCov;
+    // T_cur_prev exp(-xi) moves the reference.
+    out.J = -byReference * jacobianOfTransform(pair.ref.theta_m);
+    out.J_V = -cur.J * pair.dCur_dV;
+    out.ofCamera = byReference * pair.dRef_dCamera - cur.J * pair.dCur_dCamera;
+    out.R_prev_r = motion.T_prev_cur.linear();
     return out;
 }
 }  // namespace pointplane

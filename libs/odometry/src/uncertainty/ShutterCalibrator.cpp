@@ -78,6 +78,10 @@ ShutterCalibrator::ShutterCalibrator(const TParams& params)
 
 ShutterModel ShutterCalibrator::complete(const ShutterModel& source) const
 {
+    if (!params_.correct)
+    {
+        return {0, 0, 0};
+    }
     const auto known = [](double a, double b) { return std::isfinite(a) ? a : b; };
     // Who knows the readouts knows when images are exposed. Otherwise the delay comes from time
     // stamps, which tell when they arrived.
@@ -97,7 +101,7 @@ Matrix6d ShutterCalibrator::update(
     const MotionPrior& prior,
     const NoiseFactors& noise)
 {
-    if (!params_.selfCalibrate)
+    if (!params_.correct || !params_.selfCalibrate)
     {
         return Matrix6d::Zero();
     }

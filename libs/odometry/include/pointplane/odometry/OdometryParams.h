@@ -22,6 +22,7 @@ struct PipelineParams
 {
     bool usePoints{true};
     bool usePlanes{true};
+    std::string searchAround{"prediction"};
     std::string degeneracy{"fuse"};
     double gateSigma{0.05};
     double maxPointChi2{200};
@@ -33,6 +34,11 @@ struct PipelineParams
     {
         v("usePoints", usePoints, "-", "points contribute");
         v("usePlanes", usePlanes, "-", "planes contribute");
+        v("searchAround",
+          searchAround,
+          "-",
+          "prediction (features are looked for where the motion model puts them) or previous (the "
+          "paper: where they were)");
         v("degeneracy",
           degeneracy,
           "-",
@@ -41,11 +47,13 @@ struct PipelineParams
         v("gateSigma",
           gateSigma,
           "m, rad",
-          "gate: frames with a larger standard deviation in any direction are predicted instead");
+          "gate: frames with a larger standard deviation in any direction (largest eigenvalue) are "
+          "predicted instead");
         v("maxPointChi2",
           maxPointChi2,
           "-",
-          "frames whose points disagree with their covariances by more than this (chi-square per "
+          "fuse: frames whose points disagree with their covariances by more than this (chi-square "
+          "per "
           "degree of freedom) are predicted instead");
         v("maxGap",
           maxGap,
@@ -55,7 +63,8 @@ struct PipelineParams
     }
     /** \throws std::invalid_argument naming the key */
     void check() const;
-    [[nodiscard]] bool fuses() const;  //!< or gates
+    [[nodiscard]] bool fuses() const;          //!< or gates
+    [[nodiscard]] bool searchesAhead() const;  //!< or where features were
 };
 
 /** All parameters of the odometry, one ini section a group. */

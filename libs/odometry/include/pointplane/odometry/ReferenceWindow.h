@@ -28,8 +28,9 @@ class ReferenceWindow
             v("reference",
               reference,
               "-",
-              "keyframes (key frames, and the previous frame's planes) or previous (frame to "
-              "frame)");
+              "keyframes (key frames, and the previous frame's planes), previous (frame to frame: "
+              "the latest one that was tracked) or adjacent (the paper: the frame before, tracked "
+              "or not)");
             v("maxKeyframes", maxKeyframes, "-", "that are kept; the oldest is dropped");
             v("keyframeDistance", keyframeDistance, "m", "new key frame after this translation");
             v("keyframeAngleDeg", keyframeAngleDeg, "deg", "or after this rotation");
@@ -41,6 +42,7 @@ class ReferenceWindow
         }
         void check() const;
         [[nodiscard]] bool isFrameToFrame() const;  //!< or against key frames
+        [[nodiscard]] bool isAdjacent() const;      //!< to the frame before, whatever became of it
     };
 
     explicit ReferenceWindow(const TParams& params);

@@ -30,7 +30,7 @@ struct PoseProblem
 /** What the solver found. */
 struct PoseEstimate
 {
-    MotionGaussian motion;  //!< cov is H^-1 M H^-1, see docs/theory.md
+    MotionGaussian motion;  //!< cov is that of `covariance`, see docs/theory.md
     [[nodiscard]] PoseGaussian pose() const { return motion.pose(); }
 
     Matrix6d infoPoints{Matrix6d::Zero()};  //!< J^T W J of the points on the pose
@@ -59,11 +59,17 @@ class PoseSolver
         Minimal,
         ClosestPoint
     };
+    enum class CovarianceForm
+    {
+        Sandwich,
+        Hessian
+    };
 
     struct TParams
     {
         std::string weighting{"full"};
         std::string planeResidual{"minimal"};
+        std::string covariance{"sandwich"};
         double alpha{1.0};
         double tukeySigmas{4.7};
         double planeStudentDof{5.0};
@@ -81,6 +87,11 @@ class PoseSolver
               planeResidual,
               "-",
               "minimal (difference of n/d) or closestPoint (the paper's difference of d n)");
+            v("covariance",
+              covariance,
+              "-",
+              "of the pose: sandwich (H^-1 M H^-1: weights need not be true) or hessian (the "
+              "paper's H^-1)");
             v("alpha", alpha, "-", "weight of the planes; 0 = points only");
             v("tukeySigmas",
               tukeySigmas,
@@ -122,6 +133,7 @@ class PoseSolver
         TParams params;
         Weighting weighting;
         PlaneResidual planeResidual;
+        CovarianceForm covariance;
     };
 
  private:

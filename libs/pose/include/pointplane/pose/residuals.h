@@ -17,6 +17,8 @@ struct Residual
     Matrix36d J;                          //!< dr / dxi
     Matrix36d J_V;                        //!< dr / dV
     ByCamera ofCamera{ByCamera::Zero()};  //!< change with errors of the camera
+    /** Turns r from the frame that it is in to the previous one. */
+    Eigen::Matrix3d R_prev_r{Eigen::Matrix3d::Identity()};
 };
 
 /** r = P' - (R P + t) [P17 Eq. 8]: P' in the previous frame, P in the current camera [m]. */
@@ -33,7 +35,7 @@ struct Residual
 /** r = theta_m' - theta_m(T): difference of the minimal forms in the previous frame [1/m]. */
 [[nodiscard]] Residual planeResidualMinimal(const PlanePair& pair, const Motion& motion);
 
-/** r = C' - C(T) in metres, C = d n being the plane's point closest to the origin up to sign
- * [P17 Eq. 9]. */
+/** r = N'R (N't + d') - dN in metres [P17 Eq. 9], {R, t} = T_prev_cur: the previous frame's plane,
+ * moved into the current camera, and the plane there, each as its point C = dN. */
 [[nodiscard]] Residual planeResidualClosestPoint(const PlanePair& pair, const Motion& motion);
 }  // namespace pointplane

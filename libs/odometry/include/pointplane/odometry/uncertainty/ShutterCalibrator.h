@@ -20,6 +20,7 @@ class ShutterCalibrator
  public:
     struct TParams
     {
+        bool correct{true};
         double readoutColour{0.02};
         double readoutDepth{0.02};
         double depthDelay{0};
@@ -30,6 +31,11 @@ class ShutterCalibrator
         template <class V>
         void visit(V&& v)
         {
+            v("correct",
+              correct,
+              "-",
+              "motion while images are exposed is corrected; false: images are taken for those of "
+              "one instant, whatever the source says (the paper)");
             v("readoutColour",
               readoutColour,
               "s",
@@ -59,7 +65,7 @@ class ShutterCalibrator
     explicit ShutterCalibrator(const TParams& params);
 
     /** The source's values, completed by the present estimate; to its delay, which comes from time
-     * stamps, the estimate is added. */
+     * stamps, the estimate is added. An instant when nothing is corrected. */
     [[nodiscard]] ShutterModel complete(const ShutterModel& source) const;
 
     /** Takes in the residuals of a measured frame.
