@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OdometryRuns.h"
 
+#include <pointplane/evaluation/association.h>
 #include <pointplane/evaluation/trajectory_text.h>
 #include <pointplane/evaluation/units.h>
 #include <pointplane/mrpt_io/errors.h>
@@ -21,6 +22,17 @@ namespace pointplane
 {
 namespace
 {
+/** How far the estimate's last position is from the truth's, both seen from where they begin. */
+double finalError(const Trajectory& truth, const Trajectory& estimate)
+{
+    const auto trueAt = [&](double stamp)
+    { return truth.poses[nearestIndex(truth.stamps, stamp)]; };
+    const Eigen::Isometry3d trueMotion =
+        trueAt(estimate.stamps.front()).inverse() * trueAt(estimate.stamps.back());
+    const Eigen::Isometry3d motion = estimate.poses.front().inverse() * estimate.poses.back();
+    return (trueMotion.translation() - motion.translation()).norm();
+}
+
 OdometryScore scoreOf(
     const OdometryRun& run,
     const std::string& trajectory,
@@ -38,10 +50,9 @@ OdometryScore scoreOf(
     }
     try
     {
-        return {
-            relativePoseError(
-                readTrajectoryText(run.groundTruth), readTrajectoryText(trajectory), rpe),
-            ""};
+        const Trajectory truth = readTrajectoryText(run.groundTruth);
+        const Trajectory estimate = readTrajectoryText(trajectory);
+        return {relativePoseError(truth, estimate, rpe), "", finalError(truth, estimate)};
     }
     catch (const std::exception& e)
     {

@@ -27,6 +27,7 @@ struct OdometryScore
 {
     std::optional<RpeResult> rpe;
     std::string failure;
+    double finalError{0};  //!< of the last position, first poses laid over each other [m]
 };
 
 /** How runs are made; sweep and reproduce share the options. */

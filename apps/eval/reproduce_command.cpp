@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/evaluation/svg_chart.h>
 #include <pointplane/mrpt_io/rawlog_names.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <ostream>
 
@@ -22,15 +25,18 @@ namespace
 {
 struct ReproduceCommand
 {
-    std::string directory, config, paperConfig, report, convert;
-    std::vector<std::string> alphas{"0", "0.1", "0.3", "1", "3", "10", "30", "100"};
-    std::vector<std::string> parts{"tables", "paper", "default", "alpha"};
+    std::vector<std::string> directories;
+    std::string config, paperConfig, report, figure, convert, simulate;
+    double cornerDuration{18};
+    std::vector<std::string> alphas{"0", "0.1", "1", "10", "100", "1e3", "1e4", "1e7"};
+    std::vector<std::string> parts{std::begin(kReproducedGroups), std::end(kReproducedGroups)};
     OdometryRunner runner;
     OutputFiles files;
 
     void addTo(CLI::App& command);
     void run(CommandContext& context) const;
-    void convertAll(
+    [[nodiscard]] bool makes(const std::string& group) const;
+    void makeRawlogs(
         std::vector<ReproducedSequence>& sequences,
         const std::string& folder,
         CommandContext& context) const;
@@ -38,12 +44,15 @@ struct ReproduceCommand
 
 void ReproduceCommand::addTo(CLI::App& command)
 {
-    command.add_option("directory", directory, "Folder of TUM sequences, or one sequence")
+    command.add_option("directories", directories, "Folders of TUM sequences, or single sequences")
         ->required();
     command.add_option("-c,--config", config, "The default configuration [built in]")
         ->group("Runs");
     command
-        .add_option("--paper-config", paperConfig, "config-paper.ini [here or with the program]")
+        .add_option(
+            "--paper-config",
+            paperConfig,
+            "config-paper.ini, with config-fast.ini beside it [here or with the program]")
         ->group("Runs");
     command.add_option("--alphas", alphas, "Weights of the planes, for Fig. 3")
         ->delimiter(',')
@@ -53,12 +62,21 @@ void ReproduceCommand::addTo(CLI::App& command)
         .add_option(
             "--only",
             parts,
-            "tables (1 and 2, the quickest), paper (ablations of its configuration), default "
-            "(ablations of ours), alpha (Fig. 3) [all]")
+            "tables (1 and 2, the quickest), tukey (Table 1 by the M-estimator's constant), alpha "
+            "(Fig. 3), corner (Fig. 5), paper (ablations of its configuration), detectors, "
+            "configurations (ours) [all]")
         ->delimiter(',')
-        ->check(CLI::IsMember({"tables", "paper", "default", "alpha"}))
+        ->check(CLI::IsMember(parts))
+        ->group("Runs");
+    command.add_option("--corner-duration", cornerDuration, "Of the simulated corner [s]")
+        ->capture_default_str()
+        ->check(CLI::PositiveNumber)
         ->group("Runs");
     command.add_option("--convert", convert, "The pointplane-convert to run [beside this program]")
+        ->type_name("PROGRAM")
+        ->group("Runs");
+    command
+        .add_option("--simulate", simulate, "The pointplane-simulate to run [beside this program]")
         ->type_name("PROGRAM")
         ->group("Runs");
     runner.addTo(command);
@@ -66,6 +84,14 @@ void ReproduceCommand::addTo(CLI::App& command)
     command.add_option("--report", report, "Write DIR/index.html: one file, with the curves")
         ->type_name("DIR")
         ->group("Output");
+    command.add_option("--figure", figure, "Write Fig. 3 as DIR/paper_fig3_*.svg")
+        ->type_name("DIR")
+        ->group("Output");
+}
+
+bool ReproduceCommand::makes(const std::string& group) const
+{
+    return std::find(parts.begin(), parts.end(), group) != parts.end();
 }
 
 /** config-paper.ini: here, installed, or of the source tree the program was built in. */
@@ -84,20 +110,36 @@ std::string findPaperConfig()
     throw InputError("config-paper.ini not found; name it by --paper-config");
 }
 
-void ReproduceCommand::convertAll(
+constexpr const char* kCornerRawlog = "/corner.rawlog";
+
+void ReproduceCommand::makeRawlogs(
     std::vector<ReproducedSequence>& sequences,
     const std::string& folder,
     CommandContext& context) const
 {
     std::vector<ProcessJob> jobs;
+    const auto programOr = [](const std::string& given, const char* usual)
+    { return given.empty() ? siblingProgram(usual) : given; };
+    if (makes("corner"))
+    {
+        jobs.push_back(
+            {{programOr(simulate, "pointplane-simulate"),
+              "corner",
+              "-o",
+              folder + kCornerRawlog,
+              "--duration",
+              format("%g", cornerDuration),
+              "--quiet"},
+             folder + "/corner.log"});
+    }
     for (ReproducedSequence& s : sequences)
     {
         const auto folderName = std::filesystem::path(s.folder).filename().string();
         s.rawlog = folder + "/" + folderName + ".rawlog";
         s.groundTruth = groundTruthOf(s.rawlog);
-        const std::string program =
-            convert.empty() ? siblingProgram("pointplane-convert") : convert;
-        jobs.push_back({{program, "tum", s.folder, "-o", s.rawlog, "--quiet"}, s.rawlog + ".log"});
+        jobs.push_back(
+            {{programOr(convert, "pointplane-convert"), "tum", s.folder, "-o", s.rawlog, "--quiet"},
+             s.rawlog + ".log"});
     }
     std::string failure;  // the callback runs in another thread and must not throw
     runProcesses(
@@ -105,13 +147,14 @@ void ReproduceCommand::convertAll(
         runner.parallel(),
         [&](std::size_t k, int exitCode)
         {
+            const std::string& rawlog = jobs[k].command[jobs[k].command[1] == "tum" ? 4 : 3];
             if (exitCode == kExitOk)
             {
-                context.err << "converted " << sequences[k].folder << std::endl;
+                context.err << "made " << rawlog << std::endl;
                 return;
             }
-            failure = "cannot convert '" + sequences[k].folder + "': " + jobs[k].command.front() +
-                      ", exit code " + std::to_string(exitCode) + ", " + lastLine(jobs[k].logPath);
+            failure = "cannot make '" + rawlog + "': " + jobs[k].command.front() + ", exit code " +
+                      std::to_string(exitCode) + ", " + lastLine(jobs[k].logPath);
         });
     if (!failure.empty())
     {
@@ -127,26 +170,29 @@ void ReproduceCommand::run(CommandContext& context) const
     files.guardedBy(guard);
     guardReport(guard, report);
     Reproduction result;
-    result.sequences = findSequences(directory);
-    if (result.sequences.empty())
+    for (const std::string& directory : directories)
     {
-        throw InputError(
-            "no TUM sequence in '" + directory +
-            "': a folder with rgb.txt, depth.txt and groundtruth.txt");
+        const auto found = findSequences(directory);
+        if (found.empty())
+        {
+            throw InputError(
+                "no TUM sequence in '" + directory +
+                "': a folder with rgb.txt, depth.txt and groundtruth.txt");
+        }
+        result.sequences.insert(result.sequences.end(), found.begin(), found.end());
     }
     const std::string paper = paperConfig.empty() ? findPaperConfig() : paperConfig;
-    for (const Variant& variant : planVariants(paper, config, alphas))
+    const auto fast = std::filesystem::path(paper).replace_filename("config-fast.ini").string();
+    for (const Variant& variant : planVariants({config, fast, paper}, alphas))
     {
-        // The ablations of the paper's configuration are read beside its tables.
-        const auto chosen = [&](const char* part)
-        { return std::find(parts.begin(), parts.end(), part) != parts.end(); };
-        if (chosen(variant.group.c_str()) || (variant.group == "tables" && chosen("paper")))
+        if (makes(variant.group))
         {
-            result.variants.push_back(variant);
+            (variant.group == "corner" ? result.cornerVariants : result.variants)
+                .push_back(variant);
         }
     }
     const WorkDirectory work(runner.directory);
-    convertAll(result.sequences, work.path(), context);
+    makeRawlogs(result.sequences, work.path(), context);
 
     std::vector<OdometryRun> runs;
     for (const ReproducedSequence& s : result.sequences)
@@ -161,10 +207,19 @@ void ReproduceCommand::run(CommandContext& context) const
                  v.settings});
         }
     }
+    const std::string corner = work.path() + kCornerRawlog;
+    for (const Variant& v : result.cornerVariants)
+    {
+        runs.push_back({"corner: " + v.name, corner, groundTruthOf(corner), v.config, v.settings});
+    }
     RpeOptions rpe;
     rpe.fixedDelta = true;
     result.protocol = describe(rpe);
     result.scores = runner.run(runs, rpe, context.err);
+    const auto firstOfCorner =
+        result.scores.end() - static_cast<std::ptrdiff_t>(result.cornerVariants.size());
+    result.cornerScores.assign(firstOfCorner, result.scores.end());
+    result.scores.erase(firstOfCorner, result.scores.end());
 
     if (!files.replaceTable())
     {
@@ -175,9 +230,22 @@ void ReproduceCommand::run(CommandContext& context) const
     {
         writeReportFile(reportOf(result), report, context);
     }
-    for (const OdometryScore& score : result.scores)
+    if (!figure.empty())
     {
-        context.exitCode = score.rpe ? context.exitCode : kExitIncomplete;
+        const WorkDirectory folder(figure);
+        const char* const names[] = {"/paper_fig3_translation.svg", "/paper_fig3_rotation.svg"};
+        const std::vector<Chart> charts = alphaCharts(result);
+        for (std::size_t k = 0; k < charts.size(); ++k)
+        {
+            writeText(svgFileOf(charts[k]), folder.path() + names[k], context.out);
+        }
+    }
+    for (const auto* scores : {&result.scores, &result.cornerScores})
+    {
+        for (const OdometryScore& score : *scores)
+        {
+            context.exitCode = score.rpe ? context.exitCode : kExitIncomplete;
+        }
     }
 }
 }  // namespace
@@ -185,7 +253,8 @@ void ReproduceCommand::run(CommandContext& context) const
 void addReproduceCommand(CLI::App& app, CommandContext& context)
 {
     CLI::App& command = *app.add_subcommand(
-        "reproduce", "The paper's Tables 1 and 2 and Fig. 3 on the TUM sequences of a folder");
+        "reproduce",
+        "The paper's Tables 1 and 2, Fig. 3 and Fig. 5, on the TUM sequences of a folder");
     const auto options = std::make_shared<ReproduceCommand>();
     options->addTo(command);
     command.callback([options, &context] { options->run(context); });

@@ -51,12 +51,21 @@ std::string failures(const Reproduction& result)
                    v.group + ", " + v.name + ": " + result.scores[k].failure + "\n";
         }
     }
+    for (std::size_t k = 0; k < result.cornerScores.size(); ++k)
+    {
+        if (!result.cornerScores[k].rpe)
+        {
+            out += "- corner, " + result.cornerVariants[k].name + ": " +
+                   result.cornerScores[k].failure + "\n";
+        }
+    }
     return out;
 }
 
 std::string intro(const Reproduction& result)
 {
-    return "RMSE of the relative pose error in mm / deg. " + result.protocol + ".";
+    return "RMSE of the relative pose error in mm / deg. " + result.protocol +
+           ". n p: n frames were not measured but predicted.";
 }
 }  // namespace
 
@@ -139,6 +148,22 @@ nlohmann::ordered_json toJson(const Reproduction& result)
         }
         json["runs"].push_back(run);
     }
+    for (std::size_t k = 0; k < result.cornerScores.size(); ++k)
+    {
+        const OdometryScore& score = result.cornerScores[k];
+        nlohmann::ordered_json run{{"variant", result.cornerVariants[k].name}};
+        if (score.rpe)
+        {
+            run["translation"] = score.rpe->translation.rmse;
+            run["rotationDeg"] = score.rpe->rotation.rmse * kDegreesPerRadian;
+            run["finalError"] = score.finalError;
+        }
+        else
+        {
+            run["failure"] = score.failure;
+        }
+        json["corner"].push_back(run);
+    }
     return json;
 }
 
@@ -163,14 +188,8 @@ std::string toCsv(const Reproduction& result)
     return out;
 }
 
-HtmlReport reportOf(const Reproduction& result)
+std::vector<Chart> alphaCharts(const Reproduction& result)
 {
-    HtmlReport report("Reproduction of the paper's figures", intro(result));
-    const std::string absent = missing(result);
-    if (!absent.empty())
-    {
-        report.addParagraph(absent);
-    }
     std::vector<std::string> alphas;
     std::vector<std::string> names;
     std::vector<OdometryScore> scores;
@@ -189,13 +208,31 @@ HtmlReport reportOf(const Reproduction& result)
             }
         }
     }
-    if (!alphas.empty())
+    if (alphas.empty())
     {
-        for (Chart& chart : sweepCharts("alpha", alphas, names, scores, ValueAxis::Names))
-        {
-            chart.title = "Fig. 3: " + chart.title;
-            report.addChart(chart);
-        }
+        return {};
+    }
+    std::vector<Chart> charts = sweepCharts("alpha", alphas, names, scores, ValueAxis::Names);
+    for (Chart& chart : charts)
+    {
+        chart.title = "Fig. 3: " + chart.title;
+        chart.yFromZero = false;
+        chart.logY = true;
+    }
+    return charts;
+}
+
+HtmlReport reportOf(const Reproduction& result)
+{
+    HtmlReport report("Reproduction of the paper's figures", intro(result));
+    const std::string absent = missing(result);
+    if (!absent.empty())
+    {
+        report.addParagraph(absent);
+    }
+    for (const Chart& chart : alphaCharts(result))
+    {
+        report.addChart(chart);
     }
     for (const ReproductionTable& table : reproductionTables(result))
     {

@@ -14,7 +14,9 @@ struct Reproduction
     std::string protocol;
     std::vector<ReproducedSequence> sequences;
     std::vector<Variant> variants;
-    std::vector<OdometryScore> scores;  //!< of sequence s, variant v: [s * variants.size() + v]
+    std::vector<OdometryScore> scores;    //!< of sequence s, variant v: [s * variants.size() + v]
+    std::vector<Variant> cornerVariants;  //!< of the simulated corner
+    std::vector<OdometryScore> cornerScores;  //!< one each
 
     /** Score as text, or "-" when there is no such variant or sequence. */
     [[nodiscard]] std::string text(
@@ -27,4 +29,7 @@ struct Reproduction
 [[nodiscard]] nlohmann::ordered_json toJson(const Reproduction& result);
 [[nodiscard]] std::string toCsv(const Reproduction& result);
 [[nodiscard]] HtmlReport reportOf(const Reproduction& result);
+
+/** Fig. 3: translation and rotation over alpha, a curve per sequence; none if it was not made. */
+[[nodiscard]] std::vector<Chart> alphaCharts(const Reproduction& result);
 }  // namespace pointplane

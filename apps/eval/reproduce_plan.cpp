@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <regex>
 
 namespace pointplane
@@ -28,25 +29,62 @@ std::vector<std::string> with(std::vector<std::string> settings, const std::stri
 }
 
 /** What Tables 1 and 2 compare. */
-void addTableRows(std::vector<Variant>& plan, const std::string& group, const std::string& config)
+void addTables(std::vector<Variant>& plan, const std::string& paper)
 {
-    plan.push_back({group, "points and planes", config, {}});
-    plan.push_back({group, "points", config, kPointsOnly});
-    plan.push_back({group, "points, unweighted", config, with(kPointsOnly, kUnweighted)});
+    plan.push_back({"tables", "points and planes", paper, {}});
+    plan.push_back({"tables", "points", paper, kPointsOnly});
+    plan.push_back({"tables", "points, unweighted", paper, with(kPointsOnly, kUnweighted)});
 }
 
-/** The other features, weights and detectors, one changed at a time. */
-void addAblations(std::vector<Variant>& plan, const std::string& group, const std::string& config)
+/** The paper names Tukey's function, not its constant. */
+void addTukey(std::vector<Variant>& plan, const std::string& paper)
 {
-    plan.push_back({group, "planes", config, kPlanesOnly});
-    plan.push_back({group, "points and planes, unweighted", config, {kUnweighted}});
+    for (const std::string sigmas : {"0", "3", "4.685"})
+    {
+        const auto points = with(kPointsOnly, "PoseSolver.tukeySigmas=" + sigmas);
+        plan.push_back({"tukey", "points, " + sigmas, paper, points});
+        plan.push_back(
+            {"tukey", "points, unweighted, " + sigmas, paper, with(points, kUnweighted)});
+    }
+}
+
+void addAblations(std::vector<Variant>& plan, const ConfigFiles& configs)
+{
+    plan.push_back({"paper", "planes", configs.paper, kPlanesOnly});
+    plan.push_back({"paper", "points and planes, unweighted", configs.paper, {kUnweighted}});
     for (const std::string detector : kDetectors)
     {
         plan.push_back(
-            {group,
+            {"detectors",
              "points and planes, " + detector,
-             config,
-             {"Points.method=match", "PointDetector.detector=" + detector}});
+             configs.paper,
+             {"PointDetector.detector=" + detector}});
+    }
+    const std::string group = "configurations";
+    plan.push_back({group, "config.ini", configs.usual, {}});
+    plan.push_back({group, "config-fast.ini", configs.fast, {}});
+    plan.push_back({group, "config-paper.ini", configs.paper, {}});
+    plan.push_back({group, "config.ini, points", configs.usual, kPointsOnly});
+    plan.push_back(
+        {group, "config.ini, points, unweighted", configs.usual, with(kPointsOnly, kUnweighted)});
+    plan.push_back({group, "config.ini, planes", configs.usual, kPlanesOnly});
+    plan.push_back(
+        {group, "config.ini, frame to frame", configs.usual, {"Reference.reference=previous"}});
+}
+
+/** First and last stamp of rgb.txt. */
+void readStamps(ReproducedSequence& sequence)
+{
+    std::ifstream list(sequence.folder + "/rgb.txt");
+    for (std::string line; std::getline(list, line);)
+    {
+        if (!line.empty() && line[0] != '#')
+        {
+            sequence.lastStamp = line.substr(0, line.find_first_of(" \t"));
+            sequence.firstStamp =
+                sequence.numFrames == 0 ? sequence.lastStamp : sequence.firstStamp;
+            ++sequence.numFrames;
+        }
     }
 }
 }  // namespace
@@ -89,6 +127,7 @@ std::vector<ReproducedSequence> findSequences(const std::string& directory)
         sequence.folder = folder.string();
         const auto last = folder.has_filename() ? folder : folder.parent_path();
         sequence.name = sequenceName(last.filename().string(), sequence.isPart);
+        readStamps(sequence);
         out.push_back(std::move(sequence));
     }
     return out;
@@ -104,20 +143,25 @@ const std::vector<PublishedFigures>& publishedFigures()
     return figures;
 }
 
+bool wereParametersChosenOn(const std::string& sequence)
+{
+    const auto chosenOn = {"fr1/xyz", "fr3/structure_notexture_far", "icl_living_room_kt0"};
+    return std::find(chosenOn.begin(), chosenOn.end(), sequence) != chosenOn.end();
+}
+
 std::vector<Variant> planVariants(
-    const std::string& paperConfig,
-    const std::string& defaultConfig,
-    const std::vector<std::string>& alphas)
+    const ConfigFiles& configs, const std::vector<std::string>& alphas)
 {
     std::vector<Variant> plan;
-    addTableRows(plan, "tables", paperConfig);
-    addAblations(plan, "paper", paperConfig);
-    addTableRows(plan, "default", defaultConfig);
-    addAblations(plan, "default", defaultConfig);
+    addTables(plan, configs.paper);
+    addTukey(plan, configs.paper);
     for (const std::string& alpha : alphas)
     {
-        plan.push_back({"alpha", alpha, paperConfig, {"PoseSolver.alpha=" + alpha}});
+        plan.push_back({"alpha", alpha, configs.paper, {"PoseSolver.alpha=" + alpha}});
     }
+    plan.push_back({"corner", "planes", configs.paper, kPlanesOnly});
+    plan.push_back({"corner", "points and planes", configs.paper, {}});
+    addAblations(plan, configs);
     return plan;
 }
 }  // namespace pointplane

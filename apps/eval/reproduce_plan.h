@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -8,14 +9,19 @@
 
 namespace pointplane
 {
-/** A TUM sequence found on disk. */
+/** A TUM sequence found on disk, or the simulated corner. */
 struct ReproducedSequence
 {
-    std::string folder;
+    std::string folder;  //!< empty: simulated
     std::string name;    //!< as the paper calls it, e.g. "fr1/desk"
     bool isPart{false};  //!< only a part of it, by the folder's name: not comparable as it stands
+    std::string firstStamp, lastStamp;  //!< of its colour images, as they are written [s]
+    std::size_t numFrames{0};           //!< of them
     std::string rawlog, groundTruth;
 };
+
+/** Whether parameters were chosen on (parts of) this sequence, docs/experiments.md. */
+[[nodiscard]] bool wereParametersChosenOn(const std::string& sequence);
 
 /** Folders with rgb.txt, depth.txt and groundtruth.txt: `directory` itself or those in it, sorted.
  */
@@ -33,21 +39,28 @@ struct PublishedFigures
 /** [P17] Tables 1 and 2, "mm / deg". */
 [[nodiscard]] const std::vector<PublishedFigures>& publishedFigures();
 
-/** One configuration that every sequence is run with. */
+/** What `reproduce` makes, and by what name --only chooses it. */
+constexpr const char* kReproducedGroups[] = {
+    "tables", "tukey", "alpha", "corner", "paper", "detectors", "configurations"};
+
+/** One configuration that every sequence is run with; the corner's only the corner. */
 struct Variant
 {
-    std::string group;  //!< "tables", "paper", "default", "alpha"
+    std::string group;  //!< one of kReproducedGroups
     std::string name;   //!< "points, unweighted"
     std::string config;
     std::vector<std::string> settings;
 };
 
-/** The paper's tables and Fig. 3, and the ablations of both configurations; of the first those that
- * are not in the tables.
- * \param paperConfig config-paper.ini \param defaultConfig empty: the built-in one
+/** The ini files of the project. */
+struct ConfigFiles
+{
+    std::string usual;  //!< config.ini; empty: the built-in one
+    std::string fast, paper;
+};
+
+/** The paper's tables, Fig. 3 and Fig. 5, Tukey's constants, and the ablations.
  * \param alphas of Fig. 3 */
 [[nodiscard]] std::vector<Variant> planVariants(
-    const std::string& paperConfig,
-    const std::string& defaultConfig,
-    const std::vector<std::string>& alphas);
+    const ConfigFiles& configs, const std::vector<std::string>& alphas);
 }  // namespace pointplane

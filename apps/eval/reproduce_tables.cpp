@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "result_output.h"
 
@@ -27,17 +28,23 @@ PublishedFigures publishedOf(const std::string& name)
     return {name, "", "", "", ""};
 }
 
-/** "12.3 / 0.45": mm and deg, as in the paper's tables. */
+/** "12.3 / 0.45 (6 p)": mm and deg as in the paper's tables, and the frames that were predicted. */
 std::string cellText(const OdometryScore& score)
 {
-    return score.rpe ? format(
-                           "%.1f / %.2f",
-                           1000 * score.rpe->translation.rmse,
-                           kDegreesPerRadian * score.rpe->rotation.rmse)
-                     : "failed";
+    if (!score.rpe)
+    {
+        return "failed";
+    }
+    return format(
+               "%.1f / %.2f",
+               1000 * score.rpe->translation.rmse,
+               kDegreesPerRadian * score.rpe->rotation.rmse) +
+           (score.rpe->coverage.predicted > 0 ? format(" (%zu p)", score.rpe->coverage.predicted)
+                                              : "");
 }
 
-std::string orDash(const std::string& text) { return text.empty() ? "-" : text; }
+const char* const kNotAtHand = "not at hand";
+const char* const kNotInPaper = "not in the paper";
 
 bool isAbsent(const Reproduction& result, const std::string& sequence)
 {
@@ -87,8 +94,8 @@ ReproductionTable alphaTable(const Reproduction& result)
 {
     ReproductionTable table = groupTable(
         result,
-        "Fig. 3: weight of the planes (config-paper.ini). The paper draws curves without figures "
-        "and takes alpha = 10",
+        "Fig. 3: weight of the planes (config-paper.ini). The paper draws curves and takes alpha = "
+        "10; with plane weights in metres, that is 1e7 here",
         "alpha",
         {"alpha"});
     Cells best{"smallest mm at"};
@@ -111,7 +118,7 @@ ReproductionTable alphaTable(const Reproduction& result)
     return table;
 }
 
-/** Tables 1 and 2 of the paper, beside its figures. */
+/** Tables 1 and 2 of the paper, beside its figures: first its own sequences, then others. */
 std::vector<ReproductionTable> paperTables(const Reproduction& result)
 {
     ReproductionTable first{
@@ -122,39 +129,92 @@ std::vector<ReproductionTable> paperTables(const Reproduction& result)
         "Table 2: points, and points and planes (config-paper.ini)",
         {"sequence", "points", "paper", "points and planes", "paper", "best named by the paper"},
         {}};
-    for (std::size_t s = 0; s < result.sequences.size(); ++s)
+    const auto addRows = [&](const std::string& name, const PublishedFigures& p, const auto& ours)
     {
-        const PublishedFigures p = publishedOf(result.sequences[s].name);
-        const std::string name = displayName(result.sequences[s]);
-        const std::string points = result.text(s, "tables", "points");
-        first.rows.push_back(
-            {name,
-             result.text(s, "tables", "points, unweighted"),
-             orDash(p.deterministic),
-             points,
-             orDash(p.deterministic.empty() ? "" : p.points)});
+        const std::string points = ours("points");
+        if (!p.deterministic.empty())
+        {
+            first.rows.push_back(
+                {name, ours("points, unweighted"), p.deterministic, points, p.points});
+        }
         second.rows.push_back(
             {name,
              points,
-             orDash(p.points),
-             result.text(s, "tables", "points and planes"),
-             orDash(p.pointsAndPlanes),
-             orDash(p.stateOfTheArt)});
-    }
-    const std::string absent = "not here";
+             p.points,
+             ours("points and planes"),
+             p.pointsAndPlanes,
+             p.stateOfTheArt});
+    };
     for (const PublishedFigures& p : publishedFigures())
     {
         if (isAbsent(result, p.sequence))
         {
-            if (!p.deterministic.empty())
-            {
-                first.rows.push_back({p.sequence, absent, p.deterministic, absent, p.points});
-            }
-            second.rows.push_back(
-                {p.sequence, absent, p.points, absent, p.pointsAndPlanes, p.stateOfTheArt});
+            addRows(p.sequence, p, [](const char*) { return std::string(kNotAtHand); });
+        }
+    }
+    for (std::size_t s = 0; s < result.sequences.size(); ++s)
+    {
+        PublishedFigures p = publishedOf(result.sequences[s].name);
+        for (std::string* cell : {&p.points, &p.pointsAndPlanes, &p.stateOfTheArt})
+        {
+            *cell = cell->empty() ? kNotInPaper : *cell;
+        }
+        // structure_notexture_far and cabinet are in Table 2 only.
+        p.deterministic = p.deterministic.empty() ? kNotInPaper : p.deterministic;
+        addRows(
+            displayName(result.sequences[s]),
+            p,
+            [&](const char* variant) { return result.text(s, "tables", variant); });
+        if (p.deterministic == kNotInPaper)
+        {
+            first.rows.back().back() = kNotInPaper;
         }
     }
     return {first, second};
+}
+
+ReproductionTable sequenceTable(const Reproduction& result)
+{
+    ReproductionTable table{
+        "Sequences",
+        {"sequence",
+         "first stamp",
+         "last stamp",
+         "colour images",
+         "in the paper",
+         "parameters of config.ini chosen on it"},
+        {}};
+    for (const ReproducedSequence& s : result.sequences)
+    {
+        table.rows.push_back(
+            {displayName(s),
+             s.firstStamp,
+             s.lastStamp,
+             std::to_string(s.numFrames),
+             publishedOf(s.name).points.empty() ? "no" : "yes",
+             wereParametersChosenOn(s.name) ? "yes" : "no"});
+    }
+    return table;
+}
+
+ReproductionTable cornerTable(const Reproduction& result)
+{
+    ReproductionTable table{
+        "Fig. 5: a room corner (config-paper.ini). Theirs was real, ours is simulated; the paper's "
+        "final error is that of the planes",
+        {"features", "final error of the position, mm", "paper", "RPE"},
+        {}};
+    for (std::size_t k = 0; k < result.cornerVariants.size(); ++k)
+    {
+        const std::string& name = result.cornerVariants[k].name;
+        const OdometryScore& score = result.cornerScores[k];
+        table.rows.push_back(
+            {name,
+             score.rpe ? format("%.1f", 1000 * score.finalError) : "failed",
+             name == "planes" ? "114" : "-",
+             cellText(score)});
+    }
+    return table;
 }
 }  // namespace
 
@@ -178,25 +238,37 @@ std::string Reproduction::text(
 
 std::vector<ReproductionTable> reproductionTables(const Reproduction& result)
 {
-    std::vector<ReproductionTable> out;
+    std::vector<ReproductionTable> out{sequenceTable(result)};
     if (hasGroup(result, "tables"))
     {
-        out = paperTables(result);
+        for (ReproductionTable& table : paperTables(result))
+        {
+            out.push_back(std::move(table));
+        }
     }
+    const auto addGroup = [&](const char* group, const char* caption, const char* what)
+    {
+        if (hasGroup(result, group))
+        {
+            out.push_back(groupTable(result, caption, what, {group}));
+        }
+    };
+    addGroup(
+        "tukey",
+        "Table 1 by the constant of Tukey's function, which the paper does not name "
+        "(config-paper.ini has the usual 4.685; 0 = no M-estimator)",
+        "features, robust sigmas");
     if (hasGroup(result, "alpha"))
     {
         out.push_back(alphaTable(result));
     }
-    if (hasGroup(result, "paper"))
+    if (!result.cornerVariants.empty())
     {
-        out.push_back(groupTable(
-            result, "Ablations of config-paper.ini", "configuration", {"tables", "paper"}));
+        out.push_back(cornerTable(result));
     }
-    if (hasGroup(result, "default"))
-    {
-        out.push_back(groupTable(
-            result, "Ablations of the default configuration", "configuration", {"default"}));
-    }
+    addGroup("paper", "Ablations of config-paper.ini", "configuration");
+    addGroup("detectors", "Detectors (config-paper.ini)", "configuration");
+    addGroup("configurations", "Configurations", "configuration");
     return out;
 }
 }  // namespace pointplane

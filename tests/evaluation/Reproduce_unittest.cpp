@@ -73,7 +73,11 @@ test::AppRun reproduce(const std::string& folder, const std::vector<std::string>
         "--odometry",
         POINTPLANE_ODOMETRY,
         "--convert",
-        POINTPLANE_CONVERT};
+        POINTPLANE_CONVERT,
+        "--simulate",
+        POINTPLANE_SIMULATE,
+        "--corner-duration",
+        "1.2"};
     args.insert(args.end(), options.begin(), options.end());
     return test::runApp(runEval, args);
 }
@@ -92,11 +96,12 @@ TEST(Reproduce, fromATumFolderToTheTables)
     EXPECT_THAT(r.out, HasSubstr("| 43 / 2.3 "));
     EXPECT_THAT(r.out, HasSubstr("| fr1/360 "));
     EXPECT_THAT(test::readBytes(dir / "report/index.html"), HasSubstr("Fig. 3: Translation"));
-    // Ten of each configuration and two alphas, but alpha = 10 and SURF are the paper's own.
-    EXPECT_THAT(r.err, HasSubstr("[20/20, 0 s left]"));
+    EXPECT_THAT(r.out, HasSubstr("Fig. 5"));
+    // 25 of the sequence and two of the corner; five of them are the paper's own configuration.
+    EXPECT_THAT(r.err, HasSubstr("[22/22, 0 s left]"));
 
     const auto json = nlohmann::json::parse(test::readBytes(dir / "out.json"));
-    ASSERT_EQ(json["runs"].size(), 22U);
+    ASSERT_EQ(json["runs"].size(), 25U);
     EXPECT_EQ(json["published"].size(), 4U);
     double paperOwn = 0;
     for (const auto& run : json["runs"])
@@ -110,11 +115,11 @@ TEST(Reproduce, fromATumFolderToTheTables)
             paperOwn = run["translation"];
             EXPECT_LT(paperOwn, 0.05);
         }
-        if (name == "default, points and planes")
+        if (name == "configurations, config.ini")
         {
             EXPECT_LT(run["translation"], 0.01);
         }
-        if (name == "alpha, 10" || name == "paper, points and planes, surf")
+        if (name == "alpha, 10" || name == "detectors, points and planes, surf")
         {
             EXPECT_EQ(run["translation"], paperOwn) << name;
         }

@@ -43,6 +43,8 @@ class FakePrograms : public testing::Test
                 straightLine("'$factor'") + " > $t\n");
         convert = script(
             "convert", "touch $4; " + straightLine("1") + " > ${4%.rawlog}.groundtruth.txt\n");
+        simulate = script(
+            "simulate", "touch $3; " + straightLine("1") + " > ${3%.rawlog}.groundtruth.txt\n");
     }
 
     std::string script(const std::string& name, const std::string& body) const
@@ -53,7 +55,7 @@ class FakePrograms : public testing::Test
     }
 
     test::TempDir dir;
-    std::string odometry, convert;
+    std::string odometry, convert, simulate;
 };
 }  // namespace
 
@@ -143,7 +145,8 @@ TEST_F(FakePrograms, reproduceWritesTheTablesAndWhatIsMissing)
         std::filesystem::create_directories(sequences + "/" + name);
         for (const char* file : {"rgb.txt", "depth.txt", "groundtruth.txt"})
         {
-            std::ofstream(sequences + "/" + name + "/" + file) << "#\n";
+            std::ofstream(sequences + "/" + name + "/" + file)
+                << "# stamp file\n12.5 rgb/a.png\n17.5 rgb/b.png\n";
         }
     }
     const std::string config = writeFile(dir, "config-paper.ini", "");
@@ -158,14 +161,22 @@ TEST_F(FakePrograms, reproduceWritesTheTablesAndWhatIsMissing)
          odometry,
          "--convert",
          convert,
+         "--simulate",
+         simulate,
          "--report",
          dir / "report",
+         "--figure",
+         dir / "figures",
          "--json",
          dir / "out.json"});
     EXPECT_EQ(r.code, 1) << r.err;  // one run failed
     EXPECT_THAT(
         r.out, HasSubstr("| fr1/desk       | 10.0 / 0.00 | 43 / 2.3  | 10.0 / 0.00 | 38 / 2.2 |"));
+    EXPECT_THAT(r.out, HasSubstr("| fr1/360 (part) | 12.5        | 17.5       | 2 "));
     EXPECT_THAT(r.out, HasSubstr("### Table 2"));
+    EXPECT_THAT(r.out, HasSubstr("| fr3/cabinet                 | not at hand | fail "));
+    // 5 m at 1 % of drift.
+    EXPECT_THAT(r.out, HasSubstr("| planes            | 50.0 "));
     EXPECT_THAT(r.out, HasSubstr("| 1.1            | 100.0 / 0.00 | 100.0 / 0.00   |"));
     EXPECT_THAT(
         r.out,
@@ -173,7 +184,12 @@ TEST_F(FakePrograms, reproduceWritesTheTablesAndWhatIsMissing)
                   "Only a part, so not comparable with the published figure as it stands: "
                   "fr1/360."));
     EXPECT_THAT(r.out, HasSubstr("- fr1/desk, alpha, bad: pointplane-odometry: exit code 2"));
-    EXPECT_EQ(nlohmann::json::parse(test::readBytes(dir / "out.json"))["runs"].size(), 44u);
+    EXPECT_EQ(nlohmann::json::parse(test::readBytes(dir / "out.json"))["runs"].size(), 50u);
+    for (const char* name : {"translation", "rotation"})
+    {
+        EXPECT_THAT(
+            test::readBytes(dir / "figures/paper_fig3_" + name + ".svg"), HasSubstr("<svg"));
+    }
     const std::string html = test::readBytes(dir / "report/index.html");
     EXPECT_THAT(html, HasSubstr("Fig. 3"));
     EXPECT_THAT(html, HasSubstr(R"("xNames":["1.1","bad"])"));
