@@ -28,7 +28,7 @@ struct ReproduceCommand
     std::vector<std::string> directories;
     std::string config, paperConfig, report, figure, convert, simulate;
     double cornerDuration{18};
-    std::vector<std::string> alphas{"0", "0.1", "1", "10", "100", "1e3", "1e4", "1e7"};
+    std::vector<std::string> alphas{"0", "1", "10", "100", "1e3", "1e7"};
     std::vector<std::string> parts{std::begin(kReproducedGroups), std::end(kReproducedGroups)};
     OdometryRunner runner;
     OutputFiles files;
