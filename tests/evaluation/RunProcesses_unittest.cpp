@@ -94,7 +94,7 @@ TEST_F(FakePrograms, sweepScoresEveryValue)
     EXPECT_EQ(r.code, 0) << r.err;
     EXPECT_THAT(r.out, HasSubstr("1.2               200.0 mm / 0.00 deg"));
     EXPECT_THAT(r.err, HasSubstr("[3/3, 0 s left]"));
-    EXPECT_THAT(test::readBytes(dir / "out.csv"), HasSubstr("a,PoseSolver.alpha,1.3,40,0.3"));
+    EXPECT_THAT(test::readBytes(dir / "out.csv"), HasSubstr("a,PoseSolver.alpha,1.3,40,0,0.3"));
     EXPECT_THAT(test::readBytes(dir / "report/index.html"), HasSubstr("Sweep of PoseSolver.alpha"));
 }
 
@@ -192,7 +192,7 @@ TEST_F(FakePrograms, reproduceWritesTheTablesAndWhatIsMissing)
     }
     const std::string html = test::readBytes(dir / "report/index.html");
     EXPECT_THAT(html, HasSubstr("Fig. 3"));
-    EXPECT_THAT(html, HasSubstr(R"("xNames":["1.1","bad"])"));
+    EXPECT_THAT(html, HasSubstr(">bad</text>"));
 
     EXPECT_EQ(run({"reproduce", dir / "nowhere", "--paper-config", config}).code, 2);
 }
