@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Aligner.h"
 
+#include <pointplane/core/se3.h>
+
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 #include "Stopwatch.h"
 
@@ -25,6 +28,25 @@ constexpr int kFewPoints = 6;
 
 /** Standard deviations from the predicted pose that they are not believed then. */
 constexpr double kMostSurprise = 5;
+
+/** An estimate needs no alternative when so much of the surfaces in view agrees with it (a motion
+ * that is wrong by 5 cm or 5 deg leaves a third), and so much of surfaces and points together. */
+constexpr double kConvincingSurfaces = 0.75, kConvincingTogether = 0.9;
+
+/** Nor when its points and planes agree with each other: reduced chi-square; sensors are up to ten
+ * times as noisy as propagated, planes more. */
+constexpr double kConvincingPointChi2 = 30, kConvincingPlaneChi2 = 100;
+
+/** A place is not taken for another one that shows so much of its surfaces; the motion is a first
+ * guess yet. */
+constexpr double kRecognised = 0.6;
+
+/** The time at which a depth image was exposed is known this well [s]. */
+constexpr double kTimeSigma = 0.015;
+
+/** Surfaces that are compared: of the newest reference, and of older ones until there are as many.
+ */
+constexpr int kEnoughSurfaces = 500;
 
 /** How many directions the measurements know better than the motion model does. */
 int observableDirections(const Matrix6d& information, const Matrix6d& priorCovariance)
@@ -46,7 +68,69 @@ double maxSigma(const Matrix6d& cov)
     const Eigen::SelfAdjointEigenSolver<Matrix6d> es(cov);
     return std::sqrt(std::max(0.0, es.eigenvalues().maxCoeff()));
 }
+
+/** How much speaks for an alignment. */
+double evidence(const Alignment& alignment)
+{
+    const double surfaces = alignment.agreement.fraction() *
+                            std::min(1.0, alignment.agreement.seen() / double(kEnoughSurfaces));
+    return (alignment.holds ? 1 : 0) + surfaces + alignment.pointShare();
+}
+
+/** Points of a reference that are due and in view of a camera. */
+int numInView(const Reference& reference, const RgbdFrame& frame, const Eigen::Isometry3d& T_cur_ref)
+{
+    int out = 0;
+    for (size_t i = 0; i < reference.points.points.size(); ++i)
+    {
+        const Eigen::Vector3d p_cur = T_cur_ref * reference.points.points[i].p_cam.mean;
+        if (reference.points.isDue(i) && p_cur.z() > 0)
+        {
+            const Eigen::Vector2d uv_px = frame.camera.project(p_cur);
+            out += uv_px.x() >= 0 && uv_px.y() >= 0 && uv_px.x() < frame.camera.width &&
+                   uv_px.y() < frame.camera.height;
+        }
+    }
+    return out;
+}
+
+/** The camera's motion while it waited for the depth image. */
+Eigen::Isometry3d untilDepth(const Vector6d& velocity, double delay)
+{
+    return se3Exp(std::isfinite(delay) ? Vector6d(delay * velocity) : Vector6d::Zero());
+}
+
+void tell(const Alignment& alignment, FrameDiagnostics& diagnostics)
+{
+    const PoseEstimate& estimate = alignment.estimate;
+    diagnostics.iterations = estimate.iterations;
+    diagnostics.numPointPairs = static_cast<int>(alignment.problem.points.size());
+    diagnostics.numPlanePairs = static_cast<int>(alignment.problem.planes.size());
+    diagnostics.numPointInliers = estimate.numPointInliers;
+    diagnostics.pointChi2PerDof = estimate.pointChi2PerDof;
+    diagnostics.planeChi2PerDof = estimate.planeChi2PerDof;
+    diagnostics.numReferences = static_cast<int>(alignment.associations.size());
+    diagnostics.observableDirections = alignment.observableDirections;
+    diagnostics.msPose = alignment.msPose;
+    diagnostics.surfaceAgreement = alignment.agreement.fraction();
+}
 }  // namespace
+
+double Alignment::pointShare() const
+{
+    constexpr int kHandful = 20;
+    return static_cast<double>(estimate.numPointInliers) / std::max(numSought, kHandful);
+}
+
+struct Aligner::Scene
+{
+    const FrontEnd& frontEnd;
+    const Features& current;
+    const Track& track;
+    const ErrorModel& errors;
+    Prediction predicted;
+    PairBuilder pairs;
+};
 
 Aligner::Aligner(const OdometryParams& params)
     : params_(params.pipeline),
@@ -64,46 +148,115 @@ Alignment Aligner::align(
     const ErrorModel& errors,
     FrameDiagnostics& diagnostics) const
 {
-    Alignment out;
-    out.predicted = track.prediction(current.frame.stamp);
-    const PairBuilder pairs(track.previous(), current);
-    const auto associateAt = [&](const Eigen::Isometry3d& T_prev_cur, double radiusFactor)
-    { return associate(frontEnd, current, track, T_prev_cur, radiusFactor); };
-
+    const Stopwatch watch;
+    const Prediction predicted = track.prediction(current.frame.stamp);
+    const Scene scene{
+        frontEnd, current, track, errors, predicted, PairBuilder(track.previous(), current)};
     // [P17, section Matching] capitalises on small motion.
     const Eigen::Isometry3d expected =
-        searchesAhead_ ? out.predicted.pose.mean : Eigen::Isometry3d::Identity();
-
-    const Stopwatch matching;
-    out.associations = associateAt(expected, 1);
-    if (track.overlap(out.associations) < minOverlap_)
+        searchesAhead_ ? predicted.pose.mean : Eigen::Isometry3d::Identity();
+    const Motion start{expected, predicted.motion.mean.velocity};
+    const bool verifies = params_.leastAgreement > 0;
+    Alignment out = attempt(scene, start, Search::Close);
+    if (track.overlap(out.associations) < minOverlap_ || (verifies && !isConvincing(out)))
     {
-        // A jerk that the motion model did not foresee: look farther, then closely again. Other
-        // candidates for the motion, from the images alone, would be tried here.
-        out.associations = associateAt(expected, kWideSearch);
-        estimate(out, pairs, errors, diagnostics);
-        out.associations = associateAt(out.estimate.motion.mean.T_prev_cur, 1);
+        Alignment wide = attempt(scene, start, Search::Wide);
+        if (!verifies || evidence(wide) > evidence(out))
+        {
+            out = std::move(wide);
+        }
+        if (params_.searchImages && !isConvincing(out))
+        {
+            searchImages(scene, out);
+        }
     }
-    diagnostics.msMatching = matching.ms();
-    estimate(out, pairs, errors, diagnostics);
-    judge(out, diagnostics);
+    contradict(out);
+    tell(out, diagnostics);
+    diagnostics.msMatching = watch.ms() - diagnostics.msPose;
     return out;
 }
 
+/** Lays the frame over its references near a motion. */
+Alignment Aligner::attempt(const Scene& scene, const Motion& start, Search search) const
+{
+    Alignment out;
+    out.predicted = scene.predicted;
+    if (search == Search::Close)
+    {
+        out.associations = associate(scene, start.T_prev_cur, 1);
+        estimate(scene, scene.predicted.motion.mean, out);
+    }
+    else
+    {
+        out.associations = associate(scene, start.T_prev_cur, kWideSearch);
+        estimate(scene, start, out);
+        const Motion coarse = out.estimate.motion.mean;
+        out.associations = associate(scene, coarse.T_prev_cur, 1);
+        estimate(scene, coarse, out);
+    }
+    judge(out);
+    verify(scene, out);
+    return out;
+}
+
+/** Motions that the images alone tell, until one is convincing. */
+void Aligner::searchImages(const Scene& scene, Alignment& best) const
+{
+    const DescribedPoints described = scene.frontEnd.describe(scene.current);
+    const Eigen::Isometry3d T_prev_world = scene.track.previous().T_world_cam.inverse();
+    for (const Reference* reference : scene.track.references())
+    {
+        const auto motion =
+            scene.frontEnd.alignImages(*reference, described, scene.current.frame.camera);
+        if (!motion)
+        {
+            continue;
+        }
+        const Eigen::Isometry3d T_prev_cur =
+            T_prev_world * reference->T_world_cam * motion->T_cur_ref.inverse();
+        Alignment other = attempt(
+            scene, {T_prev_cur, scene.predicted.motion.mean.velocity}, Search::Wide);
+        if (evidence(other) > evidence(best))
+        {
+            best = std::move(other);
+        }
+        if (isConvincing(best))
+        {
+            return;
+        }
+    }
+}
+
+std::optional<int> Aligner::recognise(
+    const FrontEnd& frontEnd, const Features& current, const Track& track) const
+{
+    if (!params_.searchImages || track.places().empty())
+    {
+        return {};
+    }
+    const DescribedPoints described = frontEnd.describe(current);
+    for (auto place = track.places().rbegin(); place != track.places().rend(); ++place)
+    {
+        const auto motion = frontEnd.alignImages(*place, described, current.frame.camera);
+        if (motion &&
+            frontEnd.compare(*place, current, motion->T_cur_ref, 0).fraction() > kRecognised)
+        {
+            return place->id;
+        }
+    }
+    return {};
+}
+
 std::vector<Association> Aligner::associate(
-    const FrontEnd& frontEnd,
-    const Features& current,
-    const Track& track,
-    const Eigen::Isometry3d& T_prev_cur,
-    double radiusFactor)
+    const Scene& scene, const Eigen::Isometry3d& T_prev_cur, double radiusFactor)
 {
     std::vector<Association> out;
     const Eigen::Isometry3d T_cur_world =
-        T_prev_cur.inverse() * track.previous().T_world_cam.inverse();
-    for (const Reference* reference : track.references())
+        T_prev_cur.inverse() * scene.track.previous().T_world_cam.inverse();
+    for (const Reference* reference : scene.track.references())
     {
-        out.push_back(frontEnd.associate(
-            *reference, current, T_cur_world * reference->T_world_cam, radiusFactor));
+        out.push_back(scene.frontEnd.associate(
+            *reference, scene.current, T_cur_world * reference->T_world_cam, radiusFactor));
     }
     return out;
 }
@@ -112,42 +265,34 @@ std::vector<Association> Aligner::associate(
 int Aligner::minMatches() const { return fuses_ ? 1 : kMinMatches; }
 
 /** From the associations; the prediction where there is too little to estimate from. */
-void Aligner::estimate(
-    Alignment& alignment,
-    const PairBuilder& pairs,
-    const ErrorModel& errors,
-    FrameDiagnostics& diagnostics) const
+void Aligner::estimate(const Scene& scene, const Motion& start, Alignment& alignment) const
 {
     const Stopwatch watch;
     PoseProblem& problem = alignment.problem;
-    pairs.build(alignment.associations, errors.shutter(), problem.points, problem.planes);
-    problem.prior = alignment.predicted.prior;
-    problem.noise = errors.noise();
+    scene.pairs.build(
+        alignment.associations, scene.errors.shutter(), problem.points, problem.planes);
+    problem.prior = scene.predicted.prior;
+    problem.noise = scene.errors.noise();
     PoseEstimate out;
-    out.motion = alignment.predicted.motion;
-    if (static_cast<int>(problem.points.size() + problem.planes.size()) >= minMatches())
+    out.motion = scene.predicted.motion;
+    if (static_cast<int>(alignment.numMatches()) >= minMatches())
     {
-        out = solver_.solve(problem, alignment.predicted.motion.mean);
+        out = solver_.solve(problem, start);
     }
-    diagnostics.iterations += out.iterations;
-    diagnostics.numPointPairs = static_cast<int>(problem.points.size());
-    diagnostics.numPlanePairs = static_cast<int>(problem.planes.size());
-    diagnostics.numPointInliers = out.numPointInliers;
-    diagnostics.pointChi2PerDof = out.pointChi2PerDof;
-    diagnostics.planeChi2PerDof = out.planeChi2PerDof;
-    diagnostics.numReferences = static_cast<int>(alignment.associations.size());
-    diagnostics.msPose = watch.ms();
+    out.iterations += alignment.estimate.iterations;
     alignment.estimate = out;
+    alignment.msPose += watch.ms();
 }
 
 /** Is the estimate to be believed? */
-void Aligner::judge(Alignment& alignment, FrameDiagnostics& d) const
+void Aligner::judge(Alignment& alignment) const
 {
     const PoseEstimate& estimate = alignment.estimate;
     const PoseGaussian& predicted = alignment.predicted.pose;
-    d.observableDirections =
+    alignment.observableDirections =
         observableDirections(estimate.infoPoints + estimate.infoPlanes, predicted.cov);
-    const int matches = d.numPointPairs + d.numPlanePairs;
+    const auto matches = static_cast<int>(alignment.numMatches());
+    const int worth = matches + 2 * static_cast<int>(alignment.problem.planes.size());
     const double sigma = maxSigma(estimate.pose().cov);
     std::ostringstream reason;
     if (matches < minMatches())
@@ -163,29 +308,81 @@ void Aligner::judge(Alignment& alignment, FrameDiagnostics& d) const
             reason << "largest standard deviation " << sigma << " is above the gate";
         }
     }
-    else if (solver_.isWeighted() && d.pointChi2PerDof > params_.maxPointChi2)
+    else if (solver_.isWeighted() && estimate.pointChi2PerDof > params_.maxPointChi2)
     {
         reason << "the points contradict their covariances (chi-square per degree of freedom "
-               << d.pointChi2PerDof << ")";
+               << estimate.pointChi2PerDof << ")";
     }
     else if (
-        d.numPointPairs + 3 * d.numPlanePairs < kFewPoints &&
-        surprise(estimate, predicted) > kMostSurprise)
+        worth < kFewPoints && surprise(estimate, predicted) > kMostSurprise)
     {
         reason << "only " << matches << " point and plane matches, far from the predicted motion";
     }
-    else if (d.observableDirections == 0)
+    else if (alignment.observableDirections == 0)
     {
         reason << "no direction is measured better than it is predicted";
     }
     else
     {
         alignment.holds = true;
-        if (d.observableDirections < 6)
+        if (alignment.observableDirections < 6)
         {
-            reason << d.observableDirections << " of 6 directions measured, the others predicted";
+            reason << alignment.observableDirections
+                   << " of 6 directions measured, the others predicted";
         }
     }
     alignment.reason = reason.str();
+}
+
+/** Asks the depth image, and counts the points that should be in view. */
+void Aligner::verify(const Scene& scene, Alignment& alignment)
+{
+    const Motion& motion = alignment.estimate.motion.mean;
+    const ShutterCalibrator& shutter = scene.errors.shutter();
+    const Eigen::Isometry3d T_cur_world =
+        motion.T_prev_cur.inverse() * scene.track.previous().T_world_cam.inverse();
+    const Eigen::Isometry3d T_depth_cur =
+        untilDepth(motion.velocity, shutter.complete(scene.current.frame.shutter).depthDelay)
+            .inverse();
+    for (const Reference* reference : scene.track.references())
+    {
+        const Eigen::Isometry3d T_cur_ref = T_cur_world * reference->T_world_cam;
+        alignment.numSought += numInView(*reference, scene.current.frame, T_cur_ref);
+        if (alignment.agreement.seen() < kEnoughSurfaces)
+        {
+            const Eigen::Isometry3d T_ref_depth =
+                untilDepth(reference->velocity, shutter.complete(reference->shutter).depthDelay);
+            const double speed =
+                motion.velocity.head<3>().norm() + reference->velocity.head<3>().norm();
+            alignment.agreement += scene.frontEnd.compare(
+                *reference,
+                scene.current,
+                T_depth_cur * T_cur_ref * T_ref_depth,
+                kTimeSigma * speed);
+        }
+    }
+}
+
+bool Aligner::isConvincing(const Alignment& a) const
+{
+    return a.holds && a.agreement.fraction() > kConvincingSurfaces &&
+           a.agreement.fraction() + a.pointShare() > kConvincingTogether &&
+           a.estimate.pointChi2PerDof < kConvincingPointChi2 &&
+           a.estimate.planeChi2PerDof < kConvincingPlaneChi2;
+}
+
+/** The last word: surfaces that should be in view and are not. */
+void Aligner::contradict(Alignment& alignment) const
+{
+    if (alignment.holds && alignment.agreement.fraction() < params_.leastAgreement)
+    {
+        std::ostringstream reason;
+        reason << "the depth image contradicts the motion of " << alignment.numMatches()
+               << " point and plane matches: it shows "
+               << std::lround(100 * alignment.agreement.fraction())
+               << " % of the surfaces that should be in view";
+        alignment.reason = reason.str();
+        alignment.holds = false;
+    }
 }
 }  // namespace pointplane

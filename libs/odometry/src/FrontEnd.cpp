@@ -18,7 +18,9 @@ FrontEnd::FrontEnd(const OdometryParams& params)
           params.pointDetector,
           params.pointMatcher,
           params.pointLifter,
-          params.depthNoise)
+          params.depthNoise),
+      imageAligner_(params.pointLifter, params.depthNoise),
+      depthNoise_(params.depthNoise)
 {
 }
 
@@ -56,6 +58,53 @@ PointReference FrontEnd::pointReference(const Features& features) const
 {
     return params_.usePoints ? pointStage_.makeReference(features.frame, features.points)
                              : PointReference();
+}
+
+std::shared_ptr<KeyframeImages> FrontEnd::keyframeImages(const Features& features) const
+{
+    auto out = std::make_shared<KeyframeImages>();
+    out->frame = features.frame;
+    out->frame.gray = features.frame.gray.clone();
+    out->frame.depth = features.frame.depth.clone();
+    out->surface = SurfaceSamples(out->frame);
+    return out;
+}
+
+Agreement FrontEnd::compare(
+    const Reference& reference,
+    const Features& current,
+    const Eigen::Isometry3d& T_cur_ref,
+    double slack_m) const
+{
+    return reference.images ? compareSurfaces(
+                                  reference.images->surface,
+                                  T_cur_ref,
+                                  current.frame,
+                                  depthNoise_,
+                                  slack_m)
+                            : Agreement();
+}
+
+DescribedPoints FrontEnd::describe(const Features& current) const
+{
+    return params_.usePoints ? imageAligner_.describe(current.frame) : DescribedPoints();
+}
+
+std::optional<ImageMotion> FrontEnd::alignImages(
+    const Reference& reference,
+    const DescribedPoints& described,
+    const PinholeCamera& camera) const
+{
+    if (!params_.usePoints || !reference.images)
+    {
+        return {};
+    }
+    std::optional<DescribedPoints>& ofReference = reference.images->described;
+    if (!ofReference)
+    {
+        ofReference = imageAligner_.describe(reference.images->frame);
+    }
+    return imageAligner_.align(*ofReference, described, camera);
 }
 
 Association FrontEnd::associate(

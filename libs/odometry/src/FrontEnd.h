@@ -21,6 +21,25 @@ class FrontEnd
     /** The points by which later frames can be compared with this one. Takes time. */
     [[nodiscard]] PointReference pointReference(const Features& features) const;
 
+    /** What the frame's images are needed for when it has become a key frame. */
+    [[nodiscard]] std::shared_ptr<KeyframeImages> keyframeImages(const Features& features) const;
+
+    /** How well the depth images agree about a motion; see compareSurfaces(). */
+    [[nodiscard]] Agreement compare(
+        const Reference& reference,
+        const Features& current,
+        const Eigen::Isometry3d& T_cur_ref,
+        double slack_m) const;
+
+    [[nodiscard]] DescribedPoints describe(const Features& current) const;
+
+    /** Motion by the images alone, where enough points tell one.
+     * \param described describe() of the current frame */
+    [[nodiscard]] std::optional<ImageMotion> alignImages(
+        const Reference& reference,
+        const DescribedPoints& described,
+        const PinholeCamera& camera) const;
+
     /** What of the reference is found again.
      * \param T_cur_ref where to look \param radiusFactor above 1 looks farther, less thoroughly */
     [[nodiscard]] Association associate(
@@ -35,5 +54,7 @@ class FrontEnd
     PlaneExtractor planeExtractor_;
     PlaneMatcher planeMatcher_;
     PointStage pointStage_;
+    ImageAligner imageAligner_;
+    DepthNoise depthNoise_;
 };
 }  // namespace pointplane

@@ -7,6 +7,7 @@
 
 #include "Aligner.h"
 #include "FrontEnd.h"
+#include "FrozenImages.h"
 #include "Stopwatch.h"
 #include "Track.h"
 #include "frame_checks.h"
@@ -32,6 +33,7 @@ struct Odometry::Impl
     Aligner aligner;
     ErrorModel errors;
     Track track;
+    FrozenImages frozen;
     FrameFeatures shown;  //!< of the latest frame, for pictures
 };
 
@@ -47,6 +49,9 @@ OdometryResult Odometry::Impl::process(const RgbdFrame& frame)
     if (result.status == TrackingStatus::Tracked)
     {
         result.increment = result.since.front();
+    }
+    if (result.status != TrackingStatus::First)
+    {
         const Vector6d sigma = result.increment.cov.diagonal().cwiseSqrt();
         result.diagnostics.maxSigmaTranslation = sigma.head<3>().maxCoeff();
         result.diagnostics.maxSigmaRotation = sigma.tail<3>().maxCoeff();
@@ -66,6 +71,14 @@ void Odometry::Impl::place(const RgbdFrame& frame, OdometryResult& result)
     {
         return lose(frame.stamp, "its time stamp is not after the previous frame's", result);
     }
+    if (frozen.repeats(frame) && !track.isEmpty())
+    {
+        // Nothing was measured: the camera, or what carries its images, has stopped.
+        result.status = TrackingStatus::Predicted;
+        result.reason = "its images are those of the frame before, byte for byte";
+        result.increment = track.predict(frame.stamp);
+        return;
+    }
     const Features current = frontEnd.extract(frame, result.diagnostics);
     shown.planes = current.planes;
     const std::string interruption =
@@ -76,12 +89,19 @@ void Odometry::Impl::place(const RgbdFrame& frame, OdometryResult& result)
     }
 
     Alignment alignment = aligner.align(frontEnd, current, track, errors, result.diagnostics);
+    if (!alignment.holds)
+    {
+        if (const auto place = aligner.recognise(frontEnd, current, track))
+        {
+            track.recall(*place);
+            alignment = aligner.align(frontEnd, current, track, errors, result.diagnostics);
+        }
+    }
     if (!alignment.holds && track.restartAtUnmatched())
     {
         // None of the references is in view any more; the latest frame did not find them either.
         alignment = aligner.align(frontEnd, current, track, errors, result.diagnostics);
     }
-    // A verdict of the images on the alignment would stand here.
     if (alignment.holds)
     {
         measure(current, alignment, result);
@@ -114,6 +134,7 @@ void Odometry::Impl::restart(
     result.reason = reason;
     Reference reference = referenceOf(current);
     reference.points = frontEnd.pointReference(current);
+    reference.images = frontEnd.keyframeImages(current);
     shown.points = reference.points.points;
     result.increment = track.restart(std::move(reference), current.frame.camera);
 }
@@ -145,6 +166,10 @@ void Odometry::Impl::measure(
     const bool isKeyframe =
         track.needsKeyframe(motion.mean.T_prev_cur, track.overlap(alignment.associations));
     Reference reference = referenceOf(current);
+    if (isKeyframe)
+    {
+        reference.images = frontEnd.keyframeImages(current);
+    }
     if (isKeyframe && params.pipeline.usePoints)
     {
         reference.points = frontEnd.pointReference(current);
@@ -162,16 +187,13 @@ void Odometry::Impl::predict(
     result.reason = reason;
     std::optional<Reference> unmatched = referenceOf(current);
     unmatched->points = frontEnd.pointReference(current);
+    unmatched->images = frontEnd.keyframeImages(current);
     const bool isAdjacent = params.reference.isAdjacent();
     if (!isAdjacent && unmatched->planes.planes.empty() && unmatched->points.points.empty())
     {
         unmatched.reset();
     }
     result.increment = track.predict(current.frame.stamp, std::move(unmatched));
-    if (isAdjacent)
-    {
-        (void)track.restartAtUnmatched();
-    }
 }
 
 void Odometry::Impl::lose(double stamp, const std::string& reason, OdometryResult& result)

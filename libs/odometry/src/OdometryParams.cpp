@@ -25,6 +25,9 @@ void PipelineParams::check() const
     (void)searchesAhead();
     POINTPLANE_CHECK(gateSigma > 0, "gateSigma = " << gateSigma << " is not positive");
     POINTPLANE_CHECK(maxPointChi2 > 0, "maxPointChi2 = " << maxPointChi2 << " is not positive");
+    POINTPLANE_CHECK(
+        leastAgreement >= 0 && leastAgreement < 1,
+        "leastAgreement = " << leastAgreement << " is not in [0, 1)");
     POINTPLANE_CHECK(maxGap > 0, "maxGap = " << maxGap << " is not positive");
     POINTPLANE_CHECK(
         numThreads == 1 || numThreads == 2, "numThreads = " << numThreads << " is not 1 or 2");

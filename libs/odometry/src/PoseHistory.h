@@ -28,8 +28,12 @@ class PoseHistory
         double dt,
         const JointCovariance::Measurement& errors);
 
-    /** The next frames are compared with this one, and with later ones. */
-    void restart(int frame) { joint_.restart(frame); }
+    /** The next frames are compared with this one and with later ones, and with these references
+     * from before. */
+    void restart(int frame, const std::vector<int>& references = {})
+    {
+        joint_.restart(frame, references);
+    }
 
     /** Forgets what neither the history nor comparison with these references needs.
      * \param frame whose pose is needed, too */

@@ -25,6 +25,8 @@ void ReferenceWindow::TParams::check() const
         maxKeyframes >= 1 && maxKeyframes <= 50,
         "maxKeyframes = " << maxKeyframes << " is not in 1..50");
     POINTPLANE_CHECK(
+        maxPlaces >= 0 && maxPlaces <= 1000, "maxPlaces = " << maxPlaces << " is not in 0..1000");
+    POINTPLANE_CHECK(
         keyframeDistance > 0, "keyframeDistance = " << keyframeDistance << " is not positive");
     POINTPLANE_CHECK(
         keyframeAngleDeg > 0, "keyframeAngleDeg = " << keyframeAngleDeg << " is not positive");
@@ -117,12 +119,57 @@ void ReferenceWindow::add(Reference frame, bool isKeyframe)
     previous_ = std::move(frame);
     if (isKeyframe && !isFrameToFrame_)
     {
-        keyframes_.push_back(previous_);
-        while (keyframes_.size() > static_cast<size_t>(params_.maxKeyframes))
-        {
-            keyframes_.pop_front();
-        }
+        addKeyframe(previous_);
     }
+}
+
+void ReferenceWindow::addKeyframe(Reference frame)
+{
+    keyframes_.push_back(std::move(frame));
+    while (keyframes_.size() > static_cast<size_t>(params_.maxKeyframes))
+    {
+        addPlace(std::move(keyframes_.front()));
+        keyframes_.pop_front();
+    }
+}
+
+/** In place of those that show the same. */
+void ReferenceWindow::addPlace(Reference frame)
+{
+    constexpr double kApart = 2;  // times the distance or angle between key frames
+    const auto isSame = [&](const Reference& other)
+    {
+        const Eigen::Isometry3d T = other.T_world_cam.inverse() * frame.T_world_cam;
+        return T.translation().norm() < kApart * params_.keyframeDistance &&
+               so3Log(T.linear()).norm() < kApart * params_.keyframeAngleDeg * M_PI / 180;
+    };
+    places_.erase(std::remove_if(places_.begin(), places_.end(), isSame), places_.end());
+    places_.push_back(std::move(frame));
+    while (places_.size() > static_cast<size_t>(params_.maxPlaces))
+    {
+        places_.pop_front();
+    }
+}
+
+void ReferenceWindow::recall(int id)
+{
+    const auto it = std::find_if(
+        places_.begin(), places_.end(), [id](const Reference& r) { return r.id == id; });
+    POINTPLANE_CHECK(it != places_.end(), "frame " << id << " is not a place");
+    Reference place = std::move(*it);
+    places_.erase(it);
+    addKeyframe(std::move(place));
+}
+
+void ReferenceWindow::leave()
+{
+    for (Reference& keyframe : keyframes_)
+    {
+        addPlace(std::move(keyframe));
+    }
+    keyframes_.clear();
+    hasPrevious_ = false;
+    previous_ = {};
 }
 
 void ReferenceWindow::clear()
@@ -130,5 +177,6 @@ void ReferenceWindow::clear()
     hasPrevious_ = false;
     previous_ = {};
     keyframes_.clear();
+    places_.clear();
 }
 }  // namespace pointplane

@@ -173,8 +173,8 @@ bool Track::restartAtUnmatched()
     {
         return false;
     }
-    window_.clear();
-    history_.restart(unmatched_->id);
+    window_.leave();
+    history_.restart(unmatched_->id, referenceIds());
     window_.add(std::move(*unmatched_), true);
     unmatched_.reset();
     return true;
@@ -189,14 +189,24 @@ void Track::add(Reference frame, bool isKeyframe)
     forgetOthers();
 }
 
+/** What the next frames may be compared with. */
+std::vector<int> Track::referenceIds() const
+{
+    std::vector<int> out;
+    for (const Reference* reference : window_.active())
+    {
+        out.push_back(reference->id);
+    }
+    for (const Reference& place : window_.places())
+    {
+        out.push_back(place.id);
+    }
+    return out;
+}
+
 /** Keeps what the next frame will be compared with, and the history. */
 void Track::forgetOthers()
 {
-    std::vector<int> references;
-    for (const Reference* reference : window_.active())
-    {
-        references.push_back(reference->id);
-    }
-    history_.keep(references, unmatched_ ? std::optional(unmatched_->id) : std::nullopt);
+    history_.keep(referenceIds(), unmatched_ ? std::optional(unmatched_->id) : std::nullopt);
 }
 }  // namespace pointplane

@@ -8,6 +8,7 @@
 #include <pointplane/odometry/uncertainty/JointCovariance.h>
 #include <pointplane/odometry/uncertainty/MotionModel.h>
 
+#include <deque>
 #include <optional>
 #include <string>
 #include <vector>
@@ -42,6 +43,9 @@ class Track
 
     /** The previous frame first, then the key frames, newest first. */
     [[nodiscard]] std::vector<const Reference*> references() const { return window_.active(); }
+
+    /** Older key frames, which may be recalled. */
+    [[nodiscard]] const std::deque<Reference>& places() const { return window_.places(); }
 
     /** The fraction of the newest key frame's points or planes that was found again, the smaller.
      */
@@ -98,6 +102,9 @@ class Track
      * \return the increment */
     PoseGaussian predict(double stamp, std::optional<Reference> unmatched = {});
 
+    /** The camera is in this place again: the next alignment compares with it, too. */
+    void recall(int id) { window_.recall(id); }
+
     /** Makes the latest frame that matched no reference the only reference.
      * \return false if there is none; nothing has changed then */
     [[nodiscard]] bool restartAtUnmatched();
@@ -108,6 +115,7 @@ class Track
     /** \return velocity of the previous frame */
     Vector6d follow(const MotionGaussian& motion, double dt);
     void add(Reference frame, bool isKeyframe);
+    [[nodiscard]] std::vector<int> referenceIds() const;
     void forgetOthers();
 
     double maxGap_;

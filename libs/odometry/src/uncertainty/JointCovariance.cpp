@@ -58,9 +58,9 @@ void JointCovariance::predict(
     prepend({{Kind::Pose, frame}}, A, propagate(adjoint(T_world_latest), cov));
 }
 
-void JointCovariance::restart(int frame)
+void JointCovariance::restart(int frame, const std::vector<int>& references)
 {
-    keep({});
+    keep(references, frame);
     previous_ = frame;
     Eigen::MatrixXd A = Eigen::MatrixXd::Zero(kSize, cov_.cols());
     A.middleCols<kSize>(find(Kind::Pose, frame)).setIdentity();

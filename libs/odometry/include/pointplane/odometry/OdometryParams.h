@@ -26,6 +26,8 @@ struct PipelineParams
     std::string degeneracy{"fuse"};
     double gateSigma{0.05};
     double maxPointChi2{200};
+    double leastAgreement{0.5};
+    bool searchImages{true};
     double maxGap{1.0};
     int numThreads{1};
 
@@ -55,6 +57,16 @@ struct PipelineParams
           "fuse: frames whose points disagree with their covariances by more than this (chi-square "
           "per "
           "degree of freedom) are predicted instead");
+        v("leastAgreement",
+          leastAgreement,
+          "-",
+          "part of the surfaces in view that the depth image must show where the motion puts them; "
+          "frames that show less are predicted instead; 0 = not compared");
+        v("searchImages",
+          searchImages,
+          "-",
+          "where the predicted motion leads nowhere, key points of the whole image tell another "
+          "one, and known places are found again");
         v("maxGap",
           maxGap,
           "s",

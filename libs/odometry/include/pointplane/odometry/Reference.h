@@ -2,15 +2,27 @@
 #pragma once
 
 #include <pointplane/core/types.h>
+#include <pointplane/odometry/ImageAligner.h>
+#include <pointplane/odometry/Verdict.h>
 #include <pointplane/planes/PlaneFeature.h>
 #include <pointplane/planes/PlaneMatcher.h>
 #include <pointplane/points/PointTracker.h>
 #include <pointplane/sensor/RgbdFrame.h>
 
+#include <memory>
+#include <optional>
 #include <vector>
 
 namespace pointplane
 {
+/** What is kept of a key frame's images: about 2 MB at 640 x 480. */
+struct KeyframeImages
+{
+    RgbdFrame frame;                           //!< a copy
+    SurfaceSamples surface;                    //!< by which a motion is judged
+    std::optional<DescribedPoints> described;  //!< made when they are needed first
+};
+
 /** A past frame that the current one is aligned with. */
 struct Reference
 {
@@ -21,6 +33,7 @@ struct Reference
     ShutterModel shutter;                 //!< as far as the source knows it
     PlaneSet planes;
     PointReference points;  //!< empty for a frame that is not a key frame
+    std::shared_ptr<KeyframeImages> images;  //!< of a key frame
 };
 
 /** What one reference and the current frame have in common. */

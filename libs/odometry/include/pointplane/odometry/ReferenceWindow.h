@@ -21,6 +21,7 @@ class ReferenceWindow
         double keyframeDistance{0.15};
         double keyframeAngleDeg{10.0};
         double keyframeMinOverlap{0.35};
+        int maxPlaces{20};
 
         template <class V>
         void visit(V&& v)
@@ -39,6 +40,11 @@ class ReferenceWindow
               "-",
               "or when less than this fraction of the newest one's points or planes is found "
               "again");
+            v("maxPlaces",
+              maxPlaces,
+              "-",
+              "older key frames, apart from each other, in which a camera that was lost can find "
+              "itself again; about 2 MB each at 640 x 480");
         }
         void check() const;
         [[nodiscard]] bool isFrameToFrame() const;  //!< or against key frames
@@ -71,14 +77,27 @@ class ReferenceWindow
 
     void add(Reference frame, bool isKeyframe);
 
-    /** Forgets all; the next frame starts a new window. */
+    /** Older key frames, oldest first, that are not compared with unless they are recalled. */
+    [[nodiscard]] const std::deque<Reference>& places() const { return places_; }
+
+    /** Makes a place the newest key frame. */
+    void recall(int id);
+
+    /** The next frame starts a new window; the key frames become places. */
+    void leave();
+
+    /** Forgets all, places, too. */
     void clear();
 
  private:
+    void addKeyframe(Reference frame);
+    void addPlace(Reference frame);
+
     TParams params_;
     bool isFrameToFrame_;
     bool hasPrevious_{false};
     Reference previous_;
     std::deque<Reference> keyframes_;  //!< oldest first
+    std::deque<Reference> places_;     //!< oldest first
 };
 }  // namespace pointplane

@@ -104,8 +104,9 @@ class JointCovariance
      * \param cov of the motion from there (left perturbation in its frame) */
     void predict(int frame, const Eigen::Isometry3d& T_world_latest, const Matrix6d& cov);
 
-    /** A frame whose pose is known becomes the previous one and the only reference. */
-    void restart(int frame);
+    /** A frame whose pose is known becomes the previous one and a reference.
+     * \param references that stay, too */
+    void restart(int frame, const std::vector<int>& references = {});
 
     /** A measured frame: the next previous one, and a reference.
      * \param T_world_prev pose of the previous measured frame \param dt [s] since that */

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pointplane/sensor/DepthNoise.h>
+#include <pointplane/sensor/RgbdFrame.h>
+
+#include <Eigen/Geometry>
+
+#include <vector>
+
+namespace pointplane
+{
+/** Points on the surfaces that a frame saw, on a thin grid of its depth image. */
+struct SurfaceSamples
+{
+    SurfaceSamples() = default;
+
+    /** Depth jumps are left out: their readings belong to neither side. */
+    explicit SurfaceSamples(const RgbdFrame& frame);
+
+    std::vector<Eigen::Vector3f> points_cam;  //!< camera frame, optical axes [m]
+};
+
+/** How the surfaces that one frame saw stand to what another frame sees. */
+struct Agreement
+{
+    int agrees{0};    //!< the other frame sees a surface there
+    int hidden{0};    //!< it sees something in front of it
+    int vanished{0};  //!< it sees through it
+
+    [[nodiscard]] int seen() const { return agrees + hidden + vanished; }
+
+    /** Part of the samples that agrees, of those that can be compared; 1 of none. */
+    [[nodiscard]] double fraction() const
+    {
+        return seen() > 0 ? static_cast<double>(agrees) / seen() : 1;
+    }
+
+    Agreement& operator+=(const Agreement& other);
+};
+
+/** Whether two depth images agree about a motion. The features that made an estimate agree with it
+ * even when they are wrong; the rest of the depth image does not: a motion that is wrong by 5 cm or
+ * 5 deg leaves about a third of the surfaces where it says.
+ * \param T_cur_ref from the camera when the reference's depth image was exposed to the camera when
+ * the current one was
+ * \param slack_m what depths may differ by beside the sensor's noise and distortion [m] */
+[[nodiscard]] Agreement compareSurfaces(
+    const SurfaceSamples& reference,
+    const Eigen::Isometry3d& T_cur_ref,
+    const RgbdFrame& current,
+    const DepthNoise& noise,
+    double slack_m);
+}  // namespace pointplane

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/odometry/ImageAligner.h>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include <cstdlib>
+namespace pointplane
+{
+namespace
+{
+constexpr int kMaxPoints = 600;
+constexpr int kMaxTrials = 500;
+
+/** With fewer, chance agrees as well. */
+constexpr int kLeastInliers = 8;
+
+/** How far a point may be from where a motion puts it: of the image's width, and of its distance
+ * beside the sensor's noise. */
+constexpr double kPixelFraction = 0.006;
+constexpr double kDepthFraction = 0.02;
+constexpr double kSigmas = 4;
+
+PointDetector::TParams detectorParams()
+{
+    PointDetector::TParams out;
+    const char* d = std::getenv("PP_DET");
+    out.detector = d ? d : "orb";
+    out.maxPoints = kMaxPoints;
+    out.upright = false;
+    return out;
+}
+
+PointMatcher::TParams matcherParams()
+{
+    PointMatcher::TParams out;
+    out.searchRadiusPx = 20000;  // the whole image
+    return out;
+}
+
+/** Pairs of points, the second where the first is now. */
+struct Pairs
+{
+    std::vector<Eigen::Vector3d> ref, cur;
+    std::vector<Eigen::Vector2d> cur_px;
+};
+
+/** Whether pairs agree with a motion. */
+class Judge
+{
+ public:
+    Judge(const Pairs& pairs, const PinholeCamera& camera, const DepthNoise& noise)
+        : pairs_(pairs), camera_(camera), sigma_(noise.sigmaInverseDepth)
+    {
+    }
+
+    [[nodiscard]] std::vector<size_t> inliers(const Eigen::Isometry3d& T, double widening) const
+    {
+        std::vector<size_t> out;
+        const double most = widening * kPixelFraction * camera_.width;
+        for (size_t i = 0; i < pairs_.ref.size(); ++i)
+        {
+            const Eigen::Vector3d p = T * pairs_.ref[i];
+            if (p.z() <= 0)
+            {
+                continue;
+            }
+            const Eigen::Vector3d& q = pairs_.cur[i];
+            const double du = camera_.fx * (p.x() / p.z() - q.x() / q.z());
+            const double dv = camera_.fy * (p.y() / p.z() - q.y() / q.z());
+            const double inverse = std::abs(1 / p.z() - 1 / q.z());
+            const double tolerance =
+                widening * std::hypot(kSigmas * M_SQRT2 * sigma_, kDepthFraction / q.z());
+            if (du * du + dv * dv < most * most && inverse < tolerance)
+            {
+                out.push_back(i);
+            }
+        }
+        return out;
+    }
+
+    /** Distances between three points do not change. */
+    [[nodiscard]] bool isRigid(const size_t (&s)[3]) const
+    {
+        for (int k = 0; k < 3; ++k)
+        {
+            const size_t a = s[k], b = s[(k + 1) % 3];
+            const double before = (pairs_.ref[a] - pairs_.ref[b]).norm();
+            const double now = (pairs_.cur[a] - pairs_.cur[b]).norm();
+            const double z = std::max(pairs_.cur[a].z(), pairs_.cur[b].z());
+            const double tolerance = z * std::hypot(kSigmas * sigma_ * z, kDepthFraction);
+            if (std::abs(before - now) > 2 * tolerance || before < 0.05 * z)
+            {
+                return false;
+            }
+        }
+        return true;
+    }
+
+    /** By least squares, nearer points counting more. */
+    [[nodiscard]] Eigen::Isometry3d fit(const std::vector<size_t>& chosen) const
+    {
+        Eigen::Vector3d meanRef = Eigen::Vector3d::Zero(), meanCur = Eigen::Vector3d::Zero();
+        double sum = 0;
+        const auto weight = [&](size_t i)
+        {
+            const double z = pairs_.cur[i].z();
+            return 1 / (z * z * z * z);
+        };
+        for (const size_t i : chosen)
+        {
+            const double w = weight(i);
+            meanRef += w * pairs_.ref[i];
+            meanCur += w * pairs_.cur[i];
+            sum += w;
+        }
+        meanRef /= sum;
+        meanCur /= sum;
+        Eigen::Matrix3d S = Eigen::Matrix3d::Zero();
+        for (const size_t i : chosen)
+        {
+            S += weight(i) * (pairs_.cur[i] - meanCur) * (pairs_.ref[i] - meanRef).transpose();
+        }
+        const Eigen::JacobiSVD<Eigen::Matrix3d> svd(S, Eigen::ComputeFullU | Eigen::ComputeFullV);
+        Eigen::Vector3d sign(1, 1, 1);
+        sign.z() = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
+        Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+        T.linear() = svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose();
+        T.translation() = meanCur - T.linear() * meanRef;
+        return T;
+    }
+
+ private:
+    const Pairs& pairs_;
+    const PinholeCamera& camera_;
+    double sigma_;
+};
+}  // namespace
+
+ImageAligner::ImageAligner(const PointLifter::TParams& lifter, const DepthNoise& noise)
+    : detector_(detectorParams()), matcher_(matcherParams()), lifter_(lifter, noise), noise_(noise)
+{
+}
+
+DescribedPoints ImageAligner::describe(const RgbdFrame& frame) const
+{
+    const DetectedPoints detected = detector_.detect(frame.gray);
+    LiftedPoints lifted = lifter_.liftAll(frame, detected.uv_px);
+    DescribedPoints out;
+    out.points = std::move(lifted.points);
+    for (const int i : lifted.index)
+    {
+        out.descriptors.push_back(detected.descriptors.row(i));
+    }
+    return out;
+}
+
+std::optional<ImageMotion> ImageAligner::align(
+    const DescribedPoints& reference,
+    const DescribedPoints& current,
+    const PinholeCamera& camera) const
+{
+    if (reference.points.size() < kLeastInliers || current.points.size() < kLeastInliers)
+    {
+        return {};
+    }
+    std::vector<Eigen::Vector2d> ref_px, cur_px;
+    for (const PointFeature& p : reference.points)
+    {
+        ref_px.push_back(p.uv_px);
+    }
+    for (const PointFeature& p : current.points)
+    {
+        cur_px.push_back(p.uv_px);
+    }
+    Pairs pairs;
+    for (const PointMatch& match :
+         matcher_.match(ref_px, reference.descriptors, cur_px, current.descriptors))
+    {
+        pairs.ref.push_back(reference.points[static_cast<size_t>(match.ref)].p_cam.mean);
+        pairs.cur.push_back(current.points[static_cast<size_t>(match.cur)].p_cam.mean);
+    }
+    const size_t n = pairs.ref.size();
+    if (n < kLeastInliers)
+    {
+        return {};
+    }
+    const Judge judge(pairs, camera, noise_);
+    std::mt19937 random(1);
+    std::vector<size_t> best;
+    int trials = kMaxTrials;
+    for (int t = 0, tries = 0; t < trials && tries < 20 * kMaxTrials; ++tries)
+    {
+        const size_t s[3] = {random() % n, random() % n, random() % n};
+        if (s[0] == s[1] || s[1] == s[2] || s[0] == s[2] || !judge.isRigid(s))
+        {
+            continue;
+        }
+        ++t;
+        std::vector<size_t> found = judge.inliers(judge.fit({s[0], s[1], s[2]}), 2);
+        if (found.size() > best.size())
+        {
+            if (found.size() >= 6)
+            {
+                auto again = judge.inliers(judge.fit(found), 2);
+                if (again.size() > found.size())
+                {
+                    found = std::move(again);
+                }
+            }
+            best = std::move(found);
+        }
+    }
+    if (best.size() < kLeastInliers)
+    {
+        return {};
+    }
+    Eigen::Isometry3d T = judge.fit(best);
+    for (int k = 0; k < 3; ++k)
+    {
+        const std::vector<size_t> found = judge.inliers(T, k == 0 ? 2 : 1);
+        if (found.size() < 4)
+        {
+            break;
+        }
+        T = judge.fit(found);
+        best = found;
+    }
+    if (best.size() < kLeastInliers)
+    {
+        return {};
+    }
+    return ImageMotion{T, static_cast<int>(best.size()), static_cast<int>(n)};
+}
+}  // namespace pointplane
