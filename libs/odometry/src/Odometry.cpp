@@ -194,6 +194,10 @@ void Odometry::Impl::predict(
         unmatched.reset();
     }
     result.increment = track.predict(current.frame.stamp, std::move(unmatched));
+    if (isAdjacent)
+    {
+        (void)track.restartAtUnmatched();
+    }
 }
 
 void Odometry::Impl::lose(double stamp, const std::string& reason, OdometryResult& result)

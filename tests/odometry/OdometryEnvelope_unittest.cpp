@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <limits>
+
+#include "hell_frames.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace pointplane
+{
+namespace
+{
+/** A desk: what happens outside of smooth recordings at 30 Hz. */
+class OdometryEnvelope : public testing::Test
+{
+ protected:
+    static test::CachedSequence& desk()
+    {
+        static test::CachedSequence cached("desk");
+        return cached;
+    }
+
+    /** The next frame; a tracked step must be near the truth. */
+    OdometryResult process(int i)
+    {
+        const OdometryResult result = odometry.process(desk().frame(i));
+        if (result.status == TrackingStatus::Tracked && last >= 0)
+        {
+            ++numTracked;
+            EXPECT_THAT(
+                result.increment.mean,
+                test::IsNearPose(desk().sequence().trueMotion(last, i), 0.02, 0.02))
+                << "frame " << i << " after " << last;
+        }
+        last = i;
+        return result;
+    }
+
+    test::CheckedOdometry odometry;
+    int last{-1};
+    int numTracked{0};
+};
+
+TEST_F(OdometryEnvelope, threeImagesASecond)
+{
+    for (int i = 0; i <= 200; i += 10)
+    {
+        (void)process(i);
+    }
+    EXPECT_GE(numTracked, 19);
+}
+
+TEST_F(OdometryEnvelope, halfASecondMissing)
+{
+    for (int i = 0; i < 20; ++i)
+    {
+        (void)process(i);
+    }
+    for (int i = 35; i < 40; ++i)
+    {
+        EXPECT_EQ(process(i).status, TrackingStatus::Tracked);
+    }
+}
+
+TEST_F(OdometryEnvelope, blindForASecondAndBackInAKnownPlace)
+{
+    for (int i = 0; i < 20; ++i)
+    {
+        (void)process(i);
+    }
+    for (int i = 20; i < 50; ++i)
+    {
+        RgbdFrame frame = desk().frame(i);
+        frame.depth.setTo(std::numeric_limits<float>::quiet_NaN());
+        const OdometryResult blind = odometry.process(frame);
+        EXPECT_EQ(blind.status, TrackingStatus::Predicted);
+        EXPECT_GT(blind.diagnostics.maxSigmaTranslation, 0);
+    }
+    OdometryResult back;
+    for (int i = 50; i < 53; ++i)
+    {
+        back = odometry.process(desk().frame(i));
+    }
+    EXPECT_EQ(back.status, TrackingStatus::Tracked) << back.reason;
+    EXPECT_THAT(back.pose.mean, test::IsNearPose(desk().sequence().trueMotion(0, 52), 0.03, 0.03));
+}
+
+TEST_F(OdometryEnvelope, frozenImagesAreSaid)
+{
+    for (int i = 0; i < 5; ++i)
+    {
+        (void)process(i);
+    }
+    RgbdFrame frozen = desk().frame(4);
+    for (int i = 5; i < 9; ++i)
+    {
+        frozen.stamp = desk().frame(i).stamp;
+        const OdometryResult result = odometry.process(frozen);
+        EXPECT_EQ(result.status, TrackingStatus::Predicted);
+        EXPECT_THAT(result.reason, testing::HasSubstr("byte for byte"));
+        EXPECT_LT(
+            test::normalisedError(desk().sequence().trueMotion(i - 1, i), result.increment), 3);
+    }
+    OdometryResult moving;
+    for (int i = 9; i < 12; ++i)
+    {
+        moving = odometry.process(desk().frame(i));
+    }
+    EXPECT_EQ(moving.status, TrackingStatus::Tracked) << moving.reason;
+    EXPECT_THAT(
+        moving.pose.mean, test::IsNearPose(desk().sequence().trueMotion(0, 11), 0.01, 0.02));
+}
+
+/** The features would agree with a motion that the rest of the image contradicts. */
+TEST_F(OdometryEnvelope, depthThatContradictsTheFeaturesIsNotTracked)
+{
+    for (int i = 0; i < 5; ++i)
+    {
+        (void)process(i);
+    }
+    RgbdFrame frame = desk().frame(5);
+    frame.depth *= 1.3;  // as from a camera whose scale has changed
+    const OdometryResult result = odometry.process(frame);
+    EXPECT_EQ(result.status, TrackingStatus::Predicted);
+    EXPECT_FALSE(result.reason.empty());
+}
+}  // namespace
+}  // namespace pointplane
