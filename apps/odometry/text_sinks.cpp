@@ -56,7 +56,7 @@ DiagnosticsSink::DiagnosticsSink(const std::string& path) : file_(path)
     file_.writeLine(
         "frame,stamp,status,reason,numPoints,numPlanes,numPointPairs,numPlanePairs,numPointInliers,"
         "numReferences,iterations,observableDirections,pointChi2PerDof,planeChi2PerDof,"
-        "maxSigmaTranslation,maxSigmaRotation,msPoints,msPlanes,msMatching,msPose,msTotal");
+        "surfaceAgreement,maxSigmaTranslation,maxSigmaRotation,msPoints,msPlanes,msMatching,msPose,msTotal");
 }
 
 void DiagnosticsSink::add(const OutputItem& item)
@@ -75,7 +75,7 @@ void DiagnosticsSink::add(const OutputItem& item)
         << ',' << d.numPointPairs << ',' << d.numPlanePairs << ',' << d.numPointInliers << ','
         << d.numReferences << ',' << d.iterations << ',' << d.observableDirections;
     out << std::setprecision(6) << ',' << d.pointChi2PerDof << ',' << d.planeChi2PerDof << ','
-        << d.maxSigmaTranslation << ',' << d.maxSigmaRotation;
+        << d.surfaceAgreement << ',' << d.maxSigmaTranslation << ',' << d.maxSigmaRotation;
     out << std::fixed << std::setprecision(3) << ',' << d.msPoints << ',' << d.msPlanes << ','
         << d.msMatching << ',' << d.msPose << ',' << d.msTotal;
     file_.writeLine(out.str());

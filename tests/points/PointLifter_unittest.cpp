@@ -195,6 +195,6 @@ TEST(PointLifter, checkNamesTheKey)
     params.minValidPixels = 10;
     EXPECT_THROW(PointLifter(params, DepthNoise{}), std::invalid_argument);
     params = {};
-    params.maxDepth = 0.1;
+    params.maxDepth = 0.01;
     EXPECT_THROW(PointLifter(params, DepthNoise{}), std::invalid_argument);
 }

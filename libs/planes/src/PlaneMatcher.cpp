@@ -79,7 +79,7 @@ OverlapCounts countOverlaps(
             const Eigen::Vector3d ray((u - camera.cx) / camera.fx, (v - camera.cy) / camera.fy, 1);
             const double q = -ref.planes[static_cast<size_t>(r)].plane_cam.theta_m.dot(ray);
             const Eigen::Vector3d p_cur = T_cur_ref * Eigen::Vector3d(ray / q);
-            if (!(q > 0) || !(p_cur.z() > 0.05))
+            if (!(q > 0) || !(p_cur.z() > 0))
             {
                 continue;
             }

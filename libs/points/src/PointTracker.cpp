@@ -346,7 +346,7 @@ std::vector<PointTracker::Sought> PointTracker::inView(
     for (size_t i = 0; i < reference.points.size(); i += search.step)
     {
         const Eigen::Vector3d p_cur = T_cur_ref * reference.points[i].p_cam.mean;
-        if (!(p_cur.z() > 0.1) || !(search.isWide || reference.isDue(i)))
+        if (!(p_cur.z() > 0) || !(search.isWide || reference.isDue(i)))
         {
             continue;
         }

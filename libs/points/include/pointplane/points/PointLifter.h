@@ -31,7 +31,7 @@ class PointLifter
         std::string depthModel{"mixture"};   //!< nearest | mixture
         double maxEdgeSigmas{20};            //!< 0: keep all
         int minValidPixels{5};               //!< of 9
-        double minDepth{0.3}, maxDepth{10};  //!< [m]
+        double minDepth{0.02}, maxDepth{100};  //!< [m]
 
         template <class V>
         void visit(V&& v)
@@ -42,8 +42,8 @@ class PointLifter
               "-",
               "drop points whose 3x3 depths spread more than this many sigma_Z; 0 = never");
             v("minValidPixels", minValidPixels, "-", "least number of the 3x3 pixels with depth");
-            v("minDepth", minDepth, "m", "nearer readings are not used");
-            v("maxDepth", maxDepth, "m", "farther readings are not used");
+            v("minDepth", minDepth, "m", "nearer readings are taken for errors");
+            v("maxDepth", maxDepth, "m", "farther readings are taken for errors");
         }
         /** \throws std::invalid_argument naming the key */
         void check() const;
