@@ -19,8 +19,7 @@ FrontEnd::FrontEnd(const OdometryParams& params)
           params.pointMatcher,
           params.pointLifter,
           params.depthNoise),
-      imageAligner_(params.pointLifter, params.depthNoise),
-      depthNoise_(params.depthNoise)
+      imageAligner_(params.pointLifter, params.depthNoise)
 {
 }
 
@@ -31,6 +30,7 @@ Features FrontEnd::extract(const RgbdFrame& frame, FrameDiagnostics& diagnostics
     depthNoise_.update(frame.depth);
     planeExtractor_.setNoise(depthNoise_.noise());
     pointStage_.setNoise(depthNoise_.noise());
+    imageAligner_.setNoise(depthNoise_.noise());
     diagnostics.depthNoise = depthNoise_.noise();
     const auto points = [&]
     {
@@ -80,7 +80,7 @@ Agreement FrontEnd::compare(
                                   reference.images->surface,
                                   T_cur_ref,
                                   current.frame,
-                                  depthNoise_,
+                                  depthNoise_.noise(),
                                   slack_m)
                             : Agreement();
 }

@@ -55,6 +55,5 @@ class FrontEnd
     PlaneMatcher planeMatcher_;
     PointStage pointStage_;
     ImageAligner imageAligner_;
-    DepthNoise depthNoise_;
 };
 }  // namespace pointplane

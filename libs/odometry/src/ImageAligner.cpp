@@ -7,7 +7,6 @@
 #include <cmath>
 #include <random>
 
-#include <cstdlib>
 namespace pointplane
 {
 namespace
@@ -27,8 +26,7 @@ constexpr double kSigmas = 4;
 PointDetector::TParams detectorParams()
 {
     PointDetector::TParams out;
-    const char* d = std::getenv("PP_DET");
-    out.detector = d ? d : "orb";
+    out.detector = "orb";
     out.maxPoints = kMaxPoints;
     out.upright = false;
     return out;
@@ -45,7 +43,6 @@ PointMatcher::TParams matcherParams()
 struct Pairs
 {
     std::vector<Eigen::Vector3d> ref, cur;
-    std::vector<Eigen::Vector2d> cur_px;
 };
 
 /** Whether pairs agree with a motion. */
@@ -53,7 +50,7 @@ class Judge
 {
  public:
     Judge(const Pairs& pairs, const PinholeCamera& camera, const DepthNoise& noise)
-        : pairs_(pairs), camera_(camera), sigma_(noise.sigmaInverseDepth)
+        : pairs_(pairs), camera_(camera), noise_(noise)
     {
     }
 
@@ -73,7 +70,9 @@ class Judge
             const double dv = camera_.fy * (p.y() / p.z() - q.y() / q.z());
             const double inverse = std::abs(1 / p.z() - 1 / q.z());
             const double tolerance =
-                widening * std::hypot(kSigmas * M_SQRT2 * sigma_, kDepthFraction / q.z());
+                widening * std::hypot(
+                               kSigmas * M_SQRT2 * noise_.sigmaZ(q.z()) / (q.z() * q.z()),
+                               kDepthFraction / q.z());
             if (du * du + dv * dv < most * most && inverse < tolerance)
             {
                 out.push_back(i);
@@ -91,7 +90,7 @@ class Judge
             const double before = (pairs_.ref[a] - pairs_.ref[b]).norm();
             const double now = (pairs_.cur[a] - pairs_.cur[b]).norm();
             const double z = std::max(pairs_.cur[a].z(), pairs_.cur[b].z());
-            const double tolerance = z * std::hypot(kSigmas * sigma_ * z, kDepthFraction);
+            const double tolerance = z * std::hypot(kSigmas * noise_.sigmaZ(z) / z, kDepthFraction);
             if (std::abs(before - now) > 2 * tolerance || before < 0.05 * z)
             {
                 return false;
@@ -136,7 +135,7 @@ class Judge
  private:
     const Pairs& pairs_;
     const PinholeCamera& camera_;
-    double sigma_;
+    const DepthNoise& noise_;
 };
 }  // namespace
 

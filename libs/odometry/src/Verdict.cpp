@@ -19,9 +19,10 @@ constexpr float kSigmas = 4;
 constexpr float kDistortion = 0.02F;
 
 /** Deviation in depth that is none, at depth z [m]. */
-float tolerance(float z, float sigmaInverseDepth)
+float tolerance(float z, const DepthNoise& noise)
 {
-    return z * std::hypot(kSigmas * sigmaInverseDepth * z, kDistortion);
+    const auto sigma = static_cast<float>(noise.sigmaZ(static_cast<double>(z)));
+    return std::hypot(kSigmas * sigma, kDistortion * z);
 }
 
 struct DepthRange
@@ -90,7 +91,6 @@ Agreement compareSurfaces(
     double slack_m)
 {
     const Eigen::Isometry3f T = T_cur_ref.cast<float>();
-    const auto sigma = static_cast<float>(noise.sigmaInverseDepth);
     const auto fx = static_cast<float>(current.camera.fx),
                fy = static_cast<float>(current.camera.fy),
                cx = static_cast<float>(current.camera.cx),
@@ -115,7 +115,7 @@ Agreement compareSurfaces(
         {
             continue;
         }
-        const float most = tolerance(p.z(), sigma) + static_cast<float>(slack_m);
+        const float most = tolerance(p.z(), noise) + static_cast<float>(slack_m);
         if (range.farthest + most < p.z())
         {
             ++out.hidden;

@@ -36,6 +36,8 @@ class ImageAligner
  public:
     ImageAligner(const PointLifter::TParams& lifter, const DepthNoise& noise);
 
+    void setNoise(const DepthNoise& noise) { noise_ = noise; }
+
     [[nodiscard]] DescribedPoints describe(const RgbdFrame& frame) const;
 
     /** \return nothing where fewer than kLeastInliers agree */
