@@ -2,6 +2,7 @@
 #include <pointplane/core/se3.h>
 #include <pointplane/odometry/uncertainty/ResidualVariogram.h>
 
+#include <cmath>
 #include <functional>
 #include <vector>
 
@@ -15,12 +16,13 @@ namespace
 constexpr double kFrame = 1.0 / 30;
 constexpr int kReference = 7;
 
-/** Features whose residuals have white noise beside a random walk, both over a covariance. */
+/** Features whose residuals have white noise beside a random walk, both over a covariance. With a
+ * length in views, the walk forgets where it came from (Gauss-Markov): it is bounded. */
 class Features
 {
  public:
-    Features(unsigned seed, int n, double white, double drift)
-        : sampler_(seed), white_(white), drift_(drift)
+    Features(unsigned seed, int n, double white, double drift, double length = 1e9)
+        : sampler_(seed), white_(white), drift_(drift), length_(length)
     {
         for (int i = 0; i < n; ++i)
         {
@@ -35,7 +37,9 @@ class Features
         std::vector<FeatureResidual> out;
         for (size_t i = 0; i < covs_.size(); ++i)
         {
-            walks_[i] += std::sqrt(2 * drift_ * views) * sampler_.sample(covs_[i]);
+            const double kept = std::exp(-views / length_);
+            const double gained = drift_ * length_ * -std::expm1(-2 * views / length_);
+            walks_[i] = kept * walks_[i] + std::sqrt(gained) * sampler_.sample(covs_[i]);
             const Eigen::Vector3d r = walks_[i] + std::sqrt(white_) * sampler_.sample(covs_[i]);
             FeatureResidual f;
             f.reference = kReference;
@@ -49,7 +53,7 @@ class Features
 
  private:
     test::GaussianSampler sampler_;
-    double white_, drift_;
+    double white_, drift_, length_;
     std::vector<Eigen::Matrix3d> covs_;
     std::vector<Eigen::Vector3d> walks_;
 };
@@ -104,6 +108,14 @@ TEST(ResidualVariogram, noiseAloneHasNoDrift)
     const auto levels = levelsOf({3, 150, 0.5, 0}, {4, 30, 3, 0});
     EXPECT_NEAR(levels.white.points, 0.5, 0.08);
     EXPECT_LT(levels.drift.points, 0.1);
+}
+
+/** Errors saturate: what frames ten views apart differ by is not ten times what one view brings. */
+TEST(ResidualVariogram, slowRecordingsDoNotTakeDriftForNoise)
+{
+    const auto levels = levelsOf({13, 150, 0.1, 0.8, 1.5}, {14, 30, 0.1, 20, 1.5}, {1.5});
+    EXPECT_GT(levels.drift.points, 0.15 * 0.8);
+    EXPECT_GT(levels.drift.planes, 0.15 * 20);
 }
 
 /** A camera at rest says nothing of what another view would bring. */

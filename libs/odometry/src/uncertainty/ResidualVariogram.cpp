@@ -15,7 +15,11 @@ namespace
 {
 /** Residuals are compared with those of the frame before and of so many frames before. */
 constexpr size_t kLag = 10;
-constexpr size_t kLeastLag = 3;  // at the start
+constexpr size_t kLeastLag = 2;
+
+/** Farther apart in views, errors have nothing in common any more: they do not grow with the way.
+ */
+constexpr double kMostViews = 1.5;
 
 constexpr double kTimeConstant = 2;  // [s] of both levels
 
@@ -127,7 +131,16 @@ bool ResidualVariogram::shareReference(const Snapshot& now, const Snapshot& then
 void ResidualVariogram::update(
     Kind& kind, Snapshot now, size_t least, double kept, double residuals) const
 {
-    const size_t lag = std::min(kind.past.size(), kLag);
+    size_t lag = std::min(kind.past.size(), kLag);
+    const auto wayTo = [&](size_t n)
+    {
+        return std::accumulate(
+            views_.begin() + 1, views_.begin() + static_cast<std::ptrdiff_t>(n), 0.0);
+    };
+    while (lag > kLeastLag && wayTo(lag) > kMostViews)
+    {
+        --lag;
+    }
     auto step = lag > 0 ? variogram(now, kind.past.front(), least) : std::optional<double>();
     if (lag > 0 && now.size() >= least && !shareReference(now, kind.past.front()))
     {
@@ -143,8 +156,7 @@ void ResidualVariogram::update(
         if (far)
         {
             // The slope by least squares: frames at rest say nothing of it.
-            const double way = std::accumulate(
-                views_.begin() + 1, views_.begin() + static_cast<std::ptrdiff_t>(lag), 0.0);
+            const double way = wayTo(lag);
             kind.growth = kept * kind.growth + way * (*far - *step);
             kind.farther = kept * kind.farther + way * way;
         }
