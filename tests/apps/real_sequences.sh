@@ -1,0 +1,57 @@
+#!/usr/bin/env bash
+# Recordings stay as accurate as they are: the parts in POINTPLANE_DATA, whole, slow and interrupted.
+# usage: real_sequences.sh FOLDER_OF_PROGRAMS WORK_FOLDER
+set -euo pipefail
+readonly bin=$1 work=$2
+if [[ -z ${POINTPLANE_DATA:-} ]]; then
+    echo "skipped: POINTPLANE_DATA is not set"
+    exit 0
+fi
+rm -rf "$work"
+mkdir -p "$work"
+cd "$work"
+failures=0
+
+# folder NAME PART AWK: a copy of a part with the lines of rgb.txt for which AWK is true of n, their number.
+folder() {
+    local part=$POINTPLANE_DATA/$2
+    mkdir -p "$1"
+    find "$part" -mindepth 1 -maxdepth 1 ! -name rgb.txt -exec ln -sf -t "$1" {} +
+    awk "/^#/ {next} {++n} $3" "$part/rgb.txt" > "$1/rgb.txt"
+}
+
+# check NAME PART AWK METRES DEGREES UNTRACKED: at most this RPE over 1 s, at most so many frames not tracked.
+check() {
+    local name=$1 metres=$4 degrees=$5 untracked=$6 found
+    folder "$name" "$2" "$3"
+    "$bin/pointplane-convert" tum "$name" -o "$name.rawlog" > "$name.convert" 2>&1 ||
+        { cat "$name.convert"; failures=$((failures + 1)); return; }
+    "$bin/pointplane-odometry" "$name.rawlog" --trajectory "$name.txt" --diagnostics "$name.csv" \
+        > "$name.log" 2>&1 || { cat "$name.log"; failures=$((failures + 1)); return; }
+    found=$(grep -cE ',(predicted|lost),' "$name.csv" || true)
+    if ((found > untracked)); then
+        echo "$name: $found frames not tracked, more than $untracked"
+        failures=$((failures + 1))
+    fi
+    if [[ -e $name/groundtruth.txt ]] && ! "$bin/pointplane-eval" rpe --fixed-delta --delta 1 \
+        --max-rmse "$metres" --max-rmse-deg "$degrees" "$name/groundtruth.txt" "$name.txt" > "$name.rpe" 2>&1; then
+        echo "$name: not within $metres m and $degrees deg"
+        cat "$name.rpe"
+        failures=$((failures + 1))
+    fi
+    rm -f "$name.rawlog"
+}
+
+readonly xyz=tum_fr1_xyz_part
+check xyz $xyz 1 0.007 0.65 0
+check xyz_6Hz $xyz 'n % 5 == 1' 0.015 1.0 0
+check xyz_3Hz $xyz 'n % 10 == 1' 0.030 2.0 0
+check xyz_2Hz $xyz 'n % 15 == 1' 0.060 4.0 0
+check xyz_gap $xyz 'n < 150 || n > 165' 0.012 0.8 0
+check rpy tum_fr1_rpy_part 1 0.024 1.7 0
+check notexture tum_fr3_structure_notexture_far_part 1 0.004 0.5 0
+check notexture_3Hz tum_fr3_structure_notexture_far_part 'n % 10 == 1' 0.010 0.7 0
+check icl icl_living_room_kt0_part 1 0.002 0.06 0
+check azure azure_kinect_tags_part 1 0 0 1
+((failures == 0)) || exit 1
+echo "all within their bounds"
