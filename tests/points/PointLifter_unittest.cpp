@@ -124,10 +124,14 @@ TEST(PointLifter, missingDepth)
 
 TEST(PointLifter, rangeAndBordersAndNonsense)
 {
-    for (const float z : {0.0F, -1.0F, 0.2F, 11.0F, kNan, std::numeric_limits<float>::infinity()})
+    for (const float z : {0.0F, -1.0F, 0.01F, 101.0F, kNan, std::numeric_limits<float>::infinity()})
     {
         EXPECT_FALSE(PointLifter(DepthNoise{}).lift(wall(z), {320, 240})) << z;
         EXPECT_FALSE(PointLifter(nearest(), DepthNoise{}).lift(wall(z), {320, 240})) << z;
+    }
+    for (const float z : {0.1F, 0.2F, 11.0F, 20.0F})
+    {
+        EXPECT_TRUE(PointLifter(DepthNoise{}).lift(wall(z), {320, 240})) << z;
     }
     const RgbdFrame frame = wall(2);
     const PointLifter lifter(nearest(), DepthNoise{});
