@@ -231,8 +231,15 @@ TEST(ObservationConverter, unregisteredDepthWithAnyIntrinsics)
             scan->cameraParams.setIntrinsicParamsFromValues(focal_px, focal_px, 16, 12);
             scan->cameraParamsIntensity.setIntrinsicParamsFromValues(260, 260, centre_px, 120);
             const ConvertedFrame converted = ObservationConverter().convert(*scan);
-            ASSERT_EQ(converted.problem, "");
-            EXPECT_EQ(converted.frame.depth.size(), cv::Size(320, 240));
+            if (centre_px == 0)
+            {
+                ASSERT_EQ(converted.problem, "");
+                EXPECT_EQ(converted.frame.depth.size(), cv::Size(320, 240));
+            }
+            else
+            {
+                EXPECT_THAT(converted.problem, testing::HasSubstr("principal point"));
+            }
         }
     }
 }
