@@ -110,6 +110,18 @@ TEST_F(OdometryEnvelope, frozenImagesAreSaid)
         moving.pose.mean, test::IsNearPose(desk().sequence().trueMotion(0, 11), 0.01, 0.02));
 }
 
+TEST_F(OdometryEnvelope, oneByteThatDiffersIsNotFrozen)
+{
+    for (int i = 0; i < 5; ++i)
+    {
+        (void)process(i);
+    }
+    RgbdFrame frame = desk().frame(4);
+    frame.stamp = desk().frame(5).stamp;
+    frame.gray.at<uchar>(frame.gray.rows - 1, frame.gray.cols - 1) ^= 1;
+    EXPECT_EQ(odometry.process(frame).status, TrackingStatus::Tracked);
+}
+
 /** The features would agree with a motion that the rest of the image contradicts. */
 TEST_F(OdometryEnvelope, depthThatContradictsTheFeaturesIsNotTracked)
 {

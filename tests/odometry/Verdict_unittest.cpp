@@ -93,7 +93,7 @@ TEST_F(VerdictTest, holesSayNothing)
     current.depth.setTo(kNaN);
     const Agreement none = at(Vector6d::Zero());
     EXPECT_EQ(none.seen(), 0);
-    EXPECT_EQ(none.fraction(), 1) << "nothing contradicts";
+    EXPECT_EQ(none.fraction(), 0) << "nothing speaks for the motion";
 }
 
 TEST_F(VerdictTest, thinThingsAreNotCounted)

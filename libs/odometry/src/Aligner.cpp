@@ -374,7 +374,8 @@ bool Aligner::isConvincing(const Alignment& a) const
 /** The last word: surfaces that should be in view and are not. */
 void Aligner::contradict(Alignment& alignment) const
 {
-    if (alignment.holds && alignment.agreement.fraction() < params_.leastAgreement)
+    const bool isCompared = alignment.agreement.seen() > 0;
+    if (alignment.holds && isCompared && alignment.agreement.fraction() < params_.leastAgreement)
     {
         std::ostringstream reason;
         reason << "the depth image contradicts the motion of " << alignment.numMatches()

@@ -62,6 +62,10 @@ PointReference FrontEnd::pointReference(const Features& features) const
 
 std::shared_ptr<KeyframeImages> FrontEnd::keyframeImages(const Features& features) const
 {
+    if (params_.leastAgreement == 0 && !params_.searchImages)
+    {
+        return {};  // nobody will ask
+    }
     auto out = std::make_shared<KeyframeImages>();
     out->frame = features.frame;
     out->frame.gray = features.frame.gray.clone();

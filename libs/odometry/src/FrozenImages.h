@@ -12,8 +12,7 @@ namespace pointplane
 class FrozenImages
 {
  public:
-    /** Whether depth and grey image are those of the frame before, byte for byte, in the rows that
-     * are looked at. */
+    /** Whether depth and grey image are those of the frame before, byte for byte. */
     [[nodiscard]] bool repeats(const RgbdFrame& frame);
 
  private:

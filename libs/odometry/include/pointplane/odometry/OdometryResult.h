@@ -35,7 +35,7 @@ struct FrameDiagnostics
     int observableDirections{0};    //!< of 6, measured better than the motion model predicts
     double pointChi2PerDof{0};      //!< reduced chi-square of point residuals
     double planeChi2PerDof{0};      //!< reduced chi-square of plane residuals
-    double surfaceAgreement{0};     //!< part of the surfaces in view that the depth image shows
+    double surfaceAgreement{0};     //!< part of the surfaces in view that depth shows; 0 of none
     double maxSigmaTranslation{0};  //!< largest standard deviation of the increment [m]
     double maxSigmaRotation{0};     //!< [rad]
     DepthNoise depthNoise;          //!< of the camera, as far as its images have told by then

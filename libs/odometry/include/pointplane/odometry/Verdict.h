@@ -30,10 +30,11 @@ struct Agreement
 
     [[nodiscard]] int seen() const { return agrees + hidden + vanished; }
 
-    /** Part of the samples that agrees, of those that can be compared; 1 of none. */
+    /** Part of the samples that agrees, of those that can be compared; 0 of none: nothing speaks
+     * for the motion then. */
     [[nodiscard]] double fraction() const
     {
-        return seen() > 0 ? static_cast<double>(agrees) / seen() : 1;
+        return seen() > 0 ? static_cast<double>(agrees) / seen() : 0;
     }
 
     Agreement& operator+=(const Agreement& other);
