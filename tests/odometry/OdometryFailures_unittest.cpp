@@ -365,6 +365,27 @@ TEST(OdometryFailures, intrinsicsChangeInTheMiddle)
     }
 }
 
+/** What was learnt of one camera's depth is not said of the next one. */
+TEST(OdometryFailures, anotherCamerasDepthNoiseIsLearntAnew)
+{
+    CheckedOdometry odometry;
+    std::string flat, real;
+    for (int i = 0; i < 6; ++i)
+    {
+        RgbdFrame frame = good(i);
+        frame.depth.setTo(2);
+        flat = odometry.process(frame).diagnostics.depthNoise.kind;
+    }
+    EXPECT_EQ(flat, "rendered");
+    for (int i = 6; i < 9; ++i)
+    {
+        RgbdFrame frame = good(i);
+        frame.camera.fx += 1;
+        real = odometry.process(frame).diagnostics.depthNoise.kind;
+    }
+    EXPECT_EQ(real, "structuredLight");
+}
+
 TEST(OdometryFailures, depthMovesToTheRawPixelsInTheMiddle)
 {
     for (const double k1 : {0.0, 0.01})

@@ -73,7 +73,7 @@ double maxSigma(const Matrix6d& cov)
 double evidence(const Alignment& alignment)
 {
     const double surfaces = alignment.agreement.fraction() *
-                            std::min(1.0, alignment.agreement.seen() / double(kEnoughSurfaces));
+                            std::min(1.0, 1.0 * alignment.agreement.seen() / kEnoughSurfaces);
     return (alignment.holds ? 1 : 0) + surfaces + alignment.pointShare();
 }
 
@@ -202,12 +202,10 @@ Alignment Aligner::attempt(const Scene& scene, const Motion& start, Search searc
 /** Motions that the images alone tell, until one is convincing. */
 void Aligner::searchImages(const Scene& scene, Alignment& best) const
 {
-    const DescribedPoints described = scene.frontEnd.describe(scene.current);
     const Eigen::Isometry3d T_prev_world = scene.track.previous().T_world_cam.inverse();
     for (const Reference* reference : scene.track.references())
     {
-        const auto motion =
-            scene.frontEnd.alignImages(*reference, described, scene.current.frame.camera);
+        const auto motion = scene.frontEnd.alignImages(*reference, scene.current);
         if (!motion)
         {
             continue;
@@ -230,14 +228,13 @@ void Aligner::searchImages(const Scene& scene, Alignment& best) const
 std::optional<int> Aligner::recognise(
     const FrontEnd& frontEnd, const Features& current, const Track& track) const
 {
-    if (!params_.searchImages || track.places().empty())
+    if (!params_.searchImages)
     {
         return {};
     }
-    const DescribedPoints described = frontEnd.describe(current);
     for (auto place = track.places().rbegin(); place != track.places().rend(); ++place)
     {
-        const auto motion = frontEnd.alignImages(*place, described, current.frame.camera);
+        const auto motion = frontEnd.alignImages(*place, current);
         if (motion &&
             frontEnd.compare(*place, current, motion->T_cur_ref, 0).fraction() > kRecognised)
         {
@@ -313,8 +310,7 @@ void Aligner::judge(Alignment& alignment) const
         reason << "the points contradict their covariances (chi-square per degree of freedom "
                << estimate.pointChi2PerDof << ")";
     }
-    else if (
-        worth < kFewPoints && surprise(estimate, predicted) > kMostSurprise)
+    else if (worth < kFewPoints && surprise(estimate, predicted) > kMostSurprise)
     {
         reason << "only " << matches << " point and plane matches, far from the predicted motion";
     }

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FrontEnd.h"
 
+#include <functional>
 #include <future>
 
 #include "Stopwatch.h"
+#include "frame_checks.h"
 
 namespace pointplane
 {
@@ -27,6 +29,11 @@ Features FrontEnd::extract(const RgbdFrame& frame, FrameDiagnostics& diagnostics
 {
     Features out;
     out.frame = frame;
+    if (camera_ && !sameCamera(*camera_, frame.camera))
+    {
+        depthNoise_.reset();
+    }
+    camera_ = frame.camera;
     depthNoise_.update(frame.depth);
     planeExtractor_.setNoise(depthNoise_.noise());
     pointStage_.setNoise(depthNoise_.noise());
@@ -71,6 +78,7 @@ std::shared_ptr<KeyframeImages> FrontEnd::keyframeImages(const Features& feature
     out->frame.gray = features.frame.gray.clone();
     out->frame.depth = features.frame.depth.clone();
     out->surface = SurfaceSamples(out->frame);
+    out->described = features.described;
     return out;
 }
 
@@ -89,26 +97,25 @@ Agreement FrontEnd::compare(
                             : Agreement();
 }
 
-DescribedPoints FrontEnd::describe(const Features& current) const
-{
-    return params_.usePoints ? imageAligner_.describe(current.frame) : DescribedPoints();
-}
-
 std::optional<ImageMotion> FrontEnd::alignImages(
-    const Reference& reference,
-    const DescribedPoints& described,
-    const PinholeCamera& camera) const
+    const Reference& reference, const Features& current) const
 {
     if (!params_.usePoints || !reference.images)
     {
         return {};
     }
-    std::optional<DescribedPoints>& ofReference = reference.images->described;
-    if (!ofReference)
+    const auto described = [&](std::optional<DescribedPoints>& points, const RgbdFrame& frame)
     {
-        ofReference = imageAligner_.describe(reference.images->frame);
-    }
-    return imageAligner_.align(*ofReference, described, camera);
+        if (!points)
+        {
+            points = imageAligner_.describe(frame);
+        }
+        return std::cref(*points);
+    };
+    return imageAligner_.align(
+        described(reference.images->described, reference.images->frame),
+        described(current.described, current.frame),
+        current.frame.camera);
 }
 
 Association FrontEnd::associate(

@@ -7,6 +7,8 @@
 #include <pointplane/odometry/Reference.h>
 #include <pointplane/sensor/DepthNoiseLearner.h>
 
+#include <optional>
+
 namespace pointplane
 {
 /** From images to points and planes, and to what two frames have in common. Knows no history but
@@ -31,14 +33,9 @@ class FrontEnd
         const Eigen::Isometry3d& T_cur_ref,
         double slack_m) const;
 
-    [[nodiscard]] DescribedPoints describe(const Features& current) const;
-
-    /** Motion by the images alone, where enough points tell one.
-     * \param described describe() of the current frame */
+    /** Motion by the images alone, where enough points tell one. */
     [[nodiscard]] std::optional<ImageMotion> alignImages(
-        const Reference& reference,
-        const DescribedPoints& described,
-        const PinholeCamera& camera) const;
+        const Reference& reference, const Features& current) const;
 
     /** What of the reference is found again.
      * \param T_cur_ref where to look \param radiusFactor above 1 looks farther, less thoroughly */
@@ -50,6 +47,7 @@ class FrontEnd
 
  private:
     PipelineParams params_;
+    std::optional<PinholeCamera> camera_;  //!< of the frame before
     DepthNoiseLearner depthNoise_;
     PlaneExtractor planeExtractor_;
     PlaneMatcher planeMatcher_;

@@ -3,9 +3,6 @@
 
 #include <pointplane/sensor/RgbdFrame.h>
 
-#include <cstdint>
-#include <optional>
-
 namespace pointplane
 {
 /** Tells images that come twice: their noise makes any two others differ. */
@@ -16,6 +13,6 @@ class FrozenImages
     [[nodiscard]] bool repeats(const RgbdFrame& frame);
 
  private:
-    std::optional<std::uint64_t> previous_;  //!< what the images of the frame before add up to
+    cv::Mat depth_, gray_;  //!< copies: the caller may reuse its buffers
 };
 }  // namespace pointplane

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pointplane/odometry/ImageAligner.h>
 #include <pointplane/odometry/PointStage.h>
 #include <pointplane/planes/PlaneFeature.h>
 #include <pointplane/sensor/RgbdFrame.h>
+
+#include <optional>
 
 namespace pointplane
 {
@@ -14,5 +17,6 @@ struct Features
     RgbdFrame frame;  //!< its pixels are shared, not copied
     PlaneSet planes;
     PreparedPoints points;  //!< ready for correspondences
+    mutable std::optional<DescribedPoints> described;  //!< made when they are needed first
 };
 }  // namespace pointplane

@@ -30,6 +30,9 @@ class DepthNoiseLearner
     /** Takes in the next image. \param depth CV_32FC1 [m], NaN = no reading */
     void update(const cv::Mat& depth);
 
+    /** Another camera: forgets the images so far. */
+    void reset() { *this = DepthNoiseLearner(DepthNoise(given_)); }
+
     /** What is known by now. Its kind is never "learn". */
     [[nodiscard]] const DepthNoise& noise() const { return noise_; }
 
