@@ -1,6 +1,5 @@
 #!/usr/bin/env bash
-# Writes the figures of docs/paper_figures.md, its pictures and the results of README.md, by
-# `pointplane-eval reproduce`. 10 minutes on 2 cores.
+# Writes the figures of docs/paper_figures.md and its pictures, by `pointplane-eval reproduce`. 10 minutes on 2 cores.
 # usage: POINTPLANE_DATA=DIR benchmarks/paper_table.sh BIN_DIR   (BIN_DIR holds the pointplane programs)
 set -euo pipefail
 shopt -s inherit_errexit
@@ -36,12 +35,3 @@ done
     echo
 } >"$work/page.md"
 replace docs/paper_figures.md figures "$work/page.md"
-
-# The README shows the three configurations.
-{
-    echo
-    sed -n '/^### Configurations/,$p' "$work/figures.md" |
-        grep -E '^\| (configuration|-+|config(-fast|-paper)?\.ini) ' | sed 's/^| configuration/|              /'
-    echo
-} >"$work/results.md"
-replace README.md results "$work/results.md"

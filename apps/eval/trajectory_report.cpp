@@ -220,7 +220,8 @@ std::size_t frameNumber(const FrameTable& table, double stamp, std::size_t index
     return static_cast<std::size_t>(frames[nearestIndex(table.stamps(), stamp)]);
 }
 
-/** Pictures of the frames whose motion from the previous frame is the most wrong. */
+/** Pictures, of those that there are, of the frames whose motion from the previous frame is the
+ * most wrong. */
 void addWorstFrames(
     HtmlReport& report,
     const ReportedRun& run,
@@ -238,11 +239,17 @@ void addWorstFrames(
         pairs.begin(),
         pairs.end(),
         [](const RpePair& a, const RpePair& b) { return a.translation > b.translation; });
-    pairs.resize(std::min(pairs.size(), kWorstFrames));
+    std::size_t numPictures = 0;
     for (const RpePair& pair : pairs)
     {
         const double stamp = run.estimate.stamps[pair.j];
         const std::size_t frame = frameNumber(table, stamp, pair.j);
+        const std::string picture = folder + format("/%06zu.jpg", frame);
+        if (numPictures == kWorstFrames || !std::filesystem::exists(picture))
+        {
+            continue;
+        }
+        ++numPictures;
         report.addPicture(
             format(
                 "Frame %zu at %.2f s: motion off by %.1f mm, %.2f deg",
@@ -250,7 +257,11 @@ void addWorstFrames(
                 stamp - run.estimate.stamps.front(),
                 1000 * pair.translation,
                 kDegreesPerRadian * pair.rotation),
-            folder + format("/%06zu.png", frame));
+            picture);
+    }
+    if (numPictures == 0)
+    {
+        throw InputError(folder + ": no picture 000001.jpg, ... of these frames is in it");
     }
 }
 }  // namespace

@@ -63,7 +63,12 @@ void addOutputOptions(CLI::App& app, OdometryOptions& o)
         ->capture_default_str()
         ->needs(trajectory);
     app.add_option("--diagnostics", o.diagnostics, "Table with a line per frame (CSV)");
-    app.add_option("--overlay", o.overlay, "Folder for pictures of points and planes");
+    auto* overlay =
+        app.add_option("--overlay", o.overlay, "Folder for pictures of points and planes (JPEG)");
+    app.add_option("--overlay-every", o.overlayEvery, "A picture of every N-th frame only")
+        ->check(CLI::Range(1, 1000000))
+        ->capture_default_str()
+        ->needs(overlay);
     const auto options = app.get_options();
     for (std::size_t i = numOthers; i < options.size(); ++i)
     {

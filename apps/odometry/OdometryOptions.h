@@ -20,7 +20,8 @@ struct OdometryOptions
     std::string trajectory;
     std::string trajectoryFrame{"optical"};  //!< or "robot"
     std::string diagnostics;
-    std::string overlay;  //!< folder
+    std::string overlay;          //!< folder
+    std::size_t overlayEvery{1};  //!< a picture of each so many frames
     bool onlyPoses{false};
     bool format1{false};
     int since{0};            //!< motions since so many frames before, in the rawlog

@@ -55,7 +55,7 @@ using Sinks = std::vector<std::unique_ptr<Sink>>;
     }
     if (!options.overlay.empty())
     {
-        sinks.push_back(std::make_unique<OverlaySink>(options.overlay));
+        sinks.push_back(std::make_unique<OverlaySink>(options.overlay, options.overlayEvery));
     }
     return sinks;
 }
@@ -73,7 +73,7 @@ using Sinks = std::vector<std::unique_ptr<Sink>>;
     guard.addOutput("--graph", options.graph);
     guard.addOutput("--trajectory", options.trajectory);
     guard.addOutput("--diagnostics", options.diagnostics);
-    guard.addOutputFolder("--overlay", options.overlay, ".png");
+    guard.addOutputFolder("--overlay", options.overlay, ".jpg");
     return guard;
 }
 

@@ -3,25 +3,40 @@
 
 #include <opencv2/core/mat.hpp>
 
+#include <optional>
 #include <string>
 
 #include "FrameRecord.h"
 
 namespace pointplane
 {
-/** A picture of what was found in a frame, as [P17, Fig. 4]: points as circles, planes coloured by
- * the standard deviation of their distance (blue small, red large), status and counts in a line.
- * \param gray CV_8UC1, may be empty \param depth CV_32FC1 [m], shown where there is no gray image
- * \return CV_8UC3, BGR */
-[[nodiscard]] cv::Mat drawOverlay(
-    const cv::Mat& gray, const cv::Mat& depth, const FrameRecord& record, std::size_t frameIndex);
+/** How the camera moves in a frame, optical axes. */
+struct CameraSpeed
+{
+    Eigen::Vector3d translation{0, 0, 0};  //!< [m/s]
+    double rotation{0};                    //!< [rad/s]
+};
 
-/** Writes one picture per frame: <folder>/000042.png. */
+/** A picture of what was found in a frame, as [P17, Fig. 4], with a legend below it. Points that
+ * the pose follows are green circles, rejected ones red crosses, new ones white dots. Planes have
+ * the colour of the standard deviation of their distance (blue small, red large); those that the
+ * pose does not follow are outlined only. An arrow shows where the camera moves.
+ * \param gray CV_8UC1, may be empty \param depth CV_32FC1 [m], shown where there is no gray image
+ * \return CV_8UC3, BGR, as wide as the image */
+[[nodiscard]] cv::Mat drawOverlay(
+    const cv::Mat& gray,
+    const cv::Mat& depth,
+    const FrameRecord& record,
+    std::size_t frameIndex,
+    double seconds,
+    const std::optional<CameraSpeed>& speed);
+
+/** Writes a picture of every N-th frame: <folder>/000042.jpg. */
 class OverlaySink : public Sink
 {
  public:
     /** \throws EnvironmentError if the folder cannot be created */
-    explicit OverlaySink(const std::string& folder);
+    OverlaySink(const std::string& folder, std::size_t every);
 
     void add(const OutputItem& item) override;
     void close() override {}
@@ -30,7 +45,12 @@ class OverlaySink : public Sink
     [[nodiscard]] bool needsFeatures() const override { return true; }
 
  private:
+    [[nodiscard]] std::optional<CameraSpeed> speedAt(const OutputItem& item);
+
     std::string folder_;
-    std::size_t numPictures_{0};
+    std::size_t every_;
+    std::size_t numFrames_{0}, numPictures_{0};
+    std::optional<double> firstStamp_, latestStamp_;  //!< [s]
+    Eigen::Isometry3d latestPose_{Eigen::Isometry3d::Identity()};
 };
 }  // namespace pointplane

@@ -149,22 +149,22 @@ TEST_F(Outputs, picturesDoNotReplaceImagesOfTheRawlog)
     {
         RawlogWriter writer(external);
         const auto scan = test::sampleScan(0);
-        ASSERT_TRUE(scan->intensityImage.saveToFile(images + "/000000.png"));
-        scan->intensityImage.setExternalStorage("000000.png");
+        ASSERT_TRUE(scan->intensityImage.saveToFile(images + "/000000.jpg"));
+        scan->intensityImage.setExternalStorage("000000.jpg");
         writer.write(*scan);
         writer.close();
     }
-    const std::string image = readBytes(images + "/000000.png");
+    const std::string image = readBytes(images + "/000000.jpg");
     expectRefused({external, "--overlay", images}, "is an input");
     expectRefused({external, "--overlay", images + "/"}, "is an input");
     expectRefused(
-        {external, "--trajectory", images + "/000000.png"}, "in the folder of the inputs");
-    EXPECT_EQ(readBytes(images + "/000000.png"), image);
+        {external, "--trajectory", images + "/000000.jpg"}, "in the folder of the inputs");
+    EXPECT_EQ(readBytes(images + "/000000.jpg"), image);
     // The names in an output are absolute: the images are elsewhere then.
     ASSERT_EQ(run({external, "-o", out_}).code, kExitOk);
     expectRefused({out_, "--overlay", images}, "would write over the input");
-    expectRefused({out_, "--trajectory", images + "/000000.png"}, "is an input");
-    EXPECT_EQ(readBytes(images + "/000000.png"), image);
+    expectRefused({out_, "--trajectory", images + "/000000.jpg"}, "is an input");
+    EXPECT_EQ(readBytes(images + "/000000.jpg"), image);
 }
 
 TEST_F(Outputs, whatCannotBeWrittenIsRefusedBeforeTheRun)

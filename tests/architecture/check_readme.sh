@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# What README.md and docs/*.md name exists: links, programs, subcommands and their options.
+# What README.md and docs name exists: links, headings, programs, subcommands and their options.
+# README stays short enough to be read.
 # Run in the root of the sources. Argument: the folder with the built programs.
 set -u
 bin=$1
@@ -20,10 +21,24 @@ for command in demo test; do
     grep -qF "./$command" README.md || problem "README.md does not name ./$command"
 done
 
-for page in README.md CONTRIBUTING.md docs/*.md; do
+# anchorsOf PAGE: as GitHub makes them of its headings.
+anchorsOf() {
+    sed -nE 's/^#+ //p' "$1" | tr '[:upper:]' '[:lower:]' | sed -E 's/[^[:alnum:] _-]//g; s/ /-/g'
+}
+
+lines=$(wc -l <README.md)
+((lines <= 140)) || problem "README.md has $lines lines; one screen and a half is about 120"
+
+for page in README.md CONTRIBUTING.md docs/*.md docs/tutorials/*.md benchmarks/README.md; do
     while read -r link; do
-        [[ -e $(dirname "$page")/$link ]] || problem "$page: link to $link, which is not there"
-    done < <(grep -oE '\]\([^)#]+' "$page" | cut -c3- | grep -vE '^[a-z]+:')
+        target=$page
+        [[ $link == '#'* ]] || target=$(dirname "$page")/${link%%#*}
+        if [[ ! -e $target ]]; then
+            problem "$page: link to $link, which is not there"
+        elif [[ $link == *'#'* ]] && ! anchorsOf "$target" | grep -qxF -- "${link#*#}"; then
+            problem "$page: link to $link: no such heading"
+        fi
+    done < <(grep -oE '\]\([^) ]+' "$page" | cut -c3- | grep -vE '^[a-z]+:')
 
     # Commands stand at the beginning of a text between backquotes or of an indented line, and
     # have arguments. pointplane-camera and -status are keys of comments in rawlogs.

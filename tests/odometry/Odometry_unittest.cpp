@@ -62,6 +62,54 @@ TEST(Odometry, beginsAtTheIdentity)
     EXPECT_LT(r.pose.cov.trace(), 1e-10);
 }
 
+TEST(Odometry, showsEachPointOnceAndWhatBecameOfIt)
+{
+    CheckedOdometry odometry;
+    for (int i = 0; i <= 20; ++i)
+    {
+        const OdometryResult r = odometry.process(good(i));
+        const FrameFeatures& shown = odometry.odometry().features();
+        EXPECT_EQ(r.diagnostics.numPoints, static_cast<int>(shown.points.size()));
+        int used = 0, found = 0;
+        for (const FrameFeatures::Point& a : shown.points)
+        {
+            used += a.use == FeatureUse::Used ? 1 : 0;
+            found += a.use == FeatureUse::New ? 0 : 1;
+            for (const FrameFeatures::Point& b : shown.points)
+            {
+                ASSERT_TRUE(&a == &b || (a.uv_px - b.uv_px).norm() >= 3);
+            }
+        }
+        EXPECT_LE(used, r.diagnostics.numPointInliers);
+        EXPECT_LE(found, r.diagnostics.numPointPairs);
+        EXPECT_TRUE(shown.isKeyframe || i > 0);
+        EXPECT_EQ(shown.planeUses.size(), shown.planes.planes.size());
+        if (i > 0)
+        {
+            ASSERT_EQ(r.status, TrackingStatus::Tracked);
+            EXPECT_GT(used, 20);
+            EXPECT_THAT(shown.planeUses, testing::Contains(FeatureUse::Used));
+        }
+    }
+}
+
+TEST(Odometry, showsNothingAsUsedInAFrameThatIsNotTracked)
+{
+    OdometryParams params;
+    params.pipeline.degeneracy = "gate";
+    params.pipeline.gateSigma = 1e-9;  // no estimate is as certain as that
+    CheckedOdometry odometry(params);
+    (void)odometry.process(good(0));
+    ASSERT_EQ(odometry.process(good(1)).status, TrackingStatus::Predicted);
+    int rejected = 0;
+    for (const FrameFeatures::Point& point : odometry.odometry().features().points)
+    {
+        EXPECT_NE(point.use, FeatureUse::Used);
+        rejected += point.use == FeatureUse::Rejected ? 1 : 0;
+    }
+    EXPECT_GT(rejected, 20);
+}
+
 TEST(Odometry, followsTheCornerWithEitherFeature)
 {
     for (const bool points : {true, false})

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Runs the commands of README's table of tools and of docs/evaluation.md as they are written, on a
-# short simulated recording under the names that stand there. commands.sh BUILD WORK
+# Runs the commands of README's table of tools, of docs/evaluation.md and of docs/tutorials as they
+# are written; the first two on a short simulated recording under the names that stand there.
+# commands.sh BUILD WORK
 set -uo pipefail
 build=$(realpath "$1") work=$2
 root=$(realpath "$(dirname "${BASH_SOURCE[0]}")/../..")
@@ -56,6 +57,34 @@ while read -r command; do
     esac
 done < <(sed -nE 's/^    //p' "$root/docs/evaluation.md" | sed -E ':a; /\\$/{N; s/\\\n//; ba}; s/ #.*//' |
     grep -E '^pointplane-')
+
+# Each tutorial from its beginning, in a folder of its own.
+for tutorial in "$root"/docs/tutorials/*.md; do
+    name=$(basename "$tutorial" .md)
+    mkdir "$name" && cd "$name" || exit 1
+    if grep -q rgbd_dataset_freiburg1_xyz "$tutorial"; then
+        [[ -n ${POINTPLANE_DATA:-} ]] || { cd ..; continue; }
+        # Two seconds of it are enough here.
+        mkdir rgbd_dataset_freiburg1_xyz
+        for file in "$POINTPLANE_DATA"/tum_fr1_xyz_part/*; do
+            ln -s "$file" rgbd_dataset_freiburg1_xyz/
+        done
+        for list in rgb depth; do
+            rm rgbd_dataset_freiburg1_xyz/$list.txt
+            head -75 "$POINTPLANE_DATA/tum_fr1_xyz_part/$list.txt" >rgbd_dataset_freiburg1_xyz/$list.txt
+        done
+    fi
+    before=$count
+    while read -r command; do
+        case $command in
+            pointplane-grabber*) [[ -e /dev/bus/usb ]] || run 3 "$command" ;;  # no camera here
+            pointplane-* | printf*) run 0 "$command" ;;
+            *) ! command -v "${command%% *}" >/dev/null || run 0 "$command" ;;  # MRPT's own
+        esac
+    done < <(sed -nE 's/^    //p' "$tutorial")
+    ((count > before)) || { echo "$name: no commands"; failed=1; }
+    cd ..
+done
 
 ((count >= 9)) || { echo "only $count commands found"; failed=1; }
 exit "$failed"

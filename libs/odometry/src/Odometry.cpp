@@ -11,6 +11,7 @@
 #include "Stopwatch.h"
 #include "Track.h"
 #include "frame_checks.h"
+#include "shown_features.h"
 #include "uncertainty/ErrorModel.h"
 
 namespace pointplane
@@ -56,6 +57,7 @@ OdometryResult Odometry::Impl::process(const RgbdFrame& frame)
         result.diagnostics.maxSigmaTranslation = sigma.head<3>().maxCoeff();
         result.diagnostics.maxSigmaRotation = sigma.tail<3>().maxCoeff();
     }
+    result.diagnostics.numPoints = static_cast<int>(shown.points.size());
     result.diagnostics.msTotal = total.ms();
     return result;
 }
@@ -80,7 +82,7 @@ void Odometry::Impl::place(const RgbdFrame& frame, OdometryResult& result)
         return;
     }
     const Features current = frontEnd.extract(frame, result.diagnostics);
-    shown.planes = current.planes;
+    shown = shownPlanes(current);
     const std::string interruption =
         track.isEmpty() ? "" : track.interruption(frame.stamp, frame.camera);
     if (track.isEmpty() || !interruption.empty())
@@ -108,9 +110,9 @@ void Odometry::Impl::place(const RgbdFrame& frame, OdometryResult& result)
     }
     else
     {
+        showPairs(alignment.associations, nullptr, shown);
         predict(current, alignment.reason, result);
     }
-    result.diagnostics.numPoints = static_cast<int>(shown.points.size());
 }
 
 namespace
@@ -135,7 +137,8 @@ void Odometry::Impl::restart(
     Reference reference = referenceOf(current);
     reference.points = frontEnd.pointReference(current);
     reference.images = frontEnd.keyframeImages(current);
-    shown.points = reference.points.points;
+    shown.isKeyframe = true;
+    showNewPoints(reference.points, shown);
     result.increment = track.restart(std::move(reference), current.frame.camera);
 }
 
@@ -155,17 +158,12 @@ void Odometry::Impl::measure(
          analysis,
          dt,
          track.motionNoise(dt)});
-    for (const Association& association : alignment.associations)
-    {
-        for (const PointTrack& point : association.points)
-        {
-            shown.points.push_back(point.cur);
-        }
-    }
+    showPairs(alignment.associations, &analysis, shown);
     const MotionGaussian& motion = alignment.estimate.motion;
     const bool isKeyframe =
         track.needsKeyframe(motion.mean.T_prev_cur, track.overlap(alignment.associations));
     Reference reference = referenceOf(current);
+    shown.isKeyframe = isKeyframe;
     if (isKeyframe)
     {
         reference.images = frontEnd.keyframeImages(current);
@@ -173,7 +171,7 @@ void Odometry::Impl::measure(
     if (isKeyframe && params.pipeline.usePoints)
     {
         reference.points = frontEnd.pointReference(current);
-        shown.points = reference.points.points;
+        showNewPoints(reference.points, shown);
     }
     track.measure(
         {std::move(reference), isKeyframe, motion, dt, measurement, alignment.associations});
@@ -188,6 +186,7 @@ void Odometry::Impl::predict(
     std::optional<Reference> unmatched = referenceOf(current);
     unmatched->points = frontEnd.pointReference(current);
     unmatched->images = frontEnd.keyframeImages(current);
+    showNewPoints(unmatched->points, shown);
     const bool isAdjacent = params.reference.isAdjacent();
     if (!isAdjacent && unmatched->planes.planes.empty() && unmatched->points.points.empty())
     {

@@ -55,6 +55,12 @@ class NormalEquations
     [[nodiscard]] const Residual& residual(size_t i) const { return residuals_[i].residual; }
     [[nodiscard]] Matrix312d jacobian(size_t i) const;
 
+    /** By the M-estimator. */
+    [[nodiscard]] double weight(size_t i) const
+    {
+        return robust(residuals_[i].squaredNorm, isPoint(i)).first;
+    }
+
     /** How the gradient changes with the residual. */
     [[nodiscard]] Matrix123d influence(size_t i) const;
 

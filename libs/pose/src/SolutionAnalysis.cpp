@@ -168,7 +168,8 @@ std::vector<FeatureResidual> SolutionAnalysis::residuals(
                 propagate(residual.R_prev_r, residual.curCov),
                 1 - 2.0 / 3 * J.cwiseProduct(follows.transpose()).sum(),
                 seen.cwiseProduct(of.points * J.transpose()).sum(),
-                seen.cwiseProduct(of.planes * J.transpose()).sum()};
+                seen.cwiseProduct(of.planes * J.transpose()).sum(),
+                equations_.weight(offset + member->second)};
         }
     }
     return out;

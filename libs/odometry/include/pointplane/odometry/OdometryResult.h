@@ -25,7 +25,7 @@ enum class TrackingStatus
 /** What happened inside one frame. */
 struct FrameDiagnostics
 {
-    int numPoints{0};               //!< points with depth, found again or new
+    int numPoints{0};               //!< points with depth, found again or new, each once
     int numPlanes{0};               //!< planes extracted
     int numPointPairs{0};           //!< matched to a reference
     int numPlanePairs{0};           //!< matched to a reference
@@ -58,10 +58,25 @@ struct OdometryResult
     FrameDiagnostics diagnostics;
 };
 
-/** What was extracted from the latest frame, for pictures and reports. */
+/** What became of a point or plane of a frame. */
+enum class FeatureUse
+{
+    Used,      //!< found again, and the pose follows it; of a point: robust weight above 1/2
+    Rejected,  //!< found again, but the point contradicts the others or the frame was not tracked
+    New        //!< not compared with an earlier frame
+};
+
+/** What was found in the latest frame, for pictures and reports. */
 struct FrameFeatures
 {
-    std::vector<PointFeature> points;
+    struct Point
+    {
+        Eigen::Vector2d uv_px{0, 0};
+        FeatureUse use{FeatureUse::New};
+    };
+    std::vector<Point> points;  //!< each once, however many references it was compared with
     PlaneSet planes;
+    std::vector<FeatureUse> planeUses;  //!< of planes.planes
+    bool isKeyframe{false};             //!< later frames are compared with this one
 };
 }  // namespace pointplane

@@ -44,6 +44,7 @@ struct FeatureResidual
     double own{1};       //!< below 1: the estimate follows the feature and takes a part away
     double ofPoints{0};  //!< by what all points move the estimate
     double ofPlanes{0};  //!< by what all planes move it
+    double weight{1};    //!< robust, 1: counts fully, 0: not at all
 };
 
 /** What can be learnt from a solution beside the motion. */

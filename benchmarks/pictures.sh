@@ -1,0 +1,21 @@
+#!/usr/bin/env bash
+# Writes the pictures of README.md and docs/consistency.md: an overlay, the path with its covariances,
+# NEES over time. One minute.
+# usage: POINTPLANE_DATA=DIR benchmarks/pictures.sh BIN_DIR
+set -euo pipefail
+bin=$(realpath "${1:?usage: POINTPLANE_DATA=DIR benchmarks/pictures.sh BIN_DIR}")
+data=$(realpath "${POINTPLANE_DATA:?must name the folder with the sequences}")
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+source benchmarks/quietly.sh
+
+quietly "$bin/pointplane-convert" tum "$data/tum_fr1_xyz_part" -o "$work/in.rawlog" --quiet
+quietly "$bin/pointplane-odometry" -c config.ini "$work/in.rawlog" -o "$work/out.rawlog" --only-poses \
+    --since 31 --overlay "$work/overlay" --quiet
+quietly "$bin/pointplane-eval" nees "$work/in.groundtruth.txt" "$work/out.rawlog" \
+    --body-from-gt optical --gt-sigma-trans 0.0001 --gt-sigma-rot-deg 0.089,0.057,0.045 \
+    --report "$work/report"
+cp "$work/overlay/000100.jpg" docs/figures/overlay.jpg
+cp "$work/report/path-from-above.svg" docs/figures/path.svg
+cp "$work/report/nees-of-increments-of-1f.svg" docs/figures/nees.svg

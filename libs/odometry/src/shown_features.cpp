@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shown_features.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pointplane
+{
+namespace
+{
+/** Points that are found so close to each other are the same one [px]. */
+constexpr double kSamePoint = 3;
+
+/** A point counts for the pose when its robust weight is above this. */
+constexpr double kUsedWeight = 0.5;
+
+FeatureUse useOf(const FeatureResidual& point)
+{
+    return point.weight > kUsedWeight ? FeatureUse::Used : FeatureUse::Rejected;
+}
+
+/** Keeps of points of the same place the one that was used, else rejected, else new. */
+void keepEachOnce(std::vector<FrameFeatures::Point>& points)
+{
+    const auto row = [](const FrameFeatures::Point& p)
+    { return std::floor(p.uv_px.y() / kSamePoint); };
+    std::sort(
+        points.begin(),
+        points.end(),
+        [&](const auto& a, const auto& b)
+        {
+            return row(a) != row(b)             ? row(a) < row(b)
+                   : a.uv_px.x() != b.uv_px.x() ? a.uv_px.x() < b.uv_px.x()
+                                                : a.use < b.use;
+        });
+    auto rowAbove = points.begin(), thisRow = points.begin(), end = points.begin();  // of the kept
+    double current = -1;
+    for (const FrameFeatures::Point& point : points)
+    {
+        if (row(point) != current)
+        {
+            rowAbove = thisRow;
+            thisRow = end;
+            current = row(point);
+        }
+        const auto same = std::find_if(
+            rowAbove,
+            end,
+            [&](const auto& other)
+            { return (other.uv_px - point.uv_px).squaredNorm() < kSamePoint * kSamePoint; });
+        if (same == end)
+        {
+            *end++ = point;
+        }
+        else
+        {
+            same->use = std::min(same->use, point.use);
+        }
+    }
+    points.erase(end, points.end());
+}
+}  // namespace
+
+FrameFeatures shownPlanes(const Features& current)
+{
+    FrameFeatures out;
+    out.planes = current.planes;
+    out.planeUses.assign(current.planes.planes.size(), FeatureUse::New);
+    return out;
+}
+
+void showPairs(
+    const std::vector<Association>& associations,
+    const PoseAnalysis* analysis,
+    FrameFeatures& shown)
+{
+    size_t i = 0;  // in the order of PairBuilder
+    for (const Association& association : associations)
+    {
+        for (const PlaneMatch& match : association.planes)
+        {
+            shown.planeUses.at(static_cast<size_t>(match.cur)) =
+                analysis ? FeatureUse::Used : FeatureUse::Rejected;
+        }
+        for (const PointTrack& track : association.points)
+        {
+            shown.points.push_back(
+                {track.cur.uv_px,
+                 analysis ? useOf(analysis->pointResiduals.at(i++)) : FeatureUse::Rejected});
+        }
+    }
+    keepEachOnce(shown.points);
+}
+
+void showNewPoints(const PointReference& reference, FrameFeatures& shown)
+{
+    for (const PointFeature& point : reference.points)
+    {
+        shown.points.push_back({point.uv_px, FeatureUse::New});
+    }
+    keepEachOnce(shown.points);
+}
+}  // namespace pointplane

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pointplane/odometry/Features.h>
+#include <pointplane/odometry/OdometryResult.h>
+#include <pointplane/odometry/Reference.h>
+#include <pointplane/pose/PoseAnalysis.h>
+
+#include <vector>
+
+namespace pointplane
+{
+/** The planes of a frame, compared with nothing yet. */
+[[nodiscard]] FrameFeatures shownPlanes(const Features& current);
+
+/** What became of the features that were found again.
+ * \param analysis of the solution that these associations gave; null: the frame was not tracked */
+void showPairs(
+    const std::vector<Association>& associations,
+    const PoseAnalysis* analysis,
+    FrameFeatures& shown);
+
+/** Adds the points that a frame has been given as a reference, where there is none yet. */
+void showNewPoints(const PointReference& reference, FrameFeatures& shown);
+}  // namespace pointplane
