@@ -4,7 +4,6 @@
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/rawlog_names.h>
 
-#include <algorithm>
 #include <cmath>
 #include <ostream>
 
@@ -12,7 +11,8 @@
 #include "FolderRecording.h"
 #include "KlgRecording.h"
 #include "OutputGuard.h"
-#include "TumConverter.h"
+#include "TextOutput.h"
+#include "TumRecording.h"
 #include "convert_recording.h"
 #include "run_program.h"
 #include <CLI/CLI.hpp>
@@ -34,12 +34,25 @@ namespace
         "POSITIVE"};
 }
 
-void addTumCommand(CLI::App& app, TumConverterOptions& options)
+void addOutputOptions(CLI::App& command, RecordingOutput& output)
+{
+    command.add_option("-o,--output", output.path, "rawlog to write")->required();
+    command.add_option("--label", output.label, "sensor label")->capture_default_str();
+    auto* external =
+        command.add_flag("--external", output.external, "images as files beside the rawlog");
+    command.add_flag("--embedded", "images inside the rawlog (default)")->excludes(external);
+    command.add_flag(
+        "--strict",
+        output.strict,
+        "stop at a frame that cannot be read, instead of leaving it out");
+    command.add_flag("--quiet", output.quiet, "no progress");
+}
+
+void addTumCommand(CLI::App& app, TumOptions& options, RecordingOutput& output)
 {
     CLI::App* tum = app.add_subcommand("tum", "A folder of the TUM RGB-D benchmark's layout");
     tum->add_option("folder", options.folder, "holds rgb.txt, depth.txt and the images")
         ->required();
-    tum->add_option("-o,--output", options.output, "rawlog to write")->required();
     tum->add_option(
         "--camera",
         options.camera,
@@ -52,23 +65,7 @@ void addTumCommand(CLI::App& app, TumConverterOptions& options)
         ->check(isScale());
     tum->add_option("--max-difference", options.maxDifference, "between colour and depth [s]")
         ->capture_default_str();
-    tum->add_option("--label", options.label, "sensor label")->capture_default_str();
-    auto* external =
-        tum->add_flag("--external", options.external, "images as files beside the rawlog");
-    tum->add_flag("--embedded", "images inside the rawlog (default)")->excludes(external);
-    tum->add_flag("--quiet", options.quiet, "no progress");
-}
-
-void addOutputOptions(CLI::App& command, RecordingOutput& output)
-{
-    command.add_option("-o,--output", output.path, "rawlog to write")->required();
-    command.add_option("--label", output.label, "sensor label")->capture_default_str();
-    command.add_flag("--external", output.external, "images as files beside the rawlog");
-    command.add_flag(
-        "--strict",
-        output.strict,
-        "stop at a frame that cannot be read, instead of leaving it out");
-    command.add_flag("--quiet", output.quiet, "no progress");
+    addOutputOptions(*tum, output);
 }
 
 constexpr const char* kCameraHelp =
@@ -141,14 +138,9 @@ CLI::App* addBagCommand(CLI::App& app, BagOptions& options, RecordingOutput& out
 }
 
 /** \param inputs files or folders that are read */
-int convert(
-    Recording& recording,
-    const RecordingOutput& output,
-    const std::vector<std::string>& inputs,
-    std::ostream& out,
-    std::ostream& err)
+void keepApart(
+    const RecordingOutput& output, const std::vector<std::string>& inputs, OutputGuard& guard)
 {
-    OutputGuard guard;
     guard.addOutput("-o", output.path);
     if (output.external)
     {
@@ -158,26 +150,40 @@ int convert(
     {
         guard.addInput(input);
     }
+}
+
+/** \param inputs files or folders that are read */
+int convert(
+    Recording& recording,
+    const RecordingOutput& output,
+    const std::vector<std::string>& inputs,
+    std::ostream& out,
+    std::ostream& err)
+{
+    OutputGuard guard;
+    keepApart(output, inputs, guard);
     const RecordingSummary summary = convertRecording(recording, output, err);
     return report(summary, output, recording.notes(), out, err);
 }
 
-int convert(const TumConverterOptions& options, std::ostream& out, std::ostream& err)
+/** With the ground truth that comes with the images. */
+int convert(
+    TumRecording& recording, const RecordingOutput& output, std::ostream& out, std::ostream& err)
 {
-    const TumConversion done = convertTum(options, err);
-    out << options.output << ": " << done.numFrames << " frames\n";
-    if (done.numColourAlone + done.numDepthAlone > 0)
+    const std::string groundTruth = groundTruthOf(output.path);
+    OutputGuard guard;
+    guard.addOutput("ground truth of -o", groundTruth);
+    keepApart(output, recording.files(), guard);
+    const RecordingSummary summary = convertRecording(recording, output, err);
+    std::vector<std::string> notes = recording.notes();
+    if (!recording.groundTruth().empty())
     {
-        out << "left out, without a partner within " << options.maxDifference
-            << " s: " << done.numColourAlone << " colour and " << done.numDepthAlone
-            << " depth images\n";
+        TextOutput file(groundTruth);
+        file.write(recording.groundTruth());
+        file.close();
+        notes.push_back(groundTruth + ": ground truth");
     }
-    out << "depth after colour: " << std::round(1e4 * done.depthDelay) / 10 << " ms (median)\n";
-    if (!done.groundTruth.empty())
-    {
-        out << done.groundTruth << ": ground truth\n";
-    }
-    return kExitOk;
+    return report(summary, output, notes, out, err);
 }
 }  // namespace
 
@@ -186,12 +192,12 @@ int runConvert(const std::vector<std::string>& args, std::ostream& out, std::ost
     CLI::App app{"Converts RGB-D recordings to MRPT rawlogs, losslessly.", "pointplane-convert"};
     app.set_version_flag("--version", POINTPLANE_VERSION);
     app.require_subcommand(1);
-    TumConverterOptions options;
-    addTumCommand(app, options);
     RecordingOutput output;
+    TumOptions tumOptions;
     FolderOptions folderOptions;
     KlgOptions klgOptions;
     BagOptions bagOptions;
+    addTumCommand(app, tumOptions, output);
     const CLI::App* folder = addFolderCommand(app, folderOptions, output);
     const CLI::App* klg = addKlgCommand(app, klgOptions, output);
     const CLI::App* bag = addBagCommand(app, bagOptions, output);
@@ -218,7 +224,8 @@ int runConvert(const std::vector<std::string>& args, std::ostream& out, std::ost
                 const auto recording = openBag(bagOptions);
                 return convert(*recording, output, {bagOptions.file, bagOptions.camera}, out, err);
             }
-            return convert(options, out, err);
+            TumRecording recording(tumOptions);
+            return convert(recording, output, out, err);
         });
 }
 }  // namespace pointplane

@@ -2,6 +2,7 @@
 #include "FolderRecording.h"
 
 #include <pointplane/evaluation/association.h>
+#include <pointplane/mrpt_io/image_file.h>
 #include <pointplane/mrpt_io/mrpt_poses.h>
 
 #include <opencv2/imgcodecs.hpp>
@@ -25,20 +26,14 @@ constexpr std::uint16_t kNoReading = 65535;  //!< 7-Scenes; farther than any cam
 
 [[nodiscard]] cv::Mat readImage(const std::string& path, int flags)
 {
-    cv::Mat image;
     try
     {
-        image = cv::imread(path, flags);
+        return readImageFile(path, flags);
     }
-    catch (const cv::Exception& e)
+    catch (const InputError& e)
     {
-        throw BadFrame(path + ": " + e.err);
+        throw BadFrame(e.what());
     }
-    if (image.empty())
-    {
-        throw BadFrame(path + ": is not an image that can be read, or damaged");
-    }
-    return image;
 }
 
 [[nodiscard]] std::string sizeText(const cv::Mat& image)

@@ -38,12 +38,10 @@ class DelayWriter
  private:
     ShutterModel shutter_;
 };
-}  // namespace
-
-RecordingSummary convertRecording(
-    Recording& recording, const RecordingOutput& output, std::ostream& progress)
+/** \throws as convertRecording() */
+[[nodiscard]] RecordingSummary writeFrames(
+    Recording& recording, const RecordingOutput& output, ScanWriter& writer, std::ostream& progress)
 {
-    ScanWriter writer(output.path, output.label, output.external);
     std::optional<ProgressBar> bar;
     if (!output.quiet)
     {
@@ -52,19 +50,21 @@ RecordingSummary convertRecording(
     RecordingSummary out;
     DelayWriter delays;
     std::vector<double> stamps;
-    for (;;)
+    for (bool more = true; more;)
     {
         try
         {
-            const auto frame = recording.next();
-            if (!frame)
+            if (const auto frame = recording.next())
             {
-                break;
+                delays.write(writer, output.label, *frame);
+                writer.write(frame->scan);
+                stamps.push_back(toSeconds(frame->scan.stamp));
+                ++out.numFrames;
             }
-            delays.write(writer, output.label, *frame);
-            writer.write(frame->scan);
-            stamps.push_back(toSeconds(frame->scan.stamp));
-            ++out.numFrames;
+            else
+            {
+                more = false;
+            }
         }
         catch (const BadFrame& bad)
         {
@@ -95,9 +95,30 @@ RecordingSummary convertRecording(
     {
         throw InputError(out.damage);
     }
-    writer.close();
     out.stamps = problemOfStamps(stamps);
     return out;
+}
+}  // namespace
+
+RecordingSummary convertRecording(
+    Recording& recording, const RecordingOutput& output, std::ostream& progress)
+{
+    ScanWriter writer(output.path, output.label, output.external);
+    try
+    {
+        RecordingSummary out = writeFrames(recording, output, writer, progress);
+        writer.close();
+        return out;
+    }
+    catch (const EnvironmentError&)
+    {
+        throw;  // what was written may be wanted
+    }
+    catch (...)
+    {
+        writer.discard();
+        throw;
+    }
 }
 
 int report(

@@ -67,6 +67,20 @@ std::string behindText(const std::optional<BootstrapInterval>& behind, bool best
         behind->excludesZero() ? "" : " ns");
 }
 
+/** What a reader must know of runs that have different frames; empty otherwise. */
+std::string noteOf(const Comparison& c)
+{
+    return c.sameFrames ? ""
+           : c.numCommonPairs >= 2
+               ? format(
+                     "the runs have different frames: mm and deg are those of the %zu pairs that "
+                     "all "
+                     "of them have; ATE, pairs and cover are each run's own",
+                     c.numCommonPairs)
+               : "the runs have different frames and fewer than two pairs in common: their errors "
+                 "cannot be compared";
+}
+
 void printTable(const Comparison& c, const std::string& protocol, std::ostream& out)
 {
     out << "Comparison of " << c.runs.size() << " runs: " << protocol << "\n"
@@ -101,6 +115,10 @@ void printTable(const Comparison& c, const std::string& protocol, std::ostream& 
             r.rpe.translation.count,
             100 * r.rpe.coverage.share);
     }
+    if (!c.sameFrames)
+    {
+        out << "\n" << noteOf(c) << "\n";
+    }
 }
 
 nlohmann::ordered_json intervalJson(const BootstrapInterval& interval, double unit)
@@ -120,6 +138,11 @@ nlohmann::ordered_json toJson(const Comparison& c, const std::string& protocol)
     json["bestTranslation"] = c.runs[c.bestTranslation].name;
     json["bestRotation"] = c.runs[c.bestRotation].name;
     json["bestAte"] = c.runs[c.bestAte].name;
+    json["pairsInCommon"] = c.numCommonPairs;
+    if (!c.sameFrames)
+    {
+        json["note"] = noteOf(c);
+    }
     for (const ComparedRun& r : c.runs)
     {
         nlohmann::ordered_json run;
@@ -171,7 +194,9 @@ HtmlReport reportOf(
     const Trajectory& truth,
     const std::vector<Trajectory>& estimates)
 {
-    HtmlReport report(format("Comparison of %zu runs", c.runs.size()), protocol);
+    HtmlReport report(
+        format("Comparison of %zu runs", c.runs.size()),
+        protocol + (c.sameFrames ? "" : "; " + noteOf(c)));
     std::vector<std::vector<std::string>> rows;
     std::vector<DrawnPath> paths;
     std::vector<Chart> errors;

@@ -2,6 +2,7 @@
 #include "overlay.h"
 
 #include <pointplane/mrpt_io/errors.h>
+#include <pointplane/mrpt_io/image_file.h>
 
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -369,10 +370,7 @@ void OverlaySink::add(const OutputItem& item)
         item.source.frameIndex,
         frame.stamp - *firstStamp_,
         speed);
-    if (!cv::imwrite(path, picture, {cv::IMWRITE_JPEG_QUALITY, 90}))
-    {
-        throw EnvironmentError("cannot write " + path);
-    }
+    writeImageFile(path, picture, {cv::IMWRITE_JPEG_QUALITY, 90});
     ++numPictures_;
 }
 

@@ -4,10 +4,9 @@
 #include <pointplane/mrpt_io/ObservationConverter.h>
 #include <pointplane/mrpt_io/ScanWriter.h>
 #include <pointplane/mrpt_io/errors.h>
+#include <pointplane/mrpt_io/image_file.h>
 #include <pointplane/mrpt_io/mrpt_poses.h>
 #include <pointplane/mrpt_io/rawlog_names.h>
-
-#include <opencv2/imgcodecs.hpp>
 
 #include <algorithm>
 #include <cstdio>
@@ -75,10 +74,7 @@ void writeMasks(const SimulatedSequence& sequence, const std::string& folder)
     {
         char name[32];
         std::snprintf(name, sizeof name, "/%06d.png", i);
-        if (!cv::imwrite(folder + name, sequence.trueMovers(i).labels))
-        {
-            throw EnvironmentError(folder + name + ": cannot be written");
-        }
+        writeImageFile(folder + name, sequence.trueMovers(i).labels);
     }
 }
 

@@ -243,14 +243,36 @@ TEST_F(ConvertApp, mistakesAreNamed)
     writeBytes(dir_ / "in/depth.txt", listing);
     expect("is 32x24 but the camera is for 640x480", {"--camera", "fr3"});
     cv::imwrite(dir_ / "in/depth/0.png", colours_[0]);
-    expect("depth/0.png: is not a 16 bit depth image");
+    expect("depth/0.png: is not a 16 bit depth image", {"--strict"});
     std::filesystem::remove(dir_ / "in/depth/0.png");
-    expect("cannot open " + in_ + "/depth/0.png: no such file");
+    expect("cannot open " + in_ + "/depth/0.png: no such file", {"--strict"});
+    std::filesystem::rename(dir_ / "in/rgb", dir_ / "in/elsewhere");
+    std::filesystem::rename(dir_ / "in/depth", dir_ / "in/elsewhere2");
+    expect("cannot open " + in_ + "/depth: no such folder\n");
     std::filesystem::remove(dir_ / "in/camera.txt");
     expect("say --camera");
     std::ostringstream out, err;
     EXPECT_EQ(runConvert({"tum", dir_ / "none", "-o", out_}, out, err), kExitBadInput);
     EXPECT_THAT(err.str(), HasSubstr("none: is not a folder"));
+}
+
+TEST_F(ConvertApp, aBadImageIsLeftOutAndNamed)
+{
+    const std::string whole = test::readBytes(dir_ / "in/depth/0.png");
+    writeBytes(dir_ / "in/depth/0.png", whole.substr(0, whole.size() / 2));
+    EXPECT_EQ(run({in_, "-o", out_}), kExitIncomplete);
+    EXPECT_THAT(text_, HasSubstr("left out: " + in_ + "/depth/0.png: stops before the end"));
+    EXPECT_EQ(scansOf(out_).size(), 1U);
+    EXPECT_TRUE(std::filesystem::exists(dir_ / "out.groundtruth.txt"));
+}
+
+TEST_F(ConvertApp, groundTruthThatCannotBeReadLeavesNothing)
+{
+    std::filesystem::remove(dir_ / "in/groundtruth.txt");
+    std::filesystem::create_directory(dir_ / "in/groundtruth.txt");
+    EXPECT_EQ(run({in_, "-o", out_}), kExitBadInput);
+    EXPECT_THAT(text_, HasSubstr(in_ + "/groundtruth.txt: not a file"));
+    EXPECT_FALSE(std::filesystem::exists(out_ + ".partial"));
 }
 
 TEST_F(ConvertApp, realFolders)

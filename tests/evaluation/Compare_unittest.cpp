@@ -106,6 +106,22 @@ TEST(Compare, findsTheBestAndHowSureThatIs)
     EXPECT_EQ(c.runs[0].pairsInCommon, c.runs[0].rpe.pairs.size());
 }
 
+TEST(Compare, whoGivesUpBeforeTheHardPartIsNotTheBest)
+{
+    const Trajectory truth = randomTrajectory(400, 1);
+    Trajectory whole = perturbed(truth, 0.01, 2);
+    const Trajectory hard = perturbed(truth, 0.2, 3);
+    std::copy(hard.poses.begin() + 200, hard.poses.end(), whole.poses.begin() + 200);
+    Trajectory half = perturbed(truth, 0.03, 4);
+    half.stamps.resize(200);
+    half.poses.resize(200);
+    const Comparison c = compareRuns(truth, {half, whole}, overOneSecond(), {}, {});
+    EXPECT_EQ(c.bestTranslation, 1u);
+    EXPECT_LT(c.runs[1].translation.value, 0.5 * c.runs[0].translation.value);
+    EXPECT_GT(c.runs[0].translationBehindBest->lower, 0);
+    EXPECT_TRUE(compareRuns(truth, {whole, whole}, overOneSecond(), {}, {}).sameFrames);
+}
+
 TEST(Compare, onlyPairsThatBothRunsHaveCount)
 {
     const Trajectory truth = randomTrajectory(200, 1);
@@ -116,6 +132,9 @@ TEST(Compare, onlyPairsThatBothRunsHaveCount)
     const Comparison c = compareRuns(truth, runs, overOneSecond(), {}, {});
     EXPECT_EQ(c.runs[0].pairsInCommon, c.runs[0].rpe.pairs.size());
     EXPECT_LT(c.runs[0].pairsInCommon, c.runs[1].rpe.pairs.size());
+
+    EXPECT_FALSE(c.sameFrames);
+    EXPECT_EQ(c.numCommonPairs, c.runs[0].pairsInCommon);
 
     Trajectory shifted = perturbed(truth, 0.05, 2);
     for (double& stamp : shifted.stamps)

@@ -192,6 +192,32 @@ TEST(ParamsIni, odometryParametersRoundTripAndAreChecked)
     }
 }
 
+TEST(OdometryParamsIni, everyNumberHasARange)
+{
+    OdometryParams params;
+    for (const auto& p : parametersOf(params))
+    {
+        const std::string key = p.section + "." + p.key;
+        const bool isInt = std::holds_alternative<int*>(p.value);
+        if (!isInt && !std::holds_alternative<double*>(p.value))
+        {
+            continue;
+        }
+        for (const char* value : {isInt ? "2147483647" : "1e12", isInt ? "-2147483648" : "-1e12"})
+        {
+            try
+            {
+                (void)loadOdometryParams("", {key + "=" + value});
+                ADD_FAILURE() << key << " may be " << value;
+            }
+            catch (const InputError& e)
+            {
+                EXPECT_THAT(e.what(), HasSubstr("[" + p.section + "] " + p.key + " = "));
+            }
+        }
+    }
+}
+
 TEST(LoadableParams, worksAsMrptsLoadableOptions)
 {
     mrpt::config::CConfigFileMemory ini(std::string("[any]\ncount = 9 // nine\ngain=0.25\n"));

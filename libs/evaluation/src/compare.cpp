@@ -3,7 +3,9 @@
 #include <pointplane/evaluation/compare.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
+#include <set>
 
 namespace pointplane
 {
@@ -61,6 +63,34 @@ CommonErrors commonErrors(
     return out;
 }
 
+using StampPair = std::pair<double, double>;
+
+std::set<StampPair> stampPairsOf(const Trajectory& estimate, const RpeResult& result)
+{
+    std::set<StampPair> out;
+    for (const RpePair& pair : result.pairs)
+    {
+        out.emplace(estimate.stamps[pair.i], estimate.stamps[pair.j]);
+    }
+    return out;
+}
+
+/** Pairs of stamps that all runs have. */
+std::set<StampPair> commonPairs(
+    const std::vector<Trajectory>& estimates, const std::vector<ComparedRun>& runs)
+{
+    std::set<StampPair> out = stampPairsOf(estimates[0], runs[0].rpe);
+    for (std::size_t k = 1; k < runs.size(); ++k)
+    {
+        const std::set<StampPair> own = stampPairsOf(estimates[k], runs[k].rpe);
+        std::set<StampPair> both;
+        std::set_intersection(
+            out.begin(), out.end(), own.begin(), own.end(), std::inserter(both, both.end()));
+        out = std::move(both);
+    }
+    return out;
+}
+
 template <class Value>
 std::size_t smallest(const std::vector<ComparedRun>& runs, Value value)
 {
@@ -88,10 +118,31 @@ Comparison compareRuns(
         run.name = estimate.name;
         run.rpe = relativePoseError(groundTruth, estimate, rpe);
         run.ate = absoluteTrajectoryError(groundTruth, estimate, ate);
-        options.blockLength = blockLengthOf(run.rpe);
-        run.translation = bootstrapRmse(errorsOf(run.rpe, &RpePair::translation), options);
-        run.rotation = bootstrapRmse(errorsOf(run.rpe, &RpePair::rotation), options);
         out.runs.push_back(std::move(run));
+    }
+    const std::set<StampPair> common = commonPairs(estimates, out.runs);
+    out.numCommonPairs = common.size();
+    for (std::size_t k = 0; k < estimates.size(); ++k)
+    {
+        ComparedRun& run = out.runs[k];
+        RpeResult scored = run.rpe;
+        if (run.rpe.pairs.size() != common.size())
+        {
+            out.sameFrames = false;
+        }
+        if (common.size() >= 2)
+        {
+            const auto isNotCommon = [&](const RpePair& pair) {
+                return common.count({estimates[k].stamps[pair.i], estimates[k].stamps[pair.j]}) ==
+                       0;
+            };
+            scored.pairs.erase(
+                std::remove_if(scored.pairs.begin(), scored.pairs.end(), isNotCommon),
+                scored.pairs.end());
+        }
+        options.blockLength = blockLengthOf(scored);
+        run.translation = bootstrapRmse(errorsOf(scored, &RpePair::translation), options);
+        run.rotation = bootstrapRmse(errorsOf(scored, &RpePair::rotation), options);
     }
     out.bestTranslation = smallest(out.runs, [](const auto& r) { return r.translation.value; });
     out.bestRotation = smallest(out.runs, [](const auto& r) { return r.rotation.value; });
@@ -100,13 +151,13 @@ Comparison compareRuns(
     const auto behind = [&](std::size_t k, std::size_t best, double RpePair::*error)
     {
         ComparedRun& run = out.runs[k];
-        const CommonErrors common =
+        const CommonErrors both =
             commonErrors(estimates[k], run.rpe, estimates[best], out.runs[best].rpe, error);
-        run.pairsInCommon = common.a.size();
+        run.pairsInCommon = both.a.size();
         options.blockLength = blockLengthOf(run.rpe);
-        return k == best || common.a.size() < 2
+        return k == best || both.a.size() < 2
                    ? std::nullopt
-                   : std::optional(bootstrapRmseDifference(common.a, common.b, options));
+                   : std::optional(bootstrapRmseDifference(both.a, both.b, options));
     };
     for (std::size_t k = 0; k < out.runs.size(); ++k)
     {

@@ -2,10 +2,12 @@
 #include <pointplane/mrpt_io/ObservationConverter.h>
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/external_range.h>
+#include <pointplane/mrpt_io/image_file.h>
 #include <pointplane/mrpt_io/mrpt_poses.h>
 
 #include <mrpt/img/CImage.h>
 
+#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
@@ -14,7 +16,6 @@
 #include <optional>
 
 #include "DepthRegistration.h"
-#include "external_image.h"
 #include "shutterText.h"
 
 namespace pointplane
@@ -170,7 +171,8 @@ cv::Mat ObservationConverter::Impl::intensityOf(const CObservation3DRangeScan& s
     const mrpt::img::CImage& image = scan.intensityImage;
     if (image.isExternallyStored())
     {
-        return grayOf(readExternalImage(resolved(image.getExternalStorageFile())));
+        return grayOf(readImageFile(
+            resolved(image.getExternalStorageFile()), cv::IMREAD_ANYCOLOR | cv::IMREAD_ANYDEPTH));
     }
     require(!image.isEmpty(), "intensity image is empty");
     return grayOf(image.asCvMatRef());

@@ -3,6 +3,7 @@
 #include <pointplane/mrpt_io/ScanWriter.h>
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/external_range.h>
+#include <pointplane/mrpt_io/image_file.h>
 #include <pointplane/mrpt_io/mrpt_poses.h>
 #include <pointplane/mrpt_io/rawlog_names.h>
 
@@ -82,21 +83,18 @@ std::string writeColourFile(
     const std::string name =
         stamp + "_rgb" + (copied ? fs::path(scan.colourFile).extension().string() : ".png");
     const std::string path = (fs::path(folder) / name).string();
+    if (!copied)
+    {
+        writeImageFile(path, scan.colour, {cv::IMWRITE_PNG_COMPRESSION, 1});
+        return name;
+    }
     std::error_code error;
-    bool written = false;
-    if (copied)
+    fs::copy_file(scan.colourFile, path, fs::copy_options::overwrite_existing, error);
+    if (error)
     {
-        fs::copy_file(scan.colourFile, path, fs::copy_options::overwrite_existing, error);
-        written = !error;
-    }
-    else
-    {
-        written = cv::imwrite(path, scan.colour, {cv::IMWRITE_PNG_COMPRESSION, 1});
-    }
-    if (!written)
-    {
-        throw EnvironmentError(
-            "cannot write " + path + (error ? ": " + error.message() : std::string()));
+        std::error_code ignored;
+        fs::remove(path, ignored);
+        throw EnvironmentError("cannot write " + path + ": " + error.message());
     }
     return name;
 }

@@ -2,15 +2,12 @@
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/external_range.h>
 
-#include <opencv2/imgcodecs.hpp>
-
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <vector>
 
 #include "GzInput.h"
-#include "external_image.h"
 
 namespace pointplane
 {
@@ -74,6 +71,8 @@ void moveRangeToFile(
     }
     if (!same)
     {
+        std::error_code ignored;
+        std::filesystem::remove(path, ignored);
         throw EnvironmentError("cannot write " + path + ": disk full or not writable");
     }
 }
@@ -120,28 +119,5 @@ bool makeExternalsAbsolute(mrpt::obs::CObservation3DRangeScan& scan, const std::
         }
     }
     return changed;
-}
-
-cv::Mat readExternalImage(const std::string& path)
-{
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(path, error))
-    {
-        throw InputError("cannot open " + path + ": no such file");
-    }
-    cv::Mat image;
-    try
-    {
-        image = cv::imread(path, cv::IMREAD_ANYCOLOR | cv::IMREAD_ANYDEPTH);
-    }
-    catch (const cv::Exception& e)
-    {
-        throw InputError(path + ": " + e.err);
-    }
-    if (image.empty())
-    {
-        throw InputError(path + ": is not an image, or damaged");
-    }
-    return image;
 }
 }  // namespace pointplane

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/core/check.h>
 #include <pointplane/core/choice.h>
+#include <pointplane/core/range.h>
 #include <pointplane/odometry/OdometryParams.h>
 
 #include <stdexcept>
@@ -23,14 +24,11 @@ void PipelineParams::check() const
     POINTPLANE_CHECK(usePoints || usePlanes, "usePoints and usePlanes are both off");
     (void)fuses();
     (void)searchesAhead();
-    POINTPLANE_CHECK(gateSigma > 0, "gateSigma = " << gateSigma << " is not positive");
-    POINTPLANE_CHECK(maxPointChi2 > 0, "maxPointChi2 = " << maxPointChi2 << " is not positive");
-    POINTPLANE_CHECK(
-        leastAgreement >= 0 && leastAgreement < 1,
-        "leastAgreement = " << leastAgreement << " is not in [0, 1)");
-    POINTPLANE_CHECK(maxGap > 0, "maxGap = " << maxGap << " is not positive");
-    POINTPLANE_CHECK(
-        numThreads == 1 || numThreads == 2, "numThreads = " << numThreads << " is not 1 or 2");
+    checkRange("gateSigma", gateSigma, 1e-6, 10);
+    checkRange("maxPointChi2", maxPointChi2, 1e-9, 1e6);
+    checkRange("leastAgreement", leastAgreement, 0, 0.99);
+    checkRange("maxGap", maxGap, 0.001, 3600);
+    checkRange("numThreads", numThreads, 1, 2);
 }
 
 void OdometryParams::check() const

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/core/check.h>
 #include <pointplane/core/choice.h>
+#include <pointplane/core/range.h>
 #include <pointplane/core/se3.h>
 #include <pointplane/odometry/ReferenceWindow.h>
 
@@ -21,18 +22,11 @@ bool ReferenceWindow::TParams::isAdjacent() const { return reference == "adjacen
 void ReferenceWindow::TParams::check() const
 {
     (void)isFrameToFrame();
-    POINTPLANE_CHECK(
-        maxKeyframes >= 1 && maxKeyframes <= 50,
-        "maxKeyframes = " << maxKeyframes << " is not in 1..50");
-    POINTPLANE_CHECK(
-        maxPlaces >= 0 && maxPlaces <= 1000, "maxPlaces = " << maxPlaces << " is not in 0..1000");
-    POINTPLANE_CHECK(
-        keyframeDistance > 0, "keyframeDistance = " << keyframeDistance << " is not positive");
-    POINTPLANE_CHECK(
-        keyframeAngleDeg > 0, "keyframeAngleDeg = " << keyframeAngleDeg << " is not positive");
-    POINTPLANE_CHECK(
-        keyframeMinOverlap >= 0 && keyframeMinOverlap < 1,
-        "keyframeMinOverlap = " << keyframeMinOverlap << " is not in [0, 1)");
+    checkRange("maxKeyframes", maxKeyframes, 1, 50);
+    checkRange("maxPlaces", maxPlaces, 0, 1000);
+    checkRange("keyframeDistance", keyframeDistance, 0.001, 100);
+    checkRange("keyframeAngleDeg", keyframeAngleDeg, 0.1, 180);
+    checkRange("keyframeMinOverlap", keyframeMinOverlap, 0, 0.99);
 }
 
 ReferenceWindow::ReferenceWindow(const TParams& params)

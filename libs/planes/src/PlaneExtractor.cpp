@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/core/check.h>
+#include <pointplane/core/range.h>
 #include <pointplane/planes/PlaneClustering.h>
 #include <pointplane/planes/PlaneExtractor.h>
 #include <pointplane/planes/PlaneFitter.h>
@@ -218,20 +219,14 @@ class LabelPainter
 
 void PlaneExtractor::TParams::check() const
 {
-    POINTPLANE_CHECK(
-        cellSizePx >= 4 && cellSizePx <= 64, "cellSizePx = " << cellSizePx << " is not in 4..64");
-    POINTPLANE_CHECK(
-        minValidFraction > 0 && minValidFraction <= 1,
-        "minValidFraction = " << minValidFraction << " is not in (0, 1]");
-    POINTPLANE_CHECK(
-        minPlaneFraction > 0 && minPlaneFraction <= 1,
-        "minPlaneFraction = " << minPlaneFraction << " is not in (0, 1]");
-    POINTPLANE_CHECK(cellSigmas > 0, "cellSigmas = " << cellSigmas << " is not positive");
-    POINTPLANE_CHECK(mergeSigmas > 0, "mergeSigmas = " << mergeSigmas << " is not positive");
-    POINTPLANE_CHECK(stepSigmas > 0, "stepSigmas = " << stepSigmas << " is not positive");
-    POINTPLANE_CHECK(slopePx >= 0, "slopePx = " << slopePx << " is negative");
-    POINTPLANE_CHECK(
-        correlatedPixels >= 1, "correlatedPixels = " << correlatedPixels << " is below 1");
+    checkRange("cellSizePx", cellSizePx, 4, 64);
+    checkRange("minValidFraction", minValidFraction, 0.01, 1);
+    checkRange("minPlaneFraction", minPlaneFraction, 1e-4, 1);
+    checkRange("cellSigmas", cellSigmas, 0.1, 100);
+    checkRange("mergeSigmas", mergeSigmas, 0.1, 100);
+    checkRange("stepSigmas", stepSigmas, 0.1, 100);
+    checkRange("slopePx", slopePx, 0, 100);
+    checkRange("correlatedPixels", correlatedPixels, 1, 1e5);
     POINTPLANE_CHECK(
         fitWeights == "inverseDepth" || fitWeights == "sigmaZ",
         "fitWeights = " << fitWeights << " is neither inverseDepth nor sigmaZ");

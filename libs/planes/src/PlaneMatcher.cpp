@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pointplane/core/check.h>
+#include <pointplane/core/range.h>
 #include <pointplane/planes/PlaneMatcher.h>
 
 #include <algorithm>
@@ -102,12 +102,9 @@ OverlapCounts countOverlaps(
 
 void PlaneMatcher::TParams::check() const
 {
-    POINTPLANE_CHECK(
-        minOverlap > 0 && minOverlap <= 1, "minOverlap = " << minOverlap << " is not in (0, 1]");
-    POINTPLANE_CHECK(
-        maxNormalAngleDeg > 0 && maxNormalAngleDeg <= 90,
-        "maxNormalAngleDeg = " << maxNormalAngleDeg << " is not in (0, 90]");
-    POINTPLANE_CHECK(maxDistance > 0, "maxDistance = " << maxDistance << " is not positive");
+    checkRange("minOverlap", minOverlap, 0.01, 1);
+    checkRange("maxNormalAngleDeg", maxNormalAngleDeg, 0.1, 90);
+    checkRange("maxDistance", maxDistance, 1e-4, 10);
 }
 
 PlaneMatcher::PlaneMatcher(const TParams& params) : params_(params) { params_.check(); }

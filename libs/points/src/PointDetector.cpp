@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/core/check.h>
+#include <pointplane/core/range.h>
 #include <pointplane/points/PointDetector.h>
 
 #include <opencv2/features2d.hpp>
@@ -155,15 +156,12 @@ void PointDetector::TParams::check() const
     POINTPLANE_CHECK(
         std::find(known.begin(), known.end(), detector) != known.end(),
         "detector = " << detector << " is not surf, orb, akaze, sift or fast");
-    POINTPLANE_CHECK(maxPoints > 0, "maxPoints = " << maxPoints << " is not positive");
-    POINTPLANE_CHECK(gridCellPx > 0, "gridCellPx = " << gridCellPx << " is not positive");
-    POINTPLANE_CHECK(surfThreshold > 0, "surfThreshold = " << surfThreshold << " is not positive");
-    POINTPLANE_CHECK(
-        fastThreshold > 0 && fastThreshold < 255,
-        "fastThreshold = " << fastThreshold << " is not in (0, 255)");
-    POINTPLANE_CHECK(
-        akazeThreshold > 0, "akazeThreshold = " << akazeThreshold << " is not positive");
-    POINTPLANE_CHECK(siftThreshold > 0, "siftThreshold = " << siftThreshold << " is not positive");
+    checkRange("maxPoints", maxPoints, 1, 100000);
+    checkRange("gridCellPx", gridCellPx, 1, 10000);
+    checkRange("surfThreshold", surfThreshold, 1e-3, 1e6);
+    checkRange("fastThreshold", fastThreshold, 1, 254);
+    checkRange("akazeThreshold", akazeThreshold, 1e-9, 1);
+    checkRange("siftThreshold", siftThreshold, 1e-6, 1);
 }
 
 PointDetector::PointDetector(const TParams& params) : impl_(std::make_unique<Impl>())

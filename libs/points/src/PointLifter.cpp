@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/core/check.h>
+#include <pointplane/core/range.h>
 #include <pointplane/points/PointLifter.h>
 
 #include <opencv2/core.hpp>
@@ -61,11 +62,10 @@ void PointLifter::TParams::check() const
     POINTPLANE_CHECK(
         depthModel == "nearest" || depthModel == "mixture",
         "depthModel = " << depthModel << " is not nearest or mixture");
-    POINTPLANE_CHECK(maxEdgeSigmas >= 0, "maxEdgeSigmas = " << maxEdgeSigmas << " is negative");
-    POINTPLANE_CHECK(
-        minValidPixels >= 1 && minValidPixels <= 9,
-        "minValidPixels = " << minValidPixels << " is not in [1, 9]");
-    POINTPLANE_CHECK(minDepth > 0, "minDepth = " << minDepth << " is not positive");
+    checkRange("maxEdgeSigmas", maxEdgeSigmas, 0, 1e4);
+    checkRange("minValidPixels", minValidPixels, 1, 9);
+    checkRange("minDepth", minDepth, 1e-3, 1000);
+    checkRange("maxDepth", maxDepth, 1e-3, 1e4);
     POINTPLANE_CHECK(
         maxDepth > minDepth, "maxDepth = " << maxDepth << " is not above minDepth = " << minDepth);
 }
@@ -74,7 +74,6 @@ PointLifter::PointLifter(const TParams& params, const DepthNoise& noise)
     : params_(params), noise_(noise)
 {
     params.check();
-    noise.check();
 }
 
 std::optional<PointFeature> PointLifter::lift(

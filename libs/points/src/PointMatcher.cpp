@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/core/check.h>
+#include <pointplane/core/range.h>
 #include <pointplane/points/PointMatcher.h>
 
 #include <opencv2/core.hpp>
@@ -145,12 +146,9 @@ void checkInput(const Positions& points, const cv::Mat& descriptors, const char*
 
 void PointMatcher::TParams::check() const
 {
-    POINTPLANE_CHECK(
-        searchRadiusPx >= 1 && searchRadiusPx < 1e5,  // the grid of points has cells of this size
-        "searchRadiusPx = " << searchRadiusPx << " is not in [1, 100000)");
-    POINTPLANE_CHECK(neighbours >= 0, "neighbours = " << neighbours << " is negative");
-    POINTPLANE_CHECK(
-        maxRatio > 0 && maxRatio <= 1, "maxRatio = " << maxRatio << " is not in (0, 1]");
+    checkRange("searchRadiusPx", searchRadiusPx, 1, 5e4);
+    checkRange("neighbours", neighbours, 0, 10000);
+    checkRange("maxRatio", maxRatio, 0.01, 1);
 }
 
 PointMatcher::PointMatcher(const TParams& params) : params_(params) { params.check(); }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pointplane/core/check.h>
 #include <pointplane/core/covariance.h>
+#include <pointplane/core/range.h>
 #include <pointplane/points/PointTracker.h>
 
 #include <opencv2/core/utility.hpp>
@@ -170,29 +170,17 @@ bool PointReference::isDue(size_t point) const
 
 void PointTracker::TParams::check() const
 {
-    POINTPLANE_CHECK(
-        maxPoints >= 1 && maxPoints <= 100000,
-        "maxPoints = " << maxPoints << " is not in 1..100000");
-    POINTPLANE_CHECK(minPoints >= 0, "minPoints = " << minPoints << " is negative");
-    POINTPLANE_CHECK(
-        minSpacingFraction > 0 && minSpacingFraction < 1,
-        "minSpacingFraction = " << minSpacingFraction << " is not in (0, 1)");
-    POINTPLANE_CHECK(
-        cornerQuality > 0 && cornerQuality < 1,
-        "cornerQuality = " << cornerQuality << " is not in (0, 1)");
-    POINTPLANE_CHECK(
-        windowPx >= 5 && windowPx <= 63, "windowPx = " << windowPx << " is not in 5..63");
-    POINTPLANE_CHECK(
-        numLevels >= 1 && numLevels <= 8, "numLevels = " << numLevels << " is not in 1..8");
-    POINTPLANE_CHECK(
-        searchRadiusFraction > 0,
-        "searchRadiusFraction = " << searchRadiusFraction << " is not positive");
-    POINTPLANE_CHECK(minZncc >= 0 && minZncc < 1, "minZncc = " << minZncc << " is not in [0, 1)");
-    POINTPLANE_CHECK(sigmaPx > 0, "sigmaPx = " << sigmaPx << " is not positive");
-    POINTPLANE_CHECK(maxNoisePx > 0, "maxNoisePx = " << maxNoisePx << " is not positive");
-    POINTPLANE_CHECK(
-        depthVarianceFactor > 0,
-        "depthVarianceFactor = " << depthVarianceFactor << " is not positive");
+    checkRange("maxPoints", maxPoints, 1, 100000);
+    checkRange("minPoints", minPoints, 0, 100000);
+    checkRange("minSpacingFraction", minSpacingFraction, 1e-4, 0.99);
+    checkRange("cornerQuality", cornerQuality, 1e-9, 0.99);
+    checkRange("maxNoisePx", maxNoisePx, 0.001, 100);
+    checkRange("windowPx", windowPx, 5, 63);
+    checkRange("numLevels", numLevels, 1, 8);
+    checkRange("searchRadiusFraction", searchRadiusFraction, 0.001, 1);
+    checkRange("minZncc", minZncc, 0, 0.999);
+    checkRange("sigmaPx", sigmaPx, 0.001, 10);
+    checkRange("depthVarianceFactor", depthVarianceFactor, 0.01, 100);
 }
 
 PointTracker::PointTracker(

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pointplane/core/check.h>
 #include <pointplane/core/choice.h>
 #include <pointplane/core/covariance.h>
+#include <pointplane/core/range.h>
 #include <pointplane/core/se3.h>
 #include <pointplane/pose/PoseSolver.h>
 
@@ -172,15 +172,11 @@ void PoseSolver::TParams::check() const
     (void)weightingOf(*this);
     (void)planeResidualOf(*this);
     (void)covarianceFormOf(*this);
-    POINTPLANE_CHECK(alpha >= 0, "alpha = " << alpha << " is negative");
-    POINTPLANE_CHECK(tukeySigmas >= 0, "tukeySigmas = " << tukeySigmas << " is negative");
-    POINTPLANE_CHECK(
-        planeStudentDof >= 0, "planeStudentDof = " << planeStudentDof << " is negative");
-    POINTPLANE_CHECK(
-        priorStudentDof >= 0, "priorStudentDof = " << priorStudentDof << " is negative");
-    POINTPLANE_CHECK(
-        maxIterations >= 1 && maxIterations <= 1000,
-        "maxIterations = " << maxIterations << " is not in 1..1000");
+    checkRange("alpha", alpha, 0, 1000);
+    checkRange("tukeySigmas", tukeySigmas, 0, 1000);
+    checkRange("planeStudentDof", planeStudentDof, 0, 1e4);
+    checkRange("priorStudentDof", priorStudentDof, 0, 1e4);
+    checkRange("maxIterations", maxIterations, 1, 1000);
 }
 
 PoseSolver::PoseSolver(const TParams& params)

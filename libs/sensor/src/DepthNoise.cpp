@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pointplane/core/check.h>
+#include <pointplane/core/range.h>
 #include <pointplane/sensor/DepthNoise.h>
 
 #include <algorithm>
@@ -19,17 +19,10 @@ void DepthNoise::check() const
         "kind = "
             << kind
             << " is not learn, structuredLight, activeStereo, timeOfFlight, rendered or given");
-    POINTPLANE_CHECK(
-        sigmaDepth >= 0 && sigmaDepth < 1, "sigmaDepth = " << sigmaDepth << " is not in [0, 1) m");
-    POINTPLANE_CHECK(
-        sigmaRelative >= 0 && sigmaRelative < 1,
-        "sigmaRelative = " << sigmaRelative << " is not in [0, 1)");
-    POINTPLANE_CHECK(
-        sigmaInverseDepth > 0 && sigmaInverseDepth < 1,
-        "sigmaInverseDepth = " << sigmaInverseDepth << " is not in (0, 1) 1/m");
-    POINTPLANE_CHECK(
-        sigmaPixelPx > 0 && sigmaPixelPx < 100,
-        "sigmaPixelPx = " << sigmaPixelPx << " is not in (0, 100) px");
+    checkRange("sigmaInverseDepth", sigmaInverseDepth, 1e-7, 0.09);
+    checkRange("sigmaDepth", sigmaDepth, 0, 1);
+    checkRange("sigmaRelative", sigmaRelative, 0, 1);
+    checkRange("sigmaPixelPx", sigmaPixelPx, 0.001, 100);
 }
 
 std::string describe(const DepthNoise& noise)

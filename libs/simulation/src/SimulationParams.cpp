@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pointplane/core/check.h>
+#include <pointplane/core/range.h>
 #include <pointplane/simulation/SimulationParams.h>
 
 namespace pointplane
@@ -19,42 +19,36 @@ SimulationParams SimulationParams::ideal()
 
 void SimulationParams::check() const
 {
-    const auto inRange = [](const char* key, double value, double low, double high)
-    {
-        POINTPLANE_CHECK(
-            value >= low && value <= high,
-            key << " = " << value << " is not in [" << low << ", " << high << "]");
-    };
-    inRange("width", width, 16, 4096);
-    inRange("height", height, 16, 4096);
-    inRange("focalLengthPx", focalLengthPx, 50, 1e4);
-    inRange("fps", fps, 0.1, 1000);
-    inRange("duration", duration, 0, 36000);
-    inRange("startStamp", startStamp, 0, 1e10);
-    inRange("motionScale", motionScale, 0, 10);
-    inRange("motionSpeed", motionSpeed, 0, 100);
-    inRange("sceneSeed", sceneSeed, 0, 1e9);
-    inRange("readoutColour", readoutColour, 0, 1);
-    inRange("readoutDepth", readoutDepth, 0, 1);
-    inRange("depthDelay", depthDelay, -1, 1);
-    inRange("exposure", exposure, 0, 1);
-    inRange("maxBlurSamples", maxBlurSamples, 1, 100);
-    inRange("lensBlurPx", lensBlurPx, 0, 10);
-    inRange("imageNoise", imageNoise, 0, 50);
-    inRange("light", light, 1e-4, 1);
-    inRange("vignetting", vignetting, 0, 0.9);
-    inRange("exposureSwing", exposureSwing, 0, 0.9);
-    inRange("sigmaInverseDepth", sigmaInverseDepth, 0, 0.1);
-    inRange("disparityStepPx", disparityStepPx, 0, 10);
-    inRange("disparityPxMetre", disparityPxMetre, 1, 1e4);
-    inRange("noiseWindowPx", noiseWindowPx, 1, 64);
-    inRange("calibrationSigma", calibrationSigma, 0, 0.1);
-    inRange("lateralSigmaPx", lateralSigmaPx, 0, 5);
-    inRange("edgeLossPx", edgeLossPx, 0, 20);
-    inRange("shadowBaseline", shadowBaseline, 0, 1);
-    inRange("maxIncidenceDeg", maxIncidenceDeg, 10, 90);
-    inRange("minDepth", minDepth, 0, 100);
-    inRange("maxDepth", maxDepth, minDepth, 1000);
+    checkRange("width", width, 16, 4096);
+    checkRange("height", height, 16, 4096);
+    checkRange("focalLengthPx", focalLengthPx, 50, 1e4);
+    checkRange("fps", fps, 0.1, 1000);
+    checkRange("duration", duration, 0, 36000);
+    checkRange("startStamp", startStamp, 0, 1e10);
+    checkRange("motionScale", motionScale, 0, 10);
+    checkRange("motionSpeed", motionSpeed, 0, 100);
+    checkRange("sceneSeed", sceneSeed, 0, 1e9);
+    checkRange("readoutColour", readoutColour, 0, 1);
+    checkRange("readoutDepth", readoutDepth, 0, 1);
+    checkRange("depthDelay", depthDelay, -1, 1);
+    checkRange("exposure", exposure, 0, 1);
+    checkRange("maxBlurSamples", maxBlurSamples, 1, 100);
+    checkRange("lensBlurPx", lensBlurPx, 0, 10);
+    checkRange("imageNoise", imageNoise, 0, 50);
+    checkRange("light", light, 1e-4, 1);
+    checkRange("vignetting", vignetting, 0, 0.9);
+    checkRange("exposureSwing", exposureSwing, 0, 0.9);
+    checkRange("sigmaInverseDepth", sigmaInverseDepth, 0, 0.1);
+    checkRange("disparityStepPx", disparityStepPx, 0, 10);
+    checkRange("disparityPxMetre", disparityPxMetre, 1, 1e4);
+    checkRange("noiseWindowPx", noiseWindowPx, 1, 64);
+    checkRange("calibrationSigma", calibrationSigma, 0, 0.1);
+    checkRange("lateralSigmaPx", lateralSigmaPx, 0, 5);
+    checkRange("edgeLossPx", edgeLossPx, 0, 20);
+    checkRange("shadowBaseline", shadowBaseline, 0, 1);
+    checkRange("maxIncidenceDeg", maxIncidenceDeg, 10, 90);
+    checkRange("minDepth", minDepth, 0, 100);
+    checkRange("maxDepth", maxDepth, minDepth, 1000);
 }
 
 PinholeCamera SimulationParams::camera() const

@@ -2,6 +2,7 @@
 #include <pointplane/core/check.h>
 #include <pointplane/core/choice.h>
 #include <pointplane/core/covariance.h>
+#include <pointplane/core/range.h>
 #include <pointplane/core/se3.h>
 #include <pointplane/odometry/uncertainty/JointCovariance.h>
 
@@ -26,15 +27,14 @@ bool JointCovariance::TParams::isJoint() const
 void JointCovariance::TParams::check() const
 {
     (void)isJoint();
-    POINTPLANE_CHECK(noise > 0, "noise = " << noise << " is not positive");
-    POINTPLANE_CHECK(drift >= 0, "drift = " << drift << " is negative");
-    POINTPLANE_CHECK(driftSigma >= 0, "driftSigma = " << driftSigma << " is negative");
-    POINTPLANE_CHECK(motion >= 0, "motion = " << motion << " is negative");
-    POINTPLANE_CHECK(vignetting >= 0, "vignetting = " << vignetting << " is negative");
-    POINTPLANE_CHECK(principalPoint >= 0, "principalPoint = " << principalPoint << " is negative");
-    POINTPLANE_CHECK(focalLength >= 0, "focalLength = " << focalLength << " is negative");
-    POINTPLANE_CHECK(
-        history >= 1 && history <= 300, "history = " << history << " is not in 1..300");
+    checkRange("noise", noise, 1e-3, 1000);
+    checkRange("drift", drift, 0, 1000);
+    checkRange("driftSigma", driftSigma, 0, 1);
+    checkRange("motion", motion, 0, 1000);
+    checkRange("vignetting", vignetting, 0, 1);
+    checkRange("principalPoint", principalPoint, 0, 100);
+    checkRange("focalLength", focalLength, 0, 10);
+    checkRange("history", history, 1, 300);
 }
 
 JointCovariance::JointCovariance(const TParams& params) : params_(params) { params_.check(); }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pointplane/core/check.h>
+#include <pointplane/core/range.h>
 #include <pointplane/core/se3.h>
 #include <pointplane/odometry/uncertainty/MotionModel.h>
 
@@ -46,19 +46,12 @@ Vector6d perAxis(double translation, double rotation)
 
 void MotionModel::TParams::check() const
 {
-    POINTPLANE_CHECK(decay >= 0 && decay <= 1, "decay = " << decay << " is not in [0, 1]");
-    POINTPLANE_CHECK(
-        velocityRandomWalk > 0,
-        "velocityRandomWalk = " << velocityRandomWalk << " is not positive");
-    POINTPLANE_CHECK(
-        angularVelocityRandomWalk > 0,
-        "angularVelocityRandomWalk = " << angularVelocityRandomWalk << " is not positive");
-    POINTPLANE_CHECK(
-        sigmaAcceleration > 0, "sigmaAcceleration = " << sigmaAcceleration << " is not positive");
-    POINTPLANE_CHECK(
-        sigmaAngularAcceleration > 0,
-        "sigmaAngularAcceleration = " << sigmaAngularAcceleration << " is not positive");
-    POINTPLANE_CHECK(timeConstant > 0, "timeConstant = " << timeConstant << " is not positive");
+    checkRange("decay", decay, 0, 1);
+    checkRange("velocityRandomWalk", velocityRandomWalk, 1e-4, 100);
+    checkRange("angularVelocityRandomWalk", angularVelocityRandomWalk, 1e-4, 100);
+    checkRange("timeConstant", timeConstant, 0.01, 1000);
+    checkRange("sigmaAcceleration", sigmaAcceleration, 0.01, 1000);
+    checkRange("sigmaAngularAcceleration", sigmaAngularAcceleration, 0.01, 1e4);
 }
 
 MotionModel::MotionModel(const TParams& params) : params_(params)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pointplane/core/check.h>
+#include <pointplane/core/range.h>
 #include <pointplane/odometry/uncertainty/NoiseScale.h>
 
 #include <algorithm>
@@ -21,12 +21,10 @@ constexpr int kInitialFrames = 3;
 
 void NoiseScale::TParams::check() const
 {
-    POINTPLANE_CHECK(timeConstant > 0, "timeConstant = " << timeConstant << " is not positive");
-    POINTPLANE_CHECK(
-        agreementTimeConstant > 0,
-        "agreementTimeConstant = " << agreementTimeConstant << " is not positive");
-    POINTPLANE_CHECK(pointFactor > 0, "pointFactor = " << pointFactor << " is not positive");
-    POINTPLANE_CHECK(planeFactor > 0, "planeFactor = " << planeFactor << " is not positive");
+    checkRange("timeConstant", timeConstant, 0.01, 1000);
+    checkRange("agreementTimeConstant", agreementTimeConstant, 0.01, 1000);
+    checkRange("pointFactor", pointFactor, 0.01, 1000);
+    checkRange("planeFactor", planeFactor, 0.01, 1000);
 }
 
 NoiseScale::NoiseScale(const TParams& params) : params_(params)

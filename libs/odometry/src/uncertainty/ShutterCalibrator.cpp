@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pointplane/core/check.h>
 #include <pointplane/core/covariance.h>
+#include <pointplane/core/range.h>
 #include <pointplane/odometry/uncertainty/ShutterCalibrator.h>
 #include <pointplane/pose/residuals.h>
 
@@ -54,18 +54,11 @@ struct JointNormal
 
 void ShutterCalibrator::TParams::check() const
 {
-    POINTPLANE_CHECK(
-        std::abs(readoutColour) <= kMaxTime,
-        "readoutColour = " << readoutColour << " is not within " << kMaxTime << " s");
-    POINTPLANE_CHECK(
-        std::abs(readoutDepth) <= kMaxTime,
-        "readoutDepth = " << readoutDepth << " is not within " << kMaxTime << " s");
-    POINTPLANE_CHECK(
-        std::abs(depthDelay) <= kMaxTime,
-        "depthDelay = " << depthDelay << " is not within " << kMaxTime << " s");
-    POINTPLANE_CHECK(sigmaPrior > 0, "sigmaPrior = " << sigmaPrior << " is not positive");
-    POINTPLANE_CHECK(
-        varianceFactor > 0, "varianceFactor = " << varianceFactor << " is not positive");
+    checkRange("readoutColour", readoutColour, -kMaxTime, kMaxTime);
+    checkRange("readoutDepth", readoutDepth, -kMaxTime, kMaxTime);
+    checkRange("depthDelay", depthDelay, -kMaxTime, kMaxTime);
+    checkRange("sigmaPrior", sigmaPrior, 1e-5, 1);
+    checkRange("varianceFactor", varianceFactor, 0.01, 1000);
 }
 
 ShutterCalibrator::ShutterCalibrator(const TParams& params)

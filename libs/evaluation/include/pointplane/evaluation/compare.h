@@ -17,8 +17,9 @@ struct ComparedRun
     std::string name;
     RpeResult rpe;
     AteResult ate;
-    BootstrapInterval translation;  //!< RPE RMSE [m]
-    BootstrapInterval rotation;     //!< RPE RMSE [rad]
+    /** RPE RMSE [m], of the pairs of frames that all runs have, if these are at least two. */
+    BootstrapInterval translation;
+    BootstrapInterval rotation;  //!< RPE RMSE [rad], likewise
     /** RPE RMSE minus that of the best run, over the pairs both have; none for the best itself and
      * for runs with fewer than two pairs in common. */
     std::optional<BootstrapInterval> translationBehindBest, rotationBehindBest;
@@ -29,11 +30,14 @@ struct Comparison
 {
     std::vector<ComparedRun> runs;                                //!< in the order given
     std::size_t bestTranslation{0}, bestRotation{0}, bestAte{0};  //!< indices of the smallest RMSE
+    std::size_t numCommonPairs{0};  //!< that all runs have
+    bool sameFrames{true};          //!< no run has others
 };
 
 /** Scores several estimates of the same ground truth. `rpe` must list its pairs (fixed delta), or
  * std::invalid_argument is thrown. The bootstrap's blocks are as long as a pair: that far, errors
- * share measurements. \param options its block length is ignored */
+ * share measurements. Errors of other frames say nothing about which run is better, so only the
+ * pairs count that all runs have. ATE is of each run's own frames. \param options its block length is ignored */
 [[nodiscard]] Comparison compareRuns(
     const Trajectory& groundTruth,
     const std::vector<Trajectory>& estimates,

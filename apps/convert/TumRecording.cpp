@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TumRecording.h"
+
+#include <pointplane/evaluation/association.h>
+#include <pointplane/mrpt_io/image_file.h>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+namespace pointplane
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+[[nodiscard]] std::vector<double> secondsOf(const std::vector<TumImage>& images)
+{
+    std::vector<double> out;
+    std::transform(
+        images.begin(),
+        images.end(),
+        std::back_inserter(out),
+        [](const TumImage& image) { return image.seconds; });
+    return out;
+}
+
+[[nodiscard]] double median(std::vector<double> values)
+{
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+/** An image of the camera's size. */
+[[nodiscard]] cv::Mat readImage(const std::string& path, int flags, const PinholeCamera& camera)
+{
+    cv::Mat image;
+    try
+    {
+        image = readImageFile(path, flags);
+    }
+    catch (const InputError& e)
+    {
+        throw BadFrame(e.what());
+    }
+    if (image.cols != camera.width || image.rows != camera.height)
+    {
+        throw BadFrame(
+            path + ": is " + std::to_string(image.cols) + "x" + std::to_string(image.rows) +
+            " but the camera is for " + std::to_string(camera.width) + "x" +
+            std::to_string(camera.height));
+    }
+    return image;
+}
+
+[[nodiscard]] std::string textOf(const std::string& path)
+{
+    if (!fs::exists(path))
+    {
+        return "";
+    }
+    std::ifstream in(path, std::ios::binary);
+    if (!in || !fs::is_regular_file(path))
+    {
+        throw InputError("cannot read " + path + ": " + (in ? "not a file" : std::strerror(errno)));
+    }
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+}  // namespace
+
+TumRecording::TumRecording(const TumOptions& options) : options_(options)
+{
+    if (!fs::is_directory(options.folder))
+    {
+        throw InputError(options.folder + ": is not a folder");
+    }
+    colour_ = readTumListing(options.folder, "rgb.txt");
+    depth_ = readTumListing(options.folder, "depth.txt");
+    camera_ = loadTumCamera(options.camera, options.folder);
+    if (options.depthScale > 0)
+    {
+        camera_.unitsPerMetre = options.depthScale;
+    }
+    for (const auto& [c, d] :
+         associate(secondsOf(colour_), secondsOf(depth_), 0.0, options.maxDifference))
+    {
+        pairs_.emplace_back(c, d);
+    }
+    if (pairs_.empty())
+    {
+        throw InputError(
+            options.folder + ": no colour and depth stamps within " +
+            std::to_string(options.maxDifference) + " s of each other");
+    }
+    groundTruth_ = textOf(options.folder + "/groundtruth.txt");
+}
+
+std::optional<RecordedFrame> TumRecording::next()
+{
+    if (next_ == pairs_.size())
+    {
+        return {};
+    }
+    const TumImage& colour = colour_[pairs_[next_].first];
+    const TumImage& depth = depth_[pairs_[next_].second];
+    ++next_;
+    RecordedFrame out;
+    // Some colour images go with the depth image before, some with that after: 33 ms apart.
+    out.depthDelay = depth.seconds - colour.seconds;
+    out.scan.stamp = colour.stamp;
+    out.scan.camera = camera_.camera;
+    out.scan.unitsPerMetre = camera_.unitsPerMetre;
+    out.scan.depth =
+        readImage(depth.path, cv::IMREAD_ANYDEPTH | cv::IMREAD_ANYCOLOR, camera_.camera);
+    if (out.scan.depth.type() != CV_16UC1)
+    {
+        throw BadFrame(depth.path + ": is not a 16 bit depth image");
+    }
+    out.scan.colour = readImage(colour.path, cv::IMREAD_COLOR, camera_.camera);
+    out.scan.colourFile = colour.path;
+    return out;
+}
+
+double TumRecording::progress() const
+{
+    return static_cast<double>(next_) / static_cast<double>(pairs_.size());
+}
+
+std::vector<std::string> TumRecording::notes() const
+{
+    std::vector<std::string> out;
+    const std::size_t colourAlone = colour_.size() - pairs_.size();
+    const std::size_t depthAlone = depth_.size() - pairs_.size();
+    if (colourAlone + depthAlone > 0)
+    {
+        std::ostringstream alone;
+        alone << "left out, without a partner within " << options_.maxDifference
+              << " s: " << colourAlone << " colour and " << depthAlone << " depth images";
+        out.push_back(alone.str());
+    }
+    std::vector<double> delays;
+    for (const auto& [c, d] : pairs_)
+    {
+        delays.push_back(depth_[d].seconds - colour_[c].seconds);
+    }
+    std::ostringstream delay;
+    delay << "depth after colour: " << std::round(1e4 * median(delays)) / 10 << " ms (median)";
+    out.push_back(delay.str());
+    return out;
+}
+
+std::vector<std::string> TumRecording::files() const
+{
+    std::vector<std::string> out{options_.camera};
+    for (const char* name : {"rgb.txt", "depth.txt", "camera.txt", "groundtruth.txt"})
+    {
+        out.push_back(options_.folder + "/" + name);
+    }
+    for (const auto* images : {&colour_, &depth_})
+    {
+        for (const TumImage& image : *images)
+        {
+            out.push_back(image.path);
+        }
+    }
+    return out;
+}
+}  // namespace pointplane

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "Recording.h"
+#include "TumFolder.h"
+#include "tum_camera.h"
+
+namespace pointplane
+{
+struct TumOptions
+{
+    std::string folder;
+    std::string camera;          //!< preset or file; empty: camera.txt or the folder's name
+    double depthScale{0};        //!< units per metre; 0: the camera's
+    double maxDifference{0.02};  //!< between the stamps of colour and depth [s]
+};
+
+/** A folder of the TUM RGB-D benchmark: pairs of images, stamped with the colour image's time,
+ * readings and pixels unchanged. */
+class TumRecording : public Recording
+{
+ public:
+    /** \throws InputError */
+    explicit TumRecording(const TumOptions& options);
+
+    [[nodiscard]] std::optional<RecordedFrame> next() override;
+    [[nodiscard]] double progress() const override;
+    [[nodiscard]] std::vector<std::string> notes() const override;
+
+    /** Lists, camera, images: all that is read. */
+    [[nodiscard]] std::vector<std::string> files() const;
+    /** groundtruth.txt, or empty if there is none. */
+    [[nodiscard]] const std::string& groundTruth() const { return groundTruth_; }
+
+ private:
+    TumOptions options_;
+    std::vector<TumImage> colour_, depth_;
+    TumCamera camera_;
+    std::vector<std::pair<std::size_t, std::size_t>> pairs_;
+    std::string groundTruth_;
+    std::size_t next_{0};
+};
+}  // namespace pointplane

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+
+#include <string>
+#include <vector>
+
+namespace pointplane
+{
+/** An image file. A PNG's checksums and the end of a JPEG are verified first: decoders fill what is
+ * missing with grey, or complain on the terminal.
+ * \param flags of cv::imread \throws InputError naming the file, or the folder that is missing */
+[[nodiscard]] cv::Mat readImageFile(const std::string& path, int flags);
+
+/** Writes the whole file, or none. \param options of cv::imwrite
+ * \throws EnvironmentError naming the file */
+void writeImageFile(
+    const std::string& path, const cv::Mat& image, const std::vector<int>& options = {});
+}  // namespace pointplane

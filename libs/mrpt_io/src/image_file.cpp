@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/mrpt_io/errors.h>
+#include <pointplane/mrpt_io/image_file.h>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <vector>
+
+#include <zlib.h>
+
+namespace pointplane
+{
+namespace
+{
+namespace fs = std::filesystem;
+using Bytes = std::vector<unsigned char>;
+
+constexpr const char* kCut = "stops before the end of the image";
+
+[[nodiscard]] std::uint32_t bigEndian(const unsigned char* bytes)
+{
+    return static_cast<std::uint32_t>(bytes[0]) << 24U |
+           static_cast<std::uint32_t>(bytes[1]) << 16U |
+           static_cast<std::uint32_t>(bytes[2]) << 8U | bytes[3];
+}
+
+/** Chunks of length, type, data and checksum (of type and data), up to IEND. */
+[[nodiscard]] const char* problemOfPng(const Bytes& bytes)
+{
+    constexpr std::size_t kSignature = 8, kAround = 12;
+    for (std::size_t at = kSignature;;)
+    {
+        if (bytes.size() - at < kAround || bigEndian(&bytes[at]) > bytes.size() - at - kAround)
+        {
+            return kCut;
+        }
+        const std::uint32_t length = bigEndian(&bytes[at]);
+        const unsigned char* type = &bytes[at + 4];
+        if (::crc32(0, type, length + 4) != bigEndian(type + 4 + length))
+        {
+            return "is damaged: a checksum is wrong";
+        }
+        if (std::memcmp(type, "IEND", 4) == 0)
+        {
+            return nullptr;
+        }
+        at += kAround + length;
+    }
+}
+
+/** Segments of FF, marker and length; coded data, in which FF is followed by 0 or a restart, after
+ * those called SOS; at last EOI. A thumbnail with an end of its own is inside a segment. */
+[[nodiscard]] const char* problemOfJpeg(const Bytes& bytes)
+{
+    constexpr unsigned char kScan = 0xDA, kEnd = 0xD9;
+    const auto isData = [](unsigned char marker)
+    { return marker == 0 || marker == 0xFF || (marker >= 0xD0 && marker <= 0xD7); };
+    for (std::size_t at = 2; at + 1 < bytes.size();)
+    {
+        if (bytes[at] != 0xFF || isData(bytes[at + 1]))
+        {
+            ++at;
+            continue;
+        }
+        const unsigned char marker = bytes[at + 1];
+        if (marker == kEnd)
+        {
+            return nullptr;
+        }
+        if (at + 3 >= bytes.size())
+        {
+            break;
+        }
+        const std::size_t length = bytes[at + 2] * 256U + bytes[at + 3];
+        at += 2 + (marker == kScan ? 0 : length);
+    }
+    return kCut;
+}
+
+[[nodiscard]] const char* problemOf(const Bytes& bytes)
+{
+    const auto startsWith = [&](const char* start, std::size_t size)
+    { return bytes.size() >= size && std::memcmp(bytes.data(), start, size) == 0; };
+    return bytes.empty()                        ? "is empty"
+           : startsWith("\x89PNG\r\n\x1A\n", 8) ? problemOfPng(bytes)
+           : startsWith("\xFF\xD8", 2)          ? problemOfJpeg(bytes)
+                                                : nullptr;
+}
+
+[[nodiscard]] Bytes bytesOf(const std::string& path)
+{
+    std::error_code error;
+    const fs::path folder = fs::path(path).parent_path();
+    if (!folder.empty() && !fs::exists(folder, error))
+    {
+        throw InputError("cannot open " + folder.string() + ": no such folder");
+    }
+    if (!fs::is_regular_file(path, error))
+    {
+        throw InputError(
+            "cannot open " + path + ": " +
+            (fs::exists(path, error) ? "not a file" : "no such file"));
+    }
+    std::ifstream file(path, std::ios::binary);
+    Bytes bytes(std::istreambuf_iterator<char>(file), {});
+    if (!file)
+    {
+        throw InputError("cannot read " + path + ": " + std::strerror(errno));
+    }
+    return bytes;
+}
+}  // namespace
+
+cv::Mat readImageFile(const std::string& path, int flags)
+{
+    const Bytes bytes = bytesOf(path);
+    if (const char* problem = problemOf(bytes))
+    {
+        throw InputError(path + ": " + problem);
+    }
+    cv::Mat image;
+    try
+    {
+        image = cv::imdecode(bytes, flags);
+    }
+    catch (const cv::Exception& e)
+    {
+        throw InputError(path + ": " + e.err);
+    }
+    if (image.empty())
+    {
+        throw InputError(path + ": is not an image, or damaged");
+    }
+    return image;
+}
+
+void writeImageFile(
+    const std::string& path, const cv::Mat& image, const std::vector<int>& options)
+{
+    Bytes bytes;
+    try
+    {
+        cv::imencode(fs::path(path).extension().string(), image, bytes, options);
+    }
+    catch (const cv::Exception& e)
+    {
+        throw EnvironmentError("cannot write " + path + ": " + e.err);
+    }
+    std::ofstream file(path, std::ios::binary | std::ios::trunc);
+    file.write(
+        reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    file.close();
+    if (!file)
+    {
+        const std::string why = std::strerror(errno);
+        std::error_code ignored;
+        if (fs::is_regular_file(path, ignored))
+        {
+            fs::remove(path, ignored);
+        }
+        throw EnvironmentError("cannot write " + path + ": " + why);
+    }
+}
+}  // namespace pointplane

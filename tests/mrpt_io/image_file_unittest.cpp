@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/mrpt_io/errors.h>
+#include <pointplane/mrpt_io/image_file.h>
+
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "SmallDisk.h"
+#include "TempDir.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace pointplane
+{
+namespace
+{
+using test::TempDir;
+
+class ImageFile : public testing::Test
+{
+ protected:
+    /** What is wrong with the bytes as a file, or empty. */
+    [[nodiscard]] std::string problem(const std::string& bytes) const
+    {
+        test::writeBytes(dir_ / "image", bytes);
+        try
+        {
+            return cv::norm(
+                       readImageFile(dir_ / "image", cv::IMREAD_UNCHANGED), image_, cv::NORM_INF) <
+                           30
+                       ? ""
+                       : "another image";
+        }
+        catch (const InputError& e)
+        {
+            return e.what();
+        }
+    }
+
+    [[nodiscard]] std::string encoded(const char* extension) const
+    {
+        std::vector<unsigned char> bytes;
+        cv::imencode(extension, image_, bytes);
+        return {bytes.begin(), bytes.end()};
+    }
+
+    TempDir dir_;
+    cv::Mat image_{24, 32, CV_8UC1, cv::Scalar(100)};
+};
+
+TEST_F(ImageFile, aCutOrDamagedPngIsNotAnImage)
+{
+    cv::randu(image_, 0, 256);
+    std::string bytes = encoded(".png");
+    ASSERT_EQ(problem(bytes), "");
+    for (std::size_t size = 8; size < bytes.size(); ++size)
+    {
+        ASSERT_THAT(problem(bytes.substr(0, size)), testing::HasSubstr("stops before the end"));
+    }
+    for (std::size_t at = 8; at < bytes.size(); at += 3)
+    {
+        std::string damaged = bytes;
+        damaged[at] = static_cast<char>(damaged[at] ^ 4);
+        ASSERT_NE(problem(damaged), "") << at;
+    }
+}
+
+TEST_F(ImageFile, aCutJpegIsNotAnImageAlsoBehindAThumbnail)
+{
+    cv::GaussianBlur(image_, image_, {}, 2);
+    const std::string bytes = encoded(".jpg");
+    ASSERT_EQ(problem(bytes), "");
+    // A segment with an image of its own, as cameras write it.
+    const std::string start =
+        std::string("\xFF\xE1\x01\x02", 4) + "\xFF\xD8" + std::string(252, 'x') + "\xFF\xD9";
+    ASSERT_EQ(start.size(), 4U + 256U);
+    const std::string withThumbnail = bytes.substr(0, 2) + start + bytes.substr(2);
+    ASSERT_EQ(problem(withThumbnail), "");
+    for (const std::string& whole : {bytes, withThumbnail})
+    {
+        for (std::size_t size = 3; size + 1 < whole.size(); size += 5)
+        {
+            ASSERT_THAT(problem(whole.substr(0, size)), testing::HasSubstr("stops before the end"));
+        }
+    }
+    EXPECT_EQ(problem(bytes + "what cameras append"), "");
+}
+
+TEST_F(ImageFile, aMissingFolderIsNamedNotTheFile)
+{
+    const auto message = [](const std::string& path)
+    {
+        try
+        {
+            (void)readImageFile(path, cv::IMREAD_UNCHANGED);
+        }
+        catch (const InputError& e)
+        {
+            return std::string(e.what());
+        }
+        return std::string("read");
+    };
+    EXPECT_EQ(
+        message(dir_ / "in_Images/1.png"),
+        "cannot open " + (dir_ / "in_Images") + ": no such folder");
+    EXPECT_EQ(message(dir_ / "1.png"), "cannot open " + (dir_ / "1.png") + ": no such file");
+    EXPECT_EQ(problem(""), (dir_ / "image") + ": is empty");
+    EXPECT_EQ(problem("text"), (dir_ / "image") + ": is not an image, or damaged");
+}
+
+TEST_F(ImageFile, aFullDiskLeavesNoPartOfAnImage)
+{
+    cv::Mat large(200, 200, CV_8UC1);
+    cv::randu(large, 0, 256);
+    const std::string path = dir_ / "disk/image.png";
+    const auto code = test::onSmallDisk(
+        dir_ / "disk",
+        16,
+        [&]
+        {
+            try
+            {
+                writeImageFile(path, large);
+            }
+            catch (const EnvironmentError& e)
+            {
+                const bool named =
+                    std::string(e.what()).find(path + ": No space") != std::string::npos;
+                return named && !std::filesystem::exists(path) ? 0 : 1;
+            }
+            return 2;
+        });
+    if (!code)
+    {
+        GTEST_SKIP() << "this user may not mount a disk";
+    }
+    EXPECT_EQ(*code, 0);
+}
+}  // namespace
+}  // namespace pointplane
