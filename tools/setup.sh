@@ -18,8 +18,12 @@ build_packages=(
 )
 [[ ${CXX:-} != *clang* ]] || build_packages+=(clang)
 # MRPT's own programs and data sets, which the tests run on our output; a browser for the reports;
-# the documentation of the code must be complete; Debian packages and the Python module.
-readonly test_packages=(mrpt-apps mrpt-common doxygen "chromium?" dpkg-dev lintian python3-numpy)
+# the documentation of the code must be complete; spelling and format; Debian packages and the Python
+# module.
+readonly test_packages=(
+    mrpt-apps mrpt-common doxygen "doxygen-awesome-css?" "chromium?" "codespell?" "clang-format-14?"
+    dpkg-dev lintian python3-numpy
+)
 
 say() { printf '\n== %s\n' "$*"; }
 die() {

@@ -56,7 +56,8 @@ DiagnosticsSink::DiagnosticsSink(const std::string& path) : file_(path)
     file_.writeLine(
         "frame,stamp,status,reason,numPoints,numPlanes,numPointPairs,numPlanePairs,numPointInliers,"
         "numReferences,iterations,observableDirections,pointChi2PerDof,planeChi2PerDof,"
-        "surfaceAgreement,maxSigmaTranslation,maxSigmaRotation,msPoints,msPlanes,msMatching,msPose,msTotal");
+        "surfaceAgreement,maxSigmaTranslation,maxSigmaRotation,msPoints,msPlanes,msMatching,msPose,"
+        "msTotal");
 }
 
 void DiagnosticsSink::add(const OutputItem& item)

@@ -217,8 +217,7 @@ TEST_F(Recording, tellsTheDelayBetweenTheTwoImages)
                 ++comments;
                 continue;
             }
-            const auto scan =
-                std::dynamic_pointer_cast<mrpt::obs::CObservation3DRangeScan>(object);
+            const auto scan = std::dynamic_pointer_cast<mrpt::obs::CObservation3DRangeScan>(object);
             ASSERT_TRUE(scan);
             EXPECT_NEAR(
                 converter.convert(*scan).frame.shutter.depthDelay,

@@ -69,8 +69,7 @@ Eigen::Isometry3d bigMotion()
 TEST(ImageAligner, exactPointsTellAnyMotionExactly)
 {
     const SyntheticViews views(bigMotion(), 0, 50);
-    const auto motion =
-        ImageAligner({}, {}).align(views.reference, views.current, views.camera);
+    const auto motion = ImageAligner({}, {}).align(views.reference, views.current, views.camera);
     ASSERT_TRUE(motion);
     EXPECT_EQ(motion->numInliers, 50);
     EXPECT_THAT(motion->T_cur_ref, test::IsNearPose(bigMotion(), 1e-9, 1e-9));
@@ -79,8 +78,7 @@ TEST(ImageAligner, exactPointsTellAnyMotionExactly)
 TEST(ImageAligner, mostMatchesMayBeWrong)
 {
     const SyntheticViews views(bigMotion(), 0.7, 100);
-    const auto motion =
-        ImageAligner({}, {}).align(views.reference, views.current, views.camera);
+    const auto motion = ImageAligner({}, {}).align(views.reference, views.current, views.camera);
     ASSERT_TRUE(motion);
     EXPECT_GE(motion->numInliers, 30);
     EXPECT_LE(motion->numInliers, 36);
@@ -102,8 +100,7 @@ TEST(ImageAligner, imagesHalfASecondApart)
     for (const int from : {0, 60, 120})
     {
         const int to = from + 15;
-        const auto motion =
-            aligner.align(describe(from), describe(to), desk().frame(to).camera);
+        const auto motion = aligner.align(describe(from), describe(to), desk().frame(to).camera);
         ASSERT_TRUE(motion) << from;
         EXPECT_THAT(
             motion->T_cur_ref,

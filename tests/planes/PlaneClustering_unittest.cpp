@@ -62,7 +62,8 @@ TEST(PlanarityTest, toleranceByHand)
     EXPECT_NEAR(test.tolerated({0.6, 0.8, -5}, pixels, 1), 2 * (9e-6 + 16e-6), 1e-15);
     EXPECT_NEAR(test.tolerated({0, 0, -5}, pixels, 1), 2 * 9e-6, 1e-15);
 
-    // What bends by 0.4 % is 2e-3 at 1/Z = 0.5 per metre: of 13e-6, 9e-6 remain where none of it is seen.
+    // What bends by 0.4 % is 2e-3 at 1/Z = 0.5 per metre: of 13e-6, 9e-6 remain where none of it is
+    // seen.
     test.noise.sigmaRelative = 4e-3;
     PlaneMoments far;
     far.add(0, 0, 0.5, test.noise.weight(0.5));

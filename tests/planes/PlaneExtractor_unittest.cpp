@@ -119,7 +119,8 @@ TEST_P(PlaneExtractorTest, aWallBentByTheSensorIsOnePlane)
         }
         const PlaneSet set = PlaneExtractor({}, noise).extract(depth, camera);
         ASSERT_FALSE(set.planes.empty());
-        one += set.planes.size() == 1 && set.planes[0].numPixels > 0.9 * camera.width * camera.height;
+        one +=
+            set.planes.size() == 1 && set.planes[0].numPixels > 0.9 * camera.width * camera.height;
         const Eigen::Vector3d e = theta - set.planes[0].plane_cam.theta_m;
         nees += e.dot(set.planes[0].plane_cam.cov_m.inverse() * e) / (3 * runs);
     }

@@ -78,7 +78,8 @@ double evidence(const Alignment& alignment)
 }
 
 /** Points of a reference that are due and in view of a camera. */
-int numInView(const Reference& reference, const RgbdFrame& frame, const Eigen::Isometry3d& T_cur_ref)
+int numInView(
+    const Reference& reference, const RgbdFrame& frame, const Eigen::Isometry3d& T_cur_ref)
 {
     int out = 0;
     for (size_t i = 0; i < reference.points.points.size(); ++i)
@@ -212,8 +213,8 @@ void Aligner::searchImages(const Scene& scene, Alignment& best) const
         }
         const Eigen::Isometry3d T_prev_cur =
             T_prev_world * reference->T_world_cam * motion->T_cur_ref.inverse();
-        Alignment other = attempt(
-            scene, {T_prev_cur, scene.predicted.motion.mean.velocity}, Search::Wide);
+        Alignment other =
+            attempt(scene, {T_prev_cur, scene.predicted.motion.mean.velocity}, Search::Wide);
         if (evidence(other) > evidence(best))
         {
             best = std::move(other);

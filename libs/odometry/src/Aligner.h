@@ -75,8 +75,7 @@ class Aligner
         Wide    //!< farther, for a first guess, and then closely
     };
 
-    [[nodiscard]] Alignment attempt(
-        const Scene& scene, const Motion& start, Search search) const;
+    [[nodiscard]] Alignment attempt(const Scene& scene, const Motion& start, Search search) const;
     void searchImages(const Scene& scene, Alignment& best) const;
     [[nodiscard]] static std::vector<Association> associate(
         const Scene& scene, const Eigen::Isometry3d& T_prev_cur, double radiusFactor);

@@ -76,7 +76,7 @@ std::vector<PointTrack> PointStage::correspond(
         const Eigen::Vector3d p_cur = T_cur_ref * point.p_cam.mean;
         predicted.push_back(
             p_cur.z() > 0 ? frame.camera.project(p_cur)
-                            : Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN()));
+                          : Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN()));
     }
     for (const PointFeature& point : described.points)
     {

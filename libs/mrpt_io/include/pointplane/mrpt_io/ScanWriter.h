@@ -27,8 +27,8 @@ struct RegisteredScan
     mrpt::Clock::time_point stamp;
     PinholeCamera camera;
     std::optional<DepthCamera> depthCamera;  //!< nothing: depth is registered
-    cv::Mat colour;  //!< CV_8UC3 BGR, or CV_8UC1, of the camera's size
-    cv::Mat depth;   //!< CV_16UC1 along the optical axis, of its camera's size; 0 = none
+    cv::Mat colour;                          //!< CV_8UC3 BGR, or CV_8UC1, of the camera's size
+    cv::Mat depth;  //!< CV_16UC1 along the optical axis, of its camera's size; 0 = none
     double unitsPerMetre{5000};  //!< of depth
     std::string colourFile;      //!< what colour was read from; copied where images are external
 };

@@ -38,8 +38,8 @@ namespace pointplane
 /** Information matrix of an edge as mrpt::graphslam::optimize_graph_spa_levmarq() weights it.
  *
  * An edge's cov_inv is documented, saved and composed in (x, y, z, yaw, pitch, roll), but that
- * optimiser (MRPT 2.5.8) multiplies it with the logarithm of the error, (x, y, z, rx, ry, rz) in the
- * frame of the edge's end: yaw's weight meets the rotation about x. Assign this to edge.cov_inv
+ * optimiser (MRPT 2.5.8) multiplies it with the logarithm of the error, (x, y, z, rx, ry, rz) in
+ * the frame of the edge's end: yaw's weight meets the rotation about x. Assign this to edge.cov_inv
  * before optimising. */
 [[nodiscard]] mrpt::math::CMatrixDouble66 optimizerInformation(
     const mrpt::poses::CPose3DPDFGaussian& edge);

@@ -16,7 +16,7 @@ struct Features
 {
     RgbdFrame frame;  //!< its pixels are shared, not copied
     PlaneSet planes;
-    PreparedPoints points;  //!< ready for correspondences
+    PreparedPoints points;                             //!< ready for correspondences
     mutable std::optional<DescribedPoints> described;  //!< made when they are needed first
 };
 }  // namespace pointplane

@@ -32,7 +32,7 @@ struct Reference
     Vector6d velocity{Vector6d::Zero()};  //!< body velocity at stamp [m/s, rad/s]
     ShutterModel shutter;                 //!< as far as the source knows it
     PlaneSet planes;
-    PointReference points;  //!< empty for a frame that is not a key frame
+    PointReference points;                   //!< empty for a frame that is not a key frame
     std::shared_ptr<KeyframeImages> images;  //!< of a key frame
 };
 

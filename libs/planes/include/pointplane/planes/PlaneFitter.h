@@ -21,10 +21,10 @@ namespace pointplane
     const PlaneMoments& moments, const DepthNoise& noise);
 
 /** Plane of minimal sum w_i (theta_m . P_i + 1)^2 / 2, w_i = sigma_Z^-2, by theta_m = A^-1 b with
- * Sigma_m = A^-1 [P17 Eq. 3, 4, 5]. With these weights Sigma_m depends on the unit of length: w_i is
- * 1 / length^2, theta_m . P_i + 1 a bare number. As the paper gives sigma_Z, it is the millimetre;
- * in metres Sigma_m were a million times smaller.
- * \param points on the plane, camera frame [m] \return nothing when they do not span a plane */
+ * Sigma_m = A^-1 [P17 Eq. 3, 4, 5]. With these weights Sigma_m depends on the unit of length: w_i
+ * is 1 / length^2, theta_m . P_i + 1 a bare number. As the paper gives sigma_Z, it is the
+ * millimetre; in metres Sigma_m were a million times smaller. \param points on the plane, camera
+ * frame [m] \return nothing when they do not span a plane */
 [[nodiscard]] std::optional<PlaneGaussian> fitWeightedLeastSquares(
     const std::vector<Eigen::Vector3d>& points, const DepthNoise& noise);
 

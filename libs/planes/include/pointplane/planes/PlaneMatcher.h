@@ -16,13 +16,13 @@ struct PlaneMatch
     int cur{0};
 };
 
-/** Which plane is which [P17, section Matching]: planes whose image segments overlap by at least half
- * of the smaller one, with normals and distances alike; of several, the one at the smallest
+/** Which plane is which [P17, section Matching]: planes whose image segments overlap by at least
+ * half of the smaller one, with normals and distances alike; of several, the one at the smallest
  * plane-to-plane distance |d'N' - dN| [P17 Eq. 7]. The reference is first moved by the predicted
  * motion; with the identity this is the paper's test between adjacent frames. */
 class PlaneMatcher
 {
-   public:
+ public:
     struct TParams
     {
         double minOverlap{0.5};
@@ -41,15 +41,15 @@ class PlaneMatcher
 
     explicit PlaneMatcher(const TParams& params);
 
-    /** \param T_cur_ref predicted motion \return at most one match per reference plane and per current
-     * plane, sorted by reference index */
+    /** \param T_cur_ref predicted motion \return at most one match per reference plane and per
+     * current plane, sorted by reference index */
     [[nodiscard]] std::vector<PlaneMatch> match(
         const PlaneSet& ref,
         const PlaneSet& cur,
         const PinholeCamera& camera,
         const Eigen::Isometry3d& T_cur_ref) const;
 
-   private:
+ private:
     TParams params_;
 };
 }  // namespace pointplane

@@ -28,9 +28,9 @@ class PointLifter
  public:
     struct TParams
     {
-        std::string depthModel{"mixture"};   //!< nearest | mixture
-        double maxEdgeSigmas{20};            //!< 0: keep all
-        int minValidPixels{5};               //!< of 9
+        std::string depthModel{"mixture"};     //!< nearest | mixture
+        double maxEdgeSigmas{20};              //!< 0: keep all
+        int minValidPixels{5};                 //!< of 9
         double minDepth{0.02}, maxDepth{100};  //!< [m]
 
         template <class V>

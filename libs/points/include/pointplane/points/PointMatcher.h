@@ -53,11 +53,11 @@ class PointMatcher
     PointMatcher() : PointMatcher(TParams{}) {}
     explicit PointMatcher(const TParams& params);
 
-    /** \param predicted_px where the reference points are expected in the current image; points with
-     * a position that is not finite are left out
-     * \param refDescriptors, curDescriptors a row a point: CV_8UC1 (Hamming) or CV_32FC1 (L2)
-     * \return at most one match per reference and per current point, sorted by reference index
-     * \throws std::invalid_argument when counts, sizes or types disagree */
+    /** \param predicted_px where the reference points are expected in the current image; points
+     * with a position that is not finite are left out \param refDescriptors, curDescriptors a row a
+     * point: CV_8UC1 (Hamming) or CV_32FC1 (L2) \return at most one match per reference and per
+     * current point, sorted by reference index \throws std::invalid_argument when counts, sizes or
+     * types disagree */
     [[nodiscard]] std::vector<PointMatch> match(
         const std::vector<Eigen::Vector2d>& predicted_px,
         const cv::Mat& refDescriptors,
