@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Writes the figures of docs/paper_figures.md and its pictures, by `pointplane-eval reproduce`. 10 minutes on 2 cores.
+# Writes the figures of docs/paper_figures.md and its pictures, by `pointplane-lab reproduce`. 10 minutes on 2 cores.
 # usage: POINTPLANE_DATA=DIR benchmarks/paper_table.sh BIN_DIR   (BIN_DIR holds the pointplane programs)
 set -euo pipefail
 shopt -s inherit_errexit
@@ -27,7 +27,7 @@ for folder in "$data"/*fr*1_desk{,_part} "$data"/*fr*1_360{,_part} \
     [[ ! -e $folder/rgb.txt ]] || sequences+=("$folder")
 done
 
-"$bin/pointplane-eval" reproduce "${sequences[@]}" -c config.ini --paper-config config-paper.ini \
+"$bin/pointplane-lab" reproduce "${sequences[@]}" -c config.ini --paper-config config-paper.ini \
     --only tables,tukey,alpha,corner,paper,configurations --figure docs/figures >"$work/figures.md"
 {
     echo

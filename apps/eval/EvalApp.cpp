@@ -45,30 +45,47 @@ void CommandContext::hint(const std::string& text)
 {
     if (!text.empty())
     {
-        err << "pointplane-eval: hint: " << text << "\n";
+        err << program << ": hint: " << text << "\n";
     }
 }
 
-int runEval(const std::vector<std::string>& args, std::ostream& out, std::ostream& err)
+int runCommandsOf(
+    const std::string& program,
+    const std::string& description,
+    const std::function<void(CLI::App&, CommandContext&)>& addCommands,
+    const std::vector<std::string>& args,
+    std::ostream& out,
+    std::ostream& err)
 {
-    CommandContext context{out, err, "pointplane-eval"};
+    CommandContext context{out, err, program, program};
     for (const std::string& arg : args)
     {
         context.commandLine += " " + quoted(arg);
     }
-    CLI::App app{
-        "Scores trajectories and their covariances against ground truth.", "pointplane-eval"};
+    CLI::App app{description, program};
     app.set_version_flag("--version", POINTPLANE_VERSION);
     app.require_subcommand(1);
-    addRpeCommand(app, context);
-    addAteCommand(app, context);
-    addNeesCommand(app, context);
-    addCompareCommand(app, context);
-    addSweepCommand(app, context);
-    addReproduceCommand(app, context);
-
+    addCommands(app, context);
     std::vector<std::string> words;
     std::transform(args.begin(), args.end(), std::back_inserter(words), withHyphens);
     return runCommand(app, words, out, err, [&] { return context.exitCode; });
+}
+
+int runEval(const std::vector<std::string>& args, std::ostream& out, std::ostream& err)
+{
+    const auto addCommands = [](CLI::App& app, CommandContext& context)
+    {
+        addRpeCommand(app, context);
+        addAteCommand(app, context);
+        addNeesCommand(app, context);
+        addCompareCommand(app, context);
+    };
+    return runCommandsOf(
+        "pointplane-eval",
+        "Scores trajectories and their covariances against ground truth.",
+        addCommands,
+        args,
+        out,
+        err);
 }
 }  // namespace pointplane

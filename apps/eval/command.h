@@ -3,8 +3,10 @@
 
 #include <pointplane/mrpt_io/errors.h>
 
+#include <functional>
 #include <iosfwd>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -15,6 +17,7 @@ struct CommandContext
 {
     std::ostream& out;        //!< results
     std::ostream& err;        //!< warnings and progress
+    std::string program;      //!< its name, for messages
     std::string commandLine;  //!< as a shell would take it, for reports
     int exitCode{kExitOk};    //!< kExitIncomplete: gate exceeded, or damaged input
 
@@ -28,7 +31,15 @@ void addRpeCommand(CLI::App& app, CommandContext& context);
 void addAteCommand(CLI::App& app, CommandContext& context);
 void addNeesCommand(CLI::App& app, CommandContext& context);
 void addCompareCommand(CLI::App& app, CommandContext& context);
-void addSweepCommand(CLI::App& app, CommandContext& context);
-void addReproduceCommand(CLI::App& app, CommandContext& context);
 /** @} */
+
+/** Runs a program that consists of such commands. \param addCommands adds them \param args without
+ * the program's name \return exit code */
+[[nodiscard]] int runCommandsOf(
+    const std::string& program,
+    const std::string& description,
+    const std::function<void(CLI::App&, CommandContext&)>& addCommands,
+    const std::vector<std::string>& args,
+    std::ostream& out,
+    std::ostream& err);
 }  // namespace pointplane

@@ -132,7 +132,8 @@ class ConvertBag : public test::ConvertedRecording
         {
             EXPECT_NEAR(found[i].stamp, kStart + static_cast<double>(i) / 30, 1e-6);
             EXPECT_NEAR(found[i].shutter.depthDelay, 0.005, 1e-6);
-            EXPECT_NEAR(found[i].depth.at<float>(20, 30), 1 + 1e-3 * static_cast<double>(i), tolerance);
+            EXPECT_NEAR(
+                found[i].depth.at<float>(20, 30), 1 + 1e-3 * static_cast<double>(i), tolerance);
             EXPECT_NEAR(
                 found[i].gray.at<uchar>(20, 30),
                 0.114 * 200 + 0.587 * static_cast<double>(20 * i + 10) + 0.299 * 30,

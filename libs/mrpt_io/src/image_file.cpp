@@ -139,8 +139,7 @@ cv::Mat readImageFile(const std::string& path, int flags)
     return image;
 }
 
-void writeImageFile(
-    const std::string& path, const cv::Mat& image, const std::vector<int>& options)
+void writeImageFile(const std::string& path, const cv::Mat& image, const std::vector<int>& options)
 {
     Bytes bytes;
     try

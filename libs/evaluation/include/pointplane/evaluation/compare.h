@@ -30,14 +30,15 @@ struct Comparison
 {
     std::vector<ComparedRun> runs;                                //!< in the order given
     std::size_t bestTranslation{0}, bestRotation{0}, bestAte{0};  //!< indices of the smallest RMSE
-    std::size_t numCommonPairs{0};  //!< that all runs have
-    bool sameFrames{true};          //!< no run has others
+    std::size_t numCommonPairs{0};                                //!< that all runs have
+    bool sameFrames{true};                                        //!< no run has others
 };
 
 /** Scores several estimates of the same ground truth. `rpe` must list its pairs (fixed delta), or
  * std::invalid_argument is thrown. The bootstrap's blocks are as long as a pair: that far, errors
  * share measurements. Errors of other frames say nothing about which run is better, so only the
- * pairs count that all runs have. ATE is of each run's own frames. \param options its block length is ignored */
+ * pairs count that all runs have. ATE is of each run's own frames. \param options its block length
+ * is ignored */
 [[nodiscard]] Comparison compareRuns(
     const Trajectory& groundTruth,
     const std::vector<Trajectory>& estimates,

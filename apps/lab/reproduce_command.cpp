@@ -9,9 +9,9 @@
 #include <memory>
 #include <ostream>
 
+#include "LabApp.h"
 #include "OdometryRuns.h"
 #include "OutputGuard.h"
-#include "command.h"
 #include "reproduce_output.h"
 #include "reproduce_plan.h"
 #include "result_output.h"
@@ -97,7 +97,7 @@ bool ReproduceCommand::makes(const std::string& group) const
 /** config-paper.ini: here, installed, or of the source tree the program was built in. */
 std::string findPaperConfig()
 {
-    const auto self = std::filesystem::path(siblingProgram("pointplane-eval")).parent_path();
+    const auto self = std::filesystem::path(siblingProgram("pointplane-lab")).parent_path();
     for (const std::filesystem::path& folder :
          {std::filesystem::path("."), self / "../share/pointplane", self / "../../.."})
     {

@@ -9,9 +9,9 @@
 #include <memory>
 #include <ostream>
 
+#include "LabApp.h"
 #include "OdometryRuns.h"
 #include "OutputGuard.h"
-#include "command.h"
 #include "result_output.h"
 #include "rpe_options.h"
 #include "sweep_charts.h"

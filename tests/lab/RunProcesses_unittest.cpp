@@ -3,7 +3,7 @@
 #include <map>
 #include <sstream>
 
-#include "EvalApp.h"
+#include "LabApp.h"
 #include "reproduce_output.h"
 #include "run_app.h"
 #include "run_processes.h"
@@ -17,7 +17,7 @@ using testing::HasSubstr;
 
 namespace
 {
-test::AppRun run(const std::vector<std::string>& args) { return test::runApp(runEval, args); }
+test::AppRun run(const std::vector<std::string>& args) { return test::runApp(runLab, args); }
 
 /** 51 poses along x at 10 Hz, 1 m/s times `factor`. */
 std::string straightLine(const std::string& factor)

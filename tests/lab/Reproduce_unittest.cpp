@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "EvalApp.h"
+#include "LabApp.h"
 #include "TempDir.h"
 #include "run_app.h"
 #include <gmock/gmock.h>
@@ -79,7 +79,7 @@ test::AppRun reproduce(const std::string& folder, const std::vector<std::string>
         "--corner-duration",
         "1.2"};
     args.insert(args.end(), options.begin(), options.end());
-    return test::runApp(runEval, args);
+    return test::runApp(runLab, args);
 }
 }  // namespace
 
