@@ -242,6 +242,7 @@ std::optional<RecordedFrame> FolderRecording::next()
     {
         out.depthDelay = *depth.stamp - *colour.stamp;
     }
+    out.isNominal = layout_.cameraIsNominal;
     readDepth(depth, out.scan);
     out.scan.colour = colourOf(colour);
     out.scan.colourFile = colour.path;

@@ -161,6 +161,7 @@ std::optional<RecordedFrame> KlgRecording::next()
         return stopped();
     }
     RecordedFrame out;
+    out.isNominal = isNominal_;
     out.scan.stamp = fromSeconds(1e-6 * static_cast<double>(microseconds));
     out.scan.camera = camera_.camera;
     out.scan.unitsPerMetre = camera_.unitsPerMetre;

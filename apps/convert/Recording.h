@@ -17,6 +17,7 @@ struct RecordedFrame
     RegisteredScan scan;
     /** Stamp of depth minus that of colour [s]; NaN = not known. */
     double depthDelay{std::numeric_limits<double>::quiet_NaN()};
+    bool isNominal{false};  //!< PinholeCamera::isNominal
 };
 
 /** One frame cannot be read, the next one may. The message names file or message. */

@@ -21,23 +21,28 @@ constexpr std::size_t kShown = 5;
 /** Delays this close are not told anew [s]. */
 constexpr double kSameDelay = 1e-4;
 
-/** Tells the delay between depth and colour where it changes. */
-class DelayWriter
+/** Tells what is known of the camera where it changes: the delay between depth and colour, and
+ * whether the intrinsics are nominal. */
+class CameraCommentWriter
 {
  public:
     void write(ScanWriter& writer, const std::string& label, const RecordedFrame& frame)
     {
-        if (!std::isnan(frame.depthDelay) &&
-            !(std::abs(frame.depthDelay - shutter_.depthDelay) <= kSameDelay))
+        const bool newDelay = !std::isnan(frame.depthDelay) &&
+                              !(std::abs(frame.depthDelay - shutter_.depthDelay) <= kSameDelay);
+        if (newDelay || frame.isNominal != isNominal_)
         {
             shutter_.depthDelay = frame.depthDelay;
-            writer.writeComment(frame.scan.stamp, shutterComment(label, shutter_));
+            isNominal_ = frame.isNominal;
+            writer.writeComment(frame.scan.stamp, cameraComment(label, shutter_, isNominal_));
         }
     }
 
  private:
     ShutterModel shutter_;
+    bool isNominal_{false};
 };
+
 /** \throws as convertRecording() */
 [[nodiscard]] RecordingSummary writeFrames(
     Recording& recording, const RecordingOutput& output, ScanWriter& writer, std::ostream& progress)
@@ -48,7 +53,7 @@ class DelayWriter
         bar.emplace(progress, standardErrorIsTerminal(), output.path);
     }
     RecordingSummary out;
-    DelayWriter delays;
+    CameraCommentWriter camera;
     std::vector<double> stamps;
     for (bool more = true; more;)
     {
@@ -56,7 +61,7 @@ class DelayWriter
         {
             if (const auto frame = recording.next())
             {
-                delays.write(writer, output.label, *frame);
+                camera.write(writer, output.label, *frame);
                 writer.write(frame->scan);
                 stamps.push_back(toSeconds(frame->scan.stamp));
                 ++out.numFrames;

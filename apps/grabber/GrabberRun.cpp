@@ -128,6 +128,7 @@ void GrabberRun::openOutputs()
     }
     if (options_.recordsRawlog())
     {
+        options_.recording.marksEnds = true;
         options_.recording.tellDelay =
             !camera_->facts().isFile;  // a file's streams both start at 0
         writer_ = std::make_unique<RecordingWriter>(options_.recording, *builder_);

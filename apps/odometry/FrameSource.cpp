@@ -3,6 +3,7 @@
 
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/external_range.h>
+#include <pointplane/mrpt_io/recording_marks.h>
 
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <mrpt/obs/CSensoryFrame.h>
@@ -90,6 +91,13 @@ void FrameSource::checkExternals(const CObservation3DRangeScan& scan) const
             guard_.checkInput(image->getExternalStorageFile());
         }
     }
+}
+
+bool FrameSource::isMark(const mrpt::obs::CObservation& observation)
+{
+    const auto* comment = dynamic_cast<const CObservationComment*>(&observation);
+    return comment != nullptr &&
+           (comment->text == kRecordingBegins || comment->text == kRecordingEnds);
 }
 
 bool FrameSource::isOfEarlierRun(const mrpt::obs::CObservation& observation) const
@@ -180,6 +188,10 @@ std::optional<SourceItem> FrameSource::next()
         }
         const auto observation = pending_.front();
         pending_.pop_front();
+        if (isMark(*observation))
+        {
+            continue;  // it is about the recording as a whole, which the output need not be
+        }
         if (isOfEarlierRun(*observation))
         {
             ++numReplaced_;

@@ -56,6 +56,7 @@ class FrameSource
     void openNext();
     bool refill();
     void checkExternals(const mrpt::obs::CObservation3DRangeScan& scan) const;
+    [[nodiscard]] static bool isMark(const mrpt::obs::CObservation& observation);
     [[nodiscard]] bool isOfEarlierRun(const mrpt::obs::CObservation& observation) const;
     [[nodiscard]] SourceItem item(const mrpt::obs::CObservation::Ptr& observation);
 

@@ -123,7 +123,7 @@ void writeSequence(
     const auto start = fromSeconds(sequence.stamp(0));
     if (!output.hideShutter)
     {
-        writer.writeComment(start, shutterComment(output.label, sequence.params().shutter()));
+        writer.writeComment(start, cameraComment(output.label, sequence.params().shutter()));
     }
     writer.writeComment(start, output.description);
     std::optional<ProgressBar> bar;

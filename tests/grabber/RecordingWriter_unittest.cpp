@@ -10,6 +10,7 @@
 #include <csignal>
 
 #include "grabber_testing.h"
+#include "rawlog_samples.h"
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
@@ -76,7 +77,14 @@ class Recording : public ::testing::Test
 
     TempDir dir_;
     std::vector<PlainFrame> frames_{patternFrames(40, kWidth, kHeight)};
-    ObservationBuilder builder_{nominalCalibration(facts())};
+    /** As nominal, but somebody's own. */
+    [[nodiscard]] static RgbdCalibration calibration()
+    {
+        RgbdCalibration out = nominalCalibration(facts());
+        out.isNominal = false;
+        return out;
+    }
+    ObservationBuilder builder_{calibration()};
     std::vector<std::string> paths_;
 };
 
@@ -185,6 +193,59 @@ TEST_F(Recording, anImpossibleFolderIsAnEnvironmentError)
     auto o = options();
     o.path = dir_ / "missing/out.rawlog";
     EXPECT_THROW(RecordingWriter(o, builder_), EnvironmentError);
+}
+
+/** Complete records make a complete file of any part, unless it says where it ends. */
+TEST_F(Recording, aCutBetweenTwoFramesIsTold)
+{
+    for (const double splitAfter : {0.0, 0.5})
+    {
+        auto o = options();
+        o.path = dir_ / (splitAfter > 0 ? "split.rawlog" : "one.rawlog");
+        o.splitAfter = splitAfter;
+        o.marksEnds = true;
+        record(o);
+        for (const std::string& path : paths_)
+        {
+            const std::string bytes = test::readBytes(path);
+            const test::RawlogContents whole = test::readAll(path);
+            EXPECT_EQ(whole.ending.kind, RawlogEnd::Clean) << whole.ending.message;
+            // Members of the file are frames, the first one with a mark, and the end mark.
+            std::size_t numCuts = 0;
+            const std::string member("\x1F\x8B\x08", 3);
+            for (std::size_t at = bytes.find(member, 1); at != std::string::npos;
+                 at = bytes.find(member, at + 1))
+            {
+                test::writeBytes(dir_ / "cut.rawlog", bytes.substr(0, at));
+                const test::RawlogContents cut = test::readAll(dir_ / "cut.rawlog");
+                EXPECT_EQ(cut.ending.kind, RawlogEnd::Truncated);
+                ++numCuts;
+            }
+            EXPECT_GE(numCuts, whole.objects.size() - 2);
+            EXPECT_GE(numCuts, 9U);
+        }
+    }
+}
+
+TEST_F(Recording, tellsThatIntrinsicsAreNominal)
+{
+    const ObservationBuilder builder(nominalCalibration(facts()));
+    RecordingWriter writer(options(), builder);
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+        ASSERT_TRUE(writer.push(makePair(frames_[k], stamp(k))));
+    }
+    writer.finish();
+    ObservationConverter converter;
+    const test::RawlogContents contents = test::readAll(options().path);
+    ASSERT_EQ(contents.objects.size(), 4U);  // told once
+    converter.readComment(
+        dynamic_cast<const mrpt::obs::CObservationComment&>(*contents.objects[0]));
+    const auto scan =
+        std::dynamic_pointer_cast<mrpt::obs::CObservation3DRangeScan>(contents.objects[3]);
+    ASSERT_TRUE(scan);
+    EXPECT_TRUE(converter.convert(*scan).frame.camera.isNominal);
+    EXPECT_FALSE(ObservationConverter().convert(*scan).frame.camera.isNominal);
 }
 
 /** Told at the start of each file and where it changes, as the odometry reads it. */

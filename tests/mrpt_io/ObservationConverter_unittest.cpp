@@ -416,7 +416,7 @@ TEST(ShutterComment, roundTripPerLabel)
 {
     ObservationConverter converter;
     mrpt::obs::CObservationComment comment;
-    comment.text = shutterComment("RGBD", {0.021, 0.029, ShutterModel::kUnknown});
+    comment.text = cameraComment("RGBD", {0.021, 0.029, ShutterModel::kUnknown});
     EXPECT_EQ(comment.text, "pointplane-camera label=RGBD readoutColour=0.021 readoutDepth=0.029");
     converter.readComment(comment);
     const auto scan = sampleScan(0);
@@ -426,6 +426,11 @@ TEST(ShutterComment, roundTripPerLabel)
     EXPECT_TRUE(std::isnan(shutter.depthDelay));
     scan->sensorLabel = "OTHER";
     EXPECT_TRUE(std::isnan(converter.convert(*scan).frame.shutter.readoutColour));
+    EXPECT_FALSE(converter.convert(*scan).frame.camera.isNominal);
+    comment.text = cameraComment("OTHER", {}, true);
+    EXPECT_EQ(comment.text, "pointplane-camera label=OTHER intrinsics=nominal");
+    converter.readComment(comment);
+    EXPECT_TRUE(converter.convert(*scan).frame.camera.isNominal);
     comment.text = "driver: left the garage";
     EXPECT_NO_THROW(converter.readComment(comment));
 }

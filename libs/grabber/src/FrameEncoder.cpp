@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/grabber/DurableFile.h>
 #include <pointplane/grabber/FrameEncoder.h>
-#include <pointplane/mrpt_io/ObservationConverter.h>
+#include <pointplane/mrpt_io/mrpt_poses.h>
 
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/obs/CObservationComment.h>
@@ -78,6 +78,14 @@ void serialise(const Observation& observation, mrpt::io::CMemoryStream& stream)
     auto archive = mrpt::serialization::archiveFrom(stream);
     archive << observation;
 }
+
+mrpt::obs::CObservationComment commentOf(const std::string& text, mrpt::Clock::time_point stamp)
+{
+    mrpt::obs::CObservationComment out;
+    out.timestamp = stamp;
+    out.text = text;
+    return out;
+}
 }  // namespace
 
 FrameEncoder::FrameEncoder(const EncodingOptions& options, const ObservationBuilder& builder)
@@ -116,7 +124,7 @@ std::vector<std::uint8_t> FrameEncoder::encode(
     const ImagePair& pair,
     const std::string& imagesFolder,
     std::uint64_t& externalBytes,
-    bool tellDelay)
+    const std::vector<std::string>& comments)
 {
     externalBytes = 0;
     ExternalObservation observation;
@@ -141,16 +149,18 @@ std::vector<std::uint8_t> FrameEncoder::encode(
         }
     }
     mrpt::io::CMemoryStream stream;
-    if (tellDelay)
+    for (const std::string& comment : comments)
     {
-        ShutterModel shutter;
-        shutter.depthDelay = pair.depthDelay();
-        mrpt::obs::CObservationComment comment;
-        comment.timestamp = observation.timestamp;
-        comment.text = shutterComment(observation.sensorLabel, shutter);
-        serialise(comment, stream);
+        serialise(commentOf(comment, observation.timestamp), stream);
     }
     serialise<mrpt::obs::CObservation3DRangeScan>(observation, stream);
+    return compressed(stream.getRawBufferData(), stream.getTotalBytesCount());
+}
+
+std::vector<std::uint8_t> FrameEncoder::encode(const std::string& comment, double stamp)
+{
+    mrpt::io::CMemoryStream stream;
+    serialise(commentOf(comment, fromSeconds(stamp)), stream);
     return compressed(stream.getRawBufferData(), stream.getTotalBytesCount());
 }
 }  // namespace pointplane

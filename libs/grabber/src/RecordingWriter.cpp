@@ -2,7 +2,9 @@
 #include <pointplane/core/check.h>
 #include <pointplane/grabber/DurableFile.h>
 #include <pointplane/grabber/RecordingWriter.h>
+#include <pointplane/mrpt_io/ObservationConverter.h>
 #include <pointplane/mrpt_io/errors.h>
+#include <pointplane/mrpt_io/recording_marks.h>
 
 #include <cmath>
 #include <filesystem>
@@ -104,6 +106,7 @@ RecordingWriter::Job RecordingWriter::makeJob(const ImagePair& pair) const
     {
         job.segment = static_cast<int>((pair.stamp - firstStamp_) / options_.splitAfter);
     }
+    job.opensFile = job.segment != openedSegment_;
     job.tellsDelay =
         options_.tellDelay && !pair.colour.pixels.empty() &&
         (job.segment != toldSegment_ || std::abs(pair.depthDelay() - toldDelay_) > kSameDelay);
@@ -116,6 +119,7 @@ void RecordingWriter::accepted(const Job& job)
     {
         firstStamp_ = job.pair.stamp;
     }
+    openedSegment_ = job.segment;
     if (job.tellsDelay)
     {
         toldDelay_ = job.pair.depthDelay();
@@ -145,6 +149,23 @@ bool RecordingWriter::push(const ImagePair& pair)
     return taken;
 }
 
+std::vector<std::string> RecordingWriter::commentsOf(const Job& job) const
+{
+    std::vector<std::string> out;
+    if (job.opensFile && options_.marksEnds)
+    {
+        out.emplace_back(kRecordingBegins);
+    }
+    const RgbdCalibration& calibration = builder_.calibration();
+    if (job.tellsDelay || (job.opensFile && calibration.isNominal))
+    {
+        ShutterModel shutter;
+        shutter.depthDelay = job.tellsDelay ? job.pair.depthDelay() : ShutterModel::kUnknown;
+        out.push_back(cameraComment(calibration.sensorLabel, shutter, calibration.isNominal));
+    }
+    return out;
+}
+
 void RecordingWriter::openSegment(int segment)
 {
     const auto path = rawlogPath(segment);
@@ -168,7 +189,8 @@ void RecordingWriter::compressLoop()
         }
         Record record;
         record.segment = job->segment;
-        record.bytes = encoder.encode(job->pair, folder, record.externalBytes, job->tellsDelay);
+        record.stamp = job->pair.stamp;
+        record.bytes = encoder.encode(job->pair, folder, record.externalBytes, commentsOf(*job));
         encoded_.put(job->number, std::move(record));
     }
 }
@@ -183,8 +205,7 @@ void RecordingWriter::writeLoop()
         {
             if (record->segment != segment_)
             {
-                syncSegment();
-                file_->close();
+                closeSegment();
                 openSegment(record->segment);
             }
             pending_.push_back(std::move(*record));
@@ -199,7 +220,18 @@ void RecordingWriter::writeLoop()
             nextSync = Clock::now() + options_.syncInterval;
         }
     }
+    closeSegment();
+}
+
+void RecordingWriter::closeSegment()
+{
     syncSegment();
+    if (options_.marksEnds && file_->numBytes() > 0)
+    {
+        const auto bytes =
+            FrameEncoder(options_.encoding, builder_).encode(kRecordingEnds, latestStamp_);
+        file_->append(bytes.data(), bytes.size());
+    }
     file_->close();
 }
 
@@ -208,6 +240,7 @@ void RecordingWriter::appendPending()
     for (const auto& record : pending_)
     {
         file_->append(record.bytes.data(), record.bytes.size());
+        latestStamp_ = record.stamp;
         bytesWritten_ += record.bytes.size() + record.externalBytes;
         ++framesWritten_;
     }

@@ -107,6 +107,7 @@ void fitToMode(mrpt::img::TCamera& camera, const VideoMode& mode, const std::str
 RgbdCalibration nominalCalibration(const CameraFacts& facts)
 {
     RgbdCalibration calibration;
+    calibration.isNominal = true;
     calibration.depth = pinhole(facts.mode, facts.depthFocal_px);
     calibration.colour =
         pinhole(facts.mode, facts.hasColour ? facts.colourFocal_px : facts.depthFocal_px);

@@ -16,7 +16,7 @@
 #include <optional>
 
 #include "DepthRegistration.h"
-#include "shutterText.h"
+#include "cameraText.h"
 
 namespace pointplane
 {
@@ -158,7 +158,7 @@ struct ObservationConverter::Impl
     void fill(const CObservation3DRangeScan& scan, ConvertedFrame& out) const;
 
     std::string externals;
-    std::map<std::string, ShutterModel> shutters;
+    std::map<std::string, CameraComment> told;  // by label
 
     // The latest registration: its ray table is the costly part.
     mutable std::optional<DepthRegistration> registrationCache;
@@ -279,9 +279,9 @@ void ObservationConverter::setExternalsDirectory(const std::string& directory)
 
 void ObservationConverter::readComment(const mrpt::obs::CObservationComment& comment)
 {
-    if (auto parsed = parseShutterComment(comment.text))
+    if (auto parsed = parseCameraComment(comment.text))
     {
-        impl_->shutters[parsed->label] = parsed->shutter;
+        impl_->told[parsed->label] = *parsed;
     }
 }
 
@@ -291,9 +291,10 @@ ConvertedFrame ObservationConverter::convert(const CObservation3DRangeScan& scan
     try
     {
         impl_->fill(scan, out);
-        if (const auto it = impl_->shutters.find(scan.sensorLabel); it != impl_->shutters.end())
+        if (const auto it = impl_->told.find(scan.sensorLabel); it != impl_->told.end())
         {
-            out.frame.shutter = it->second;
+            out.frame.shutter = it->second.shutter;
+            out.frame.camera.isNominal = it->second.isNominal;
         }
     }
     catch (const std::exception& e)

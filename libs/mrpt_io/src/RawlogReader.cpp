@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/mrpt_io/RawlogReader.h>
 #include <pointplane/mrpt_io/errors.h>
+#include <pointplane/mrpt_io/recording_marks.h>
 
 #include <mrpt/obs/CObservation3DRangeScan.h>
+#include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/serialization/CArchive.h>
 
@@ -140,6 +142,7 @@ struct RawlogReader::Impl
     }
 
     void readAhead();
+    void readMark();
     void scanOrAskMrpt();
     void askMrpt(const std::string& what);
     [[nodiscard]] Sum sum();
@@ -155,6 +158,7 @@ struct RawlogReader::Impl
     ObjectScanner scanner;
     std::vector<std::uint8_t> bytes;
     mrpt::serialization::CSerializable::Ptr ahead;
+    bool isRecording{false};  // between the marks of one
     std::size_t numRead{0};
     std::size_t numDelivered{0};
     RawlogEnding ending;      // of the file, as far as it has been read
@@ -231,7 +235,10 @@ void RawlogReader::Impl::scanOrAskMrpt()
     {
         if (!scanner.scan(bytes))
         {
-            endHere(RawlogEnd::Clean, "");
+            endHere(
+                isRecording ? RawlogEnd::Truncated : RawlogEnd::Clean,
+                "the end mark of the recording is missing: it was cut between two frames, or the "
+                "recording program was killed");
             return;
         }
         member = in.endMember();
@@ -246,6 +253,15 @@ void RawlogReader::Impl::scanOrAskMrpt()
     {
         askMrpt(e.what());
         member = in.endMember();
+    }
+}
+
+void RawlogReader::Impl::readMark()
+{
+    if (const auto* comment = dynamic_cast<const mrpt::obs::CObservationComment*>(ahead.get()))
+    {
+        isRecording =
+            comment->text == kRecordingBegins || (isRecording && comment->text != kRecordingEnds);
     }
 }
 
@@ -268,6 +284,7 @@ void RawlogReader::Impl::readAhead()
     if (ahead)
     {
         restoreResolutions(*ahead, scanner.cameraResolutions());
+        readMark();
         ++numRead;
     }
     else if (ending.kind == RawlogEnd::Open)

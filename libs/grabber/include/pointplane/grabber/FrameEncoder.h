@@ -37,13 +37,16 @@ class FrameEncoder
 
     /** \param imagesFolder where external images go (existing), unused for embedded ones
      * \param[out] externalBytes size of the external files
-     * \param tellDelay puts a pointplane-camera comment with the delay between the two images first
+     * \param comments put first
      * \return what to append to the rawlog \throws EnvironmentError if a file cannot be written */
     [[nodiscard]] std::vector<std::uint8_t> encode(
         const ImagePair& pair,
         const std::string& imagesFolder,
         std::uint64_t& externalBytes,
-        bool tellDelay = false);
+        const std::vector<std::string>& comments = {});
+
+    /** A comment alone. \param stamp [s] UTC */
+    [[nodiscard]] std::vector<std::uint8_t> encode(const std::string& comment, double stamp);
 
  private:
     [[nodiscard]] std::vector<std::uint8_t> compressed(const void* data, std::size_t size) const;

@@ -26,6 +26,7 @@ struct RecordingOptions
     double splitAfter{0};          //!< [s] of recorded time per file; 0 = one file
     std::size_t queueFrames{150};  //!< that wait in memory, 1.5 MB each at 640x480
     int numThreads{2};             //!< that compress
+    bool marksEnds{false};         //!< comments that tell a complete file from one that was cut
     bool tellDelay{false};  //!< of depth after colour, where it changes; images have device times
     std::chrono::milliseconds syncInterval{500};  //!< how much a power failure may cost
 };
@@ -79,18 +80,22 @@ class RecordingWriter
     {
         std::uint64_t number{0};
         int segment{0};
+        bool opensFile{false};
         bool tellsDelay{false};
         ImagePair pair;
     };
     struct Record
     {
         int segment{0};
+        double stamp{0};
         std::vector<std::uint8_t> bytes;
         std::uint64_t externalBytes{0};
     };
 
     [[nodiscard]] Job makeJob(const ImagePair& pair) const;
     void accepted(const Job& job);
+    [[nodiscard]] std::vector<std::string> commentsOf(const Job& job) const;
+    void closeSegment();
     [[nodiscard]] std::string imagesFolder(int segment) const;
     [[nodiscard]] std::string rawlogPath(int segment) const;
     void openSegment(int segment);
@@ -106,9 +111,11 @@ class RecordingWriter
     double firstStamp_{0};
     double toldDelay_{0};  // of the last segment that told one
     int toldSegment_{-1};
+    int openedSegment_{-1};
     BoundedQueue<Job> queue_;
     ReorderBuffer<Record> encoded_;
     std::unique_ptr<DurableFile> file_;  // of the writing thread, after construction
+    double latestStamp_{0};              // likewise
     std::vector<Record> pending_;        // refer to external files that are not synced yet
     int segment_{0};
     std::atomic<std::uint64_t> framesWritten_{0}, bytesWritten_{0};

@@ -17,7 +17,8 @@ struct RgbdCalibration
     mrpt::poses::CPose3D colourWrtDepth;  //!< CObservation3DRangeScan's convention
     mrpt::poses::CPose3D sensorPose;      //!< of the depth camera on the robot
     std::string sensorLabel{"OPENNI2"};
-    std::string source;  //!< where the intrinsics come from, one clause for the summary
+    bool isNominal{false};  //!< of the model of camera; nobody calibrated this one
+    std::string source;     //!< where the intrinsics come from, one clause for the summary
 };
 
 /** From what the driver says: square pixels, principal point in the centre, no distortion. */

@@ -59,5 +59,6 @@ class ObservationConverter
 };
 
 /** The comment that readComment() understands; unknown values are left out. */
-[[nodiscard]] std::string shutterComment(const std::string& label, const ShutterModel& shutter);
+[[nodiscard]] std::string cameraComment(
+    const std::string& label, const ShutterModel& shutter, bool isNominal = false);
 }  // namespace pointplane

@@ -27,6 +27,9 @@ struct PinholeCamera
      * into the raw, distorted colour image. No effect without distortion. */
     bool depthAtUndistortedPixel{true};
 
+    /** The intrinsics are those of the model of camera, or a guess; nobody calibrated this one. */
+    bool isNominal{false};
+
     /** Empty when usable, otherwise what is wrong (NaN, zero focal length, empty image...). */
     [[nodiscard]] std::string problem() const;
 

@@ -8,12 +8,13 @@
 
 namespace pointplane
 {
-struct LabelledShutter
+struct CameraComment
 {
     std::string label;
     ShutterModel shutter;
+    bool isNominal{false};
 };
 
 /** Empty if the text does not start with "pointplane-camera". \throws InputError naming the key */
-[[nodiscard]] std::optional<LabelledShutter> parseShutterComment(const std::string& text);
+[[nodiscard]] std::optional<CameraComment> parseCameraComment(const std::string& text);
 }  // namespace pointplane

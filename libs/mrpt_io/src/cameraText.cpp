@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "shutterText.h"
+#include "cameraText.h"
 
 #include <pointplane/mrpt_io/ObservationConverter.h>
 #include <pointplane/mrpt_io/errors.h>
@@ -21,7 +21,7 @@ constexpr const char* kMark = "pointplane-camera";
 }
 }  // namespace
 
-std::optional<LabelledShutter> parseShutterComment(const std::string& text)
+std::optional<CameraComment> parseCameraComment(const std::string& text)
 {
     std::istringstream words(text);
     std::string word;
@@ -29,7 +29,7 @@ std::optional<LabelledShutter> parseShutterComment(const std::string& text)
     {
         return {};
     }
-    LabelledShutter out;
+    CameraComment out;
     while (words >> word)
     {
         const std::size_t equals = word.find('=');
@@ -40,6 +40,15 @@ std::optional<LabelledShutter> parseShutterComment(const std::string& text)
             out.label = value;
             continue;
         }
+        if (key == "intrinsics")
+        {
+            if (value != "nominal" && value != "calibrated")
+            {
+                throw problem("intrinsics is '" + value + "', not nominal or calibrated");
+            }
+            out.isNominal = value == "nominal";
+            continue;
+        }
         double* target = key == "readoutColour"  ? &out.shutter.readoutColour
                          : key == "readoutDepth" ? &out.shutter.readoutDepth
                          : key == "depthDelay"   ? &out.shutter.depthDelay
@@ -48,7 +57,7 @@ std::optional<LabelledShutter> parseShutterComment(const std::string& text)
         {
             throw problem(
                 "unknown key '" + key +
-                "' (known: label, readoutColour, readoutDepth, depthDelay)");
+                "' (known: label, intrinsics, readoutColour, readoutDepth, depthDelay)");
         }
         const auto number = parseNumber<double>(value);
         if (!number || !std::isfinite(*number))
@@ -64,9 +73,10 @@ std::optional<LabelledShutter> parseShutterComment(const std::string& text)
     return out;
 }
 
-std::string shutterComment(const std::string& label, const ShutterModel& shutter)
+std::string cameraComment(const std::string& label, const ShutterModel& shutter, bool isNominal)
 {
     std::string out = std::string(kMark) + " label=" + label;
+    out += isNominal ? " intrinsics=nominal" : "";
     const auto append = [&out](const char* key, double value)
     {
         if (std::isfinite(value))
