@@ -27,8 +27,8 @@ for folder in "$data"/*fr*1_desk{,_part} "$data"/*fr*1_360{,_part} \
     [[ ! -e $folder/rgb.txt ]] || sequences+=("$folder")
 done
 
-"$bin/pointplane-lab" reproduce "${sequences[@]}" -c config.ini --paper-config config-paper.ini \
-    --only tables,tukey,alpha,corner,paper,configurations --figure docs/figures >"$work/figures.md"
+"$bin/pointplane-lab" reproduce "${sequences[@]}" --paper-config config-paper.ini \
+    --only tables,tukey,alpha,corner,paper --figure docs/figures >"$work/figures.md"
 {
     echo
     cat "$work/figures.md"

@@ -10,8 +10,8 @@
 #include <ostream>
 
 #include "LabApp.h"
-#include "OdometryRuns.h"
 #include "OutputGuard.h"
+#include "lab_runs.h"
 #include "reproduce_output.h"
 #include "reproduce_plan.h"
 #include "result_output.h"
@@ -26,11 +26,11 @@ namespace
 struct ReproduceCommand
 {
     std::vector<std::string> directories;
-    std::string config, paperConfig, report, figure, convert, simulate;
+    std::string paperConfig, report, figure, convert, simulate;
     double cornerDuration{18};
     std::vector<std::string> alphas{"0", "1", "10", "100", "1e3", "1e7"};
     std::vector<std::string> parts{std::begin(kReproducedGroups), std::end(kReproducedGroups)};
-    OdometryRunner runner;
+    LabRunner runner;
     OutputFiles files;
 
     void addTo(CLI::App& command);
@@ -46,13 +46,8 @@ void ReproduceCommand::addTo(CLI::App& command)
 {
     command.add_option("directories", directories, "Folders of TUM sequences, or single sequences")
         ->required();
-    command.add_option("-c,--config", config, "The default configuration [built in]")
-        ->group("Runs");
     command
-        .add_option(
-            "--paper-config",
-            paperConfig,
-            "config-paper.ini, with config-fast.ini beside it [here or with the program]")
+        .add_option("--paper-config", paperConfig, "config-paper.ini [here or with the program]")
         ->group("Runs");
     command.add_option("--alphas", alphas, "Weights of the planes, for Fig. 3")
         ->delimiter(',')
@@ -63,8 +58,7 @@ void ReproduceCommand::addTo(CLI::App& command)
             "--only",
             parts,
             "tables (1 and 2, the quickest), tukey (Table 1 by the M-estimator's constant), alpha "
-            "(Fig. 3), corner (Fig. 5), paper (ablations of its configuration), detectors, "
-            "configurations (ours) [all]")
+            "(Fig. 3), corner (Fig. 5), paper (ablations of its configuration), detectors [all]")
         ->delimiter(',')
         ->check(CLI::IsMember(parts))
         ->group("Runs");
@@ -165,7 +159,6 @@ void ReproduceCommand::makeRawlogs(
 void ReproduceCommand::run(CommandContext& context) const
 {
     OutputGuard guard;
-    guard.addInput(config);
     guard.addInput(paperConfig);
     files.guardedBy(guard);
     guardReport(guard, report);
@@ -182,8 +175,7 @@ void ReproduceCommand::run(CommandContext& context) const
         result.sequences.insert(result.sequences.end(), found.begin(), found.end());
     }
     const std::string paper = paperConfig.empty() ? findPaperConfig() : paperConfig;
-    const auto fast = std::filesystem::path(paper).replace_filename("config-fast.ini").string();
-    for (const Variant& variant : planVariants({config, fast, paper}, alphas))
+    for (const Variant& variant : planVariants(paper, alphas))
     {
         if (makes(variant.group))
         {
@@ -194,7 +186,7 @@ void ReproduceCommand::run(CommandContext& context) const
     const WorkDirectory work(runner.directory);
     makeRawlogs(result.sequences, work.path(), context);
 
-    std::vector<OdometryRun> runs;
+    std::vector<LabRun> runs;
     for (const ReproducedSequence& s : result.sequences)
     {
         for (const Variant& v : result.variants)
@@ -242,7 +234,7 @@ void ReproduceCommand::run(CommandContext& context) const
     }
     for (const auto* scores : {&result.scores, &result.cornerScores})
     {
-        for (const OdometryScore& score : *scores)
+        for (const LabScore& score : *scores)
         {
             context.exitCode = score.rpe ? context.exitCode : kExitIncomplete;
         }

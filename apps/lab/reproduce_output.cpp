@@ -150,7 +150,7 @@ nlohmann::ordered_json toJson(const Reproduction& result)
     }
     for (std::size_t k = 0; k < result.cornerScores.size(); ++k)
     {
-        const OdometryScore& score = result.cornerScores[k];
+        const LabScore& score = result.cornerScores[k];
         nlohmann::ordered_json run{{"variant", result.cornerVariants[k].name}};
         if (score.rpe)
         {
@@ -174,7 +174,7 @@ std::string toCsv(const Reproduction& result)
     {
         const ReproducedSequence& s = result.sequences[k / result.variants.size()];
         const Variant& v = result.variants[k % result.variants.size()];
-        const OdometryScore& score = result.scores[k];
+        const LabScore& score = result.scores[k];
         out += csvField(s.name) + "," + (s.isPart ? "1" : "0") + "," + v.group + "," +
                csvField(v.name) +
                (score.rpe ? format(
@@ -192,7 +192,7 @@ std::vector<Chart> alphaCharts(const Reproduction& result)
 {
     std::vector<std::string> alphas;
     std::vector<std::string> names;
-    std::vector<OdometryScore> scores;
+    std::vector<LabScore> scores;
     for (std::size_t s = 0; s < result.sequences.size(); ++s)
     {
         names.push_back(displayName(result.sequences[s]));

@@ -14,9 +14,9 @@ struct Reproduction
     std::string protocol;
     std::vector<ReproducedSequence> sequences;
     std::vector<Variant> variants;
-    std::vector<OdometryScore> scores;    //!< of sequence s, variant v: [s * variants.size() + v]
+    std::vector<LabScore> scores;         //!< of sequence s, variant v: [s * variants.size() + v]
     std::vector<Variant> cornerVariants;  //!< of the simulated corner
-    std::vector<OdometryScore> cornerScores;  //!< one each
+    std::vector<LabScore> cornerScores;   //!< one each
 
     /** Score as text, or "-" when there is no such variant or sequence. */
     [[nodiscard]] std::string text(

@@ -48,28 +48,18 @@ void addTukey(std::vector<Variant>& plan, const std::string& paper)
     }
 }
 
-void addAblations(std::vector<Variant>& plan, const ConfigFiles& configs)
+void addAblations(std::vector<Variant>& plan, const std::string& paper)
 {
-    plan.push_back({"paper", "planes", configs.paper, kPlanesOnly});
-    plan.push_back({"paper", "points and planes, unweighted", configs.paper, {kUnweighted}});
+    plan.push_back({"paper", "planes", paper, kPlanesOnly});
+    plan.push_back({"paper", "points and planes, unweighted", paper, {kUnweighted}});
     for (const std::string detector : kDetectors)
     {
         plan.push_back(
             {"detectors",
              "points and planes, " + detector,
-             configs.paper,
+             paper,
              {"PointDetector.detector=" + detector}});
     }
-    const std::string group = "configurations";
-    plan.push_back({group, "config.ini", configs.usual, {}});
-    plan.push_back({group, "config-fast.ini", configs.fast, {}});
-    plan.push_back({group, "config-paper.ini", configs.paper, {}});
-    plan.push_back({group, "config.ini, points", configs.usual, kPointsOnly});
-    plan.push_back(
-        {group, "config.ini, points, unweighted", configs.usual, with(kPointsOnly, kUnweighted)});
-    plan.push_back({group, "config.ini, planes", configs.usual, kPlanesOnly});
-    plan.push_back(
-        {group, "config.ini, frame to frame", configs.usual, {"Reference.reference=previous"}});
 }
 
 /** First and last stamp of rgb.txt. */
@@ -143,25 +133,18 @@ const std::vector<PublishedFigures>& publishedFigures()
     return figures;
 }
 
-bool wereParametersChosenOn(const std::string& sequence)
-{
-    const auto chosenOn = {"fr1/xyz", "fr3/structure_notexture_far", "icl_living_room_kt0"};
-    return std::find(chosenOn.begin(), chosenOn.end(), sequence) != chosenOn.end();
-}
-
-std::vector<Variant> planVariants(
-    const ConfigFiles& configs, const std::vector<std::string>& alphas)
+std::vector<Variant> planVariants(const std::string& paper, const std::vector<std::string>& alphas)
 {
     std::vector<Variant> plan;
-    addTables(plan, configs.paper);
-    addTukey(plan, configs.paper);
+    addTables(plan, paper);
+    addTukey(plan, paper);
     for (const std::string& alpha : alphas)
     {
-        plan.push_back({"alpha", alpha, configs.paper, {"PoseSolver.alpha=" + alpha}});
+        plan.push_back({"alpha", alpha, paper, {"PoseSolver.alpha=" + alpha}});
     }
-    plan.push_back({"corner", "planes", configs.paper, kPlanesOnly});
-    plan.push_back({"corner", "points and planes", configs.paper, {}});
-    addAblations(plan, configs);
+    plan.push_back({"corner", "planes", paper, kPlanesOnly});
+    plan.push_back({"corner", "points and planes", paper, {}});
+    addAblations(plan, paper);
     return plan;
 }
 }  // namespace pointplane

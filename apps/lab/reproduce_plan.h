@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "OdometryRuns.h"
+#include "lab_runs.h"
 
 namespace pointplane
 {
@@ -19,9 +19,6 @@ struct ReproducedSequence
     std::size_t numFrames{0};           //!< of them
     std::string rawlog, groundTruth;
 };
-
-/** Whether parameters were chosen on (parts of) this sequence, docs/experiments.md. */
-[[nodiscard]] bool wereParametersChosenOn(const std::string& sequence);
 
 /** Folders with rgb.txt, depth.txt and groundtruth.txt: `directory` itself or those in it, sorted.
  */
@@ -41,7 +38,7 @@ struct PublishedFigures
 
 /** What `reproduce` makes, and by what name --only chooses it. */
 constexpr const char* kReproducedGroups[] = {
-    "tables", "tukey", "alpha", "corner", "paper", "detectors", "configurations"};
+    "tables", "tukey", "alpha", "corner", "paper", "detectors"};
 
 /** One configuration that every sequence is run with; the corner's only the corner. */
 struct Variant
@@ -52,15 +49,8 @@ struct Variant
     std::vector<std::string> settings;
 };
 
-/** The ini files of the project. */
-struct ConfigFiles
-{
-    std::string usual;  //!< config.ini; empty: the built-in one
-    std::string fast, paper;
-};
-
 /** The paper's tables, Fig. 3 and Fig. 5, Tukey's constants, and the ablations.
- * \param alphas of Fig. 3 */
+ * \param paper config-paper.ini \param alphas of Fig. 3 */
 [[nodiscard]] std::vector<Variant> planVariants(
-    const ConfigFiles& configs, const std::vector<std::string>& alphas);
+    const std::string& paper, const std::vector<std::string>& alphas);
 }  // namespace pointplane

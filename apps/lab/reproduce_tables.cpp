@@ -29,7 +29,7 @@ PublishedFigures publishedOf(const std::string& name)
 }
 
 /** "12.3 / 0.45 (6 p)": mm and deg as in the paper's tables, and the frames that were predicted. */
-std::string cellText(const OdometryScore& score)
+std::string cellText(const LabScore& score)
 {
     if (!score.rpe)
     {
@@ -177,12 +177,7 @@ ReproductionTable sequenceTable(const Reproduction& result)
 {
     ReproductionTable table{
         "Sequences",
-        {"sequence",
-         "first stamp",
-         "last stamp",
-         "colour images",
-         "in the paper",
-         "parameters of config.ini chosen on it"},
+        {"sequence", "first stamp", "last stamp", "colour images", "in the paper"},
         {}};
     for (const ReproducedSequence& s : result.sequences)
     {
@@ -191,8 +186,7 @@ ReproductionTable sequenceTable(const Reproduction& result)
              s.firstStamp,
              s.lastStamp,
              std::to_string(s.numFrames),
-             publishedOf(s.name).points.empty() ? "no" : "yes",
-             wereParametersChosenOn(s.name) ? "yes" : "no"});
+             publishedOf(s.name).points.empty() ? "no" : "yes"});
     }
     return table;
 }
@@ -207,7 +201,7 @@ ReproductionTable cornerTable(const Reproduction& result)
     for (std::size_t k = 0; k < result.cornerVariants.size(); ++k)
     {
         const std::string& name = result.cornerVariants[k].name;
-        const OdometryScore& score = result.cornerScores[k];
+        const LabScore& score = result.cornerScores[k];
         table.rows.push_back(
             {name,
              score.rpe ? format("%.1f", 1000 * score.finalError) : "failed",
@@ -268,7 +262,6 @@ std::vector<ReproductionTable> reproductionTables(const Reproduction& result)
     }
     addGroup("paper", "Ablations of config-paper.ini", "configuration");
     addGroup("detectors", "Detectors (config-paper.ini)", "configuration");
-    addGroup("configurations", "Configurations", "configuration");
     return out;
 }
 }  // namespace pointplane

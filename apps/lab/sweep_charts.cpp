@@ -33,7 +33,7 @@ std::vector<Chart> sweepCharts(
     const std::string& parameter,
     const std::vector<std::string>& values,
     const std::vector<std::string>& sequences,
-    const std::vector<OdometryScore>& scores,
+    const std::vector<LabScore>& scores,
     ValueAxis axis)
 {
     std::vector<double> x = numbersOf(values);

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "OdometryRuns.h"
+#include "lab_runs.h"
 
 namespace pointplane
 {
@@ -24,6 +24,6 @@ enum class ValueAxis
     const std::string& parameter,
     const std::vector<std::string>& values,
     const std::vector<std::string>& sequences,
-    const std::vector<OdometryScore>& scores,
+    const std::vector<LabScore>& scores,
     ValueAxis axis);
 }  // namespace pointplane

@@ -10,8 +10,8 @@
 #include <ostream>
 
 #include "LabApp.h"
-#include "OdometryRuns.h"
 #include "OutputGuard.h"
+#include "lab_runs.h"
 #include "result_output.h"
 #include "rpe_options.h"
 #include "sweep_charts.h"
@@ -29,13 +29,13 @@ struct SweepCommand
     std::vector<double> range;  //!< from, to, steps
     bool logarithmic{false};
     RpeCommandOptions rpe;
-    OdometryRunner runner;
+    LabRunner runner;
     OutputFiles files;
 
     void addTo(CLI::App& command);
     void run(CommandContext& context);
     [[nodiscard]] std::vector<std::string> valuesToTry() const;
-    [[nodiscard]] std::vector<OdometryRun> runs(const std::vector<std::string>& tried) const;
+    [[nodiscard]] std::vector<LabRun> runs(const std::vector<std::string>& tried) const;
 };
 
 /** Score of each value on each rawlog. */
@@ -43,9 +43,9 @@ struct SweepResult
 {
     std::string parameter, protocol;
     std::vector<std::string> values, sequences;
-    std::vector<OdometryScore> scores;  //!< of sequence s and value v: [s * values.size() + v]
+    std::vector<LabScore> scores;  //!< of sequence s and value v: [s * values.size() + v]
 
-    [[nodiscard]] const OdometryScore& at(std::size_t s, std::size_t v) const
+    [[nodiscard]] const LabScore& at(std::size_t s, std::size_t v) const
     {
         return scores[s * values.size() + v];
     }
@@ -111,13 +111,13 @@ std::vector<std::string> SweepCommand::valuesToTry() const
     return out;
 }
 
-std::vector<OdometryRun> SweepCommand::runs(const std::vector<std::string>& tried) const
+std::vector<LabRun> SweepCommand::runs(const std::vector<std::string>& tried) const
 {
     if (!groundTruths.empty() && groundTruths.size() != rawlogs.size())
     {
         throw std::invalid_argument("--gt needs one ground truth for each rawlog");
     }
-    std::vector<OdometryRun> out;
+    std::vector<LabRun> out;
     for (std::size_t s = 0; s < rawlogs.size(); ++s)
     {
         const std::string truth =
@@ -131,7 +131,7 @@ std::vector<OdometryRun> SweepCommand::runs(const std::vector<std::string>& trie
         }
         for (const std::string& value : tried)
         {
-            OdometryRun run;
+            LabRun run;
             run.name =
                 std::filesystem::path(rawlogs[s]).stem().string() + " " + parameter + "=" + value;
             run.rawlog = rawlogs[s];
@@ -174,7 +174,7 @@ nlohmann::ordered_json toJson(const SweepResult& sweep)
     {
         for (std::size_t v = 0; v < sweep.values.size(); ++v)
         {
-            const OdometryScore& score = sweep.at(s, v);
+            const LabScore& score = sweep.at(s, v);
             nlohmann::ordered_json item{
                 {"sequence", sweep.sequences[s]}, {"value", sweep.values[v]}};
             if (score.rpe)
@@ -201,7 +201,7 @@ std::string toCsv(const SweepResult& sweep)
     {
         for (std::size_t v = 0; v < sweep.values.size(); ++v)
         {
-            const OdometryScore& score = sweep.at(s, v);
+            const LabScore& score = sweep.at(s, v);
             out += csvField(sweep.sequences[s]) + "," + sweep.parameter + "," +
                    csvField(sweep.values[v]) +
                    (score.rpe ? format(
@@ -280,7 +280,7 @@ void SweepCommand::run(CommandContext& context)
     {
         writeReportFile(reportOf(sweep, logarithmic), report, context);
     }
-    for (const OdometryScore& score : sweep.scores)
+    for (const LabScore& score : sweep.scores)
     {
         context.exitCode = score.rpe ? context.exitCode : kExitIncomplete;
     }

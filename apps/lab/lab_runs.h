@@ -13,7 +13,7 @@
 namespace pointplane
 {
 /** One run of pointplane-odometry, to be scored against ground truth. */
-struct OdometryRun
+struct LabRun
 {
     std::string name;  //!< for progress and file names, e.g. "xyz alpha=3"
     std::string rawlog;
@@ -23,7 +23,7 @@ struct OdometryRun
 };
 
 /** Its score, or why there is none. */
-struct OdometryScore
+struct LabScore
 {
     std::optional<RpeResult> rpe;
     std::string failure;
@@ -31,7 +31,7 @@ struct OdometryScore
 };
 
 /** How runs are made; sweep and reproduce share the options. */
-struct OdometryRunner
+struct LabRunner
 {
     std::string odometry;   //!< the program; empty: the one beside this one, or in PATH
     std::string directory;  //!< for trajectories and logs; empty: a temporary one
@@ -45,8 +45,8 @@ struct OdometryRunner
      * failure, not an exception. Progress, one line per run, goes to `err`. \throws
      * EnvironmentError when the directory cannot be written, InputError when there is no odometry
      * program */
-    [[nodiscard]] std::vector<OdometryScore> run(
-        const std::vector<OdometryRun>& runs, const RpeOptions& rpe, std::ostream& err) const;
+    [[nodiscard]] std::vector<LabScore> run(
+        const std::vector<LabRun>& runs, const RpeOptions& rpe, std::ostream& err) const;
 };
 
 /** A directory that is gone with its owner, unless it was given by name. */
@@ -66,5 +66,5 @@ class WorkDirectory
 };
 
 /** "12.3 mm / 0.46 deg", with " (9 lost)" where frames were lost, or "failed". */
-[[nodiscard]] std::string scoreText(const OdometryScore& score);
+[[nodiscard]] std::string scoreText(const LabScore& score);
 }  // namespace pointplane

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "OdometryRuns.h"
+#include "lab_runs.h"
 
 #include <pointplane/evaluation/association.h>
 #include <pointplane/evaluation/trajectory_text.h>
@@ -33,8 +33,8 @@ double finalError(const Trajectory& truth, const Trajectory& estimate)
     return (trueMotion.translation() - motion.translation()).norm();
 }
 
-OdometryScore scoreOf(
-    const OdometryRun& run,
+LabScore scoreOf(
+    const LabRun& run,
     const std::string& trajectory,
     const std::string& log,
     int exitCode,
@@ -72,7 +72,7 @@ std::string fileName(std::size_t index, const std::string& name)
 }
 
 std::vector<std::string> odometryCommand(
-    const std::string& program, const OdometryRun& run, const std::string& trajectory)
+    const std::string& program, const LabRun& run, const std::string& trajectory)
 {
     std::vector<std::string> out{
         program, run.rawlog, "--trajectory", trajectory, "--quiet", "--jobs", "1"};
@@ -89,7 +89,7 @@ std::vector<std::string> odometryCommand(
 
 /** For each run the first one with the same rawlog and the same parameters: itself, or an earlier
  * one. What cannot be read is like nothing else; the odometry will say what is wrong with it. */
-std::vector<std::size_t> firstAlike(const std::vector<OdometryRun>& runs)
+std::vector<std::size_t> firstAlike(const std::vector<LabRun>& runs)
 {
     std::vector<std::size_t> out;
     std::map<std::string, std::size_t> known;
@@ -145,7 +145,7 @@ WorkDirectory::~WorkDirectory()
     }
 }
 
-std::string scoreText(const OdometryScore& score)
+std::string scoreText(const LabScore& score)
 {
     if (!score.rpe)
     {
@@ -159,7 +159,7 @@ std::string scoreText(const OdometryScore& score)
            (lost > 0 ? format(" (%zu lost)", lost) : "");
 }
 
-void OdometryRunner::addTo(CLI::App& command)
+void LabRunner::addTo(CLI::App& command)
 {
     command
         .add_option("--odometry", odometry, "The pointplane-odometry to run [beside this program]")
@@ -174,13 +174,13 @@ void OdometryRunner::addTo(CLI::App& command)
         ->group("Runs");
 }
 
-std::size_t OdometryRunner::parallel() const
+std::size_t LabRunner::parallel() const
 {
     return jobs > 0 ? jobs : std::max(1U, std::thread::hardware_concurrency());
 }
 
-std::vector<OdometryScore> OdometryRunner::run(
-    const std::vector<OdometryRun>& runs, const RpeOptions& rpe, std::ostream& err) const
+std::vector<LabScore> LabRunner::run(
+    const std::vector<LabRun>& runs, const RpeOptions& rpe, std::ostream& err) const
 {
     const WorkDirectory work(directory);
     const std::string program = odometry.empty() ? siblingProgram("pointplane-odometry") : odometry;
@@ -202,7 +202,7 @@ std::vector<OdometryScore> OdometryRunner::run(
         }
     }
 
-    std::vector<OdometryScore> scores(runs.size());
+    std::vector<LabScore> scores(runs.size());
     const double bytes = bytesLeft;
     std::size_t done = 0;
     bool missing = false;
@@ -212,8 +212,8 @@ std::vector<OdometryScore> OdometryRunner::run(
         parallel(),
         [&](std::size_t job, int exitCode)
         {
-            const OdometryRun& run = runs[made[job]];
-            OdometryScore& score = scores[made[job]];
+            const LabRun& run = runs[made[job]];
+            LabScore& score = scores[made[job]];
             missing = missing || exitCode == 127;
             score = scoreOf(run, trajectories[job], processes[job].logPath, exitCode, rpe);
             ++done;
