@@ -41,7 +41,7 @@ for page in README.md CONTRIBUTING.md docs/*.md docs/tutorials/*.md benchmarks/R
     done < <(grep -oE '\]\([^) ]+' "$page" | cut -c3- | grep -vE '^[a-z]+:')
 
     # Commands stand at the beginning of a text between backquotes or of an indented line, and
-    # have arguments. pointplane-camera and -status are keys of comments in rawlogs.
+    # have arguments. pointplane-camera, -status and -recording are keys of comments in rawlogs.
     while read -r line; do
         read -ra words <<<"$line"
         program=$bin/$(basename "${words[0]}")
@@ -63,6 +63,6 @@ for page in README.md CONTRIBUTING.md docs/*.md docs/tutorials/*.md benchmarks/R
         done
     done < <({ grep -oE '`[^`]+`' "$page" | tr -d '`'; grep -E '^    ' "$page"; } |
         sed -nE 's/ #.*//; s/^ *((build[a-z/]*\/)?bin\/)?(pointplane-[a-z]+ .*)/\3/p' |
-        grep -vE '^pointplane-(camera|status) ')
+        grep -vE '^pointplane-(camera|status|recording) ')
 done
 exit $failed
