@@ -7,7 +7,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 # What the parameters were chosen on; docs/experiments.md says what took part in what.
-readonly chosen_on='^(tum_fr1_xyz|tum_fr1_rpy|tum_fr3_structure_notexture_far|icl_living_room_kt0)'
+readonly chosen_on='^(tum_fr1_xyz|tum_fr1_rpy|tum_fr3_structure_notexture_far|icl_living_room_kt0|iphone|azure)'
 
 # One line per sequence: NAME|chosen, seeds or held|ours mm|ours deg|fast mm|fast deg|peer mm|peer deg|its name|NEES 1|NEES 1 s
 awk -F ' *[|] *' -v chosen_on="$chosen_on" '
@@ -35,6 +35,7 @@ rows() { # chosen, seeds or held; heading
         $2 == kind {
             if (!n++) print "| **" heading "** | | | | |"
             name = $1; sub(/_part$/, "", name); sub(/^tum_/, "", name); gsub(/_/, " ", name)
+            if (name ~ /^iphone/) name = name " (truth: its own odometry)"
             printf "| %s | %s | %s | %s | %s / %s |\n", name, pair($3, $4), pair($5, $6),
                 $9 == "-" ? "-" : pair($7, $8) " (" $9 ")", $10, $11
         }' "$work/lines"
@@ -45,7 +46,7 @@ rows() { # chosen, seeds or held; heading
     echo "|---|---|---|---|---|"
     rows chosen "parameters were chosen on these"
     rows seeds "on the same scenes, but other seeds"
-    rows held "these took no part, see *decisions* below"
+    rows held "not chosen on these, except as *decisions* below says"
     echo
 } >"$work/results"
 if [[ $(grep -cE '<!-- results:(begin|end) -->' README.md) != 2 ]]; then
