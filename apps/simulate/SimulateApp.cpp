@@ -26,6 +26,7 @@ struct Arguments
 {
     std::string scene;
     std::uint64_t seed{1};
+    std::string camera{"kinect"};
     bool ideal{false};
     std::optional<double> duration, fps;
     std::string size;
@@ -63,7 +64,15 @@ void addOptions(CLI::App& app, Arguments& args)
     app.add_option("--seed", args.seed, "of motion and noise")->capture_default_str();
     app.add_option("--duration", args.duration, "[s] (default: 18)");
     app.add_option("--fps", args.fps, "frames a second (default: 30)");
-    app.add_option("--size", args.size, "of the images, e.g. 320x240 (default: 640x480)");
+    app.add_option("--size", args.size, "of the images, e.g. 320x240 (default: the camera's)");
+    app.add_option(
+           "--camera",
+           args.camera,
+           "kinect, d435 (active stereo), azure (time of flight) or phone (LiDAR): resolution, "
+           "field "
+           "of view, depth noise, shutters")
+        ->check(CLI::IsMember({"kinect", "d435", "azure", "phone"}))
+        ->capture_default_str();
     app.add_flag("--ideal", args.ideal, "no noise, gaps, blur or shutter effects");
     app.add_option("--set", args.settings, "key=value, any number of times (--list-settings)")
         ->expected(1)
@@ -88,7 +97,8 @@ void addOptions(CLI::App& app, Arguments& args)
 
 SimulationParams paramsOf(const Arguments& args)
 {
-    SimulationParams params = args.ideal ? SimulationParams::ideal() : SimulationParams();
+    SimulationParams params =
+        args.ideal ? SimulationParams::ideal() : SimulationParams::of(args.camera);
     params.duration = args.duration.value_or(params.duration);
     params.fps = args.fps.value_or(params.fps);
     if (!args.size.empty())
@@ -148,7 +158,7 @@ int simulate(Arguments& args, std::ostream& out, std::ostream& err)
 int runSimulate(const std::vector<std::string>& args, std::ostream& out, std::ostream& err)
 {
     CLI::App app{
-        "Renders RGB-D sequences with exact ground truth and a Kinect's defects.",
+        "Renders RGB-D sequences with exact ground truth and the defects of real cameras.",
         "pointplane-simulate"};
     Arguments arguments;
     addOptions(app, arguments);

@@ -71,9 +71,25 @@ TEST_F(DepthNoiseLearnerTest, disparityLevelsAreStructuredLight)
 TEST_F(DepthNoiseLearnerTest, itsNoiseWithoutLevelsIsStructuredLight)
 {
     const DepthNoise noise =
-        learnt(0.8, 4, [&](double z) { return 1 / (1 / z + 1.2e-3 * normal()); }, {});
+        learnt(0.8, 4, [&](double z) { return 1 / (1 / z + 1e-3 * normal()); }, {});
     EXPECT_EQ(noise.kind, "structuredLight");
     expectGiven(noise);
+}
+
+TEST_F(DepthNoiseLearnerTest, moreNoiseWithoutLevelsIsLearnt)
+{
+    const DepthNoise noise =
+        learnt(0.8, 4, [&](double z) { return 1 / (1 / z + 2.2e-3 * normal()); }, {});
+    EXPECT_NEAR(noise.sigmaInverseDepth, 1.4 * 2.2e-3, 6e-4);
+    EXPECT_TRUE(noise.isConstantInInverseDepth());
+}
+
+/** As large as a Kinect's in the middle of the room, but not growing with the distance. */
+TEST_F(DepthNoiseLearnerTest, noiseThatDoesNotGrowIsTimeOfFlight)
+{
+    const DepthNoise noise = learnt(0.8, 4, [&](double z) { return z + 4e-3 * normal(); }, {});
+    EXPECT_EQ(noise.kind, "timeOfFlight");
+    EXPECT_NEAR(noise.sigmaDepth, 1.4 * 4e-3, 1.5e-3);
 }
 
 TEST_F(DepthNoiseLearnerTest, constantNoiseIsTimeOfFlight)

@@ -45,6 +45,9 @@ constexpr double kLeastSteps = 200, kLeastCells = 20;
 
 /** Noise of structured light over that which is given; between, something else. */
 constexpr double kLessNoise = 0.5, kMoreNoise = 2;
+/** Exponent of the distance with which noise grows: 0 with time of flight, 2 with triangulation.
+ * Depths that spread less than this (standard deviation of their logarithm) do not tell it. */
+constexpr double kTriangulation = 1, kLeastSpread = 0.1;
 /** Below this, an image was not measured: rounding to millimetres makes 0.3 mm. */
 constexpr double kRenderedSigma = 1e-4;  // [m]
 
@@ -158,14 +161,20 @@ void DepthNoiseLearner::addSteps(const float* row, int count)
     }
 }
 
+bool DepthNoiseLearner::hasLevels() const
+{
+    return steps_ > kLeastSteps && fineSteps_ < kFineShare * steps_;
+}
+
 std::string DepthNoiseLearner::judgedKind() const
 {
-    if (steps_ > kLeastSteps && fineSteps_ < kFineShare * steps_)
+    if (hasLevels())
     {
         return "structuredLight";
     }
     // Over that of structured light, where that is larger than what rounding makes, and anywhere.
     double far = 0, farCells = 0, nearCells = 0, least = 1;
+    double z1 = 0, z2 = 0, s1 = 0, zs = 0;  // sums over logarithms of depth and noise
     for (int bin = 0; bin < kNumDepths; ++bin)
     {
         const auto i = static_cast<std::size_t>(bin);
@@ -180,6 +189,11 @@ std::string DepthNoiseLearner::judgedKind() const
             far += cells_[i] *
                    std::log(std::max(sigma, kLeastSigma) / (given_.sigmaInverseDepth * z * z));
             farCells += cells_[i];
+            const double x = std::log(z), y = std::log(std::max(sigma, kLeastSigma));
+            z1 += cells_[i] * x;
+            z2 += cells_[i] * x * x;
+            s1 += cells_[i] * y;
+            zs += cells_[i] * x * y;
         }
         else
         {
@@ -195,9 +209,12 @@ std::string DepthNoiseLearner::judgedKind() const
         return "rendered";
     }
     const double level = farCells > 0 ? std::exp(far / farCells) : 0;
-    return level < kLessNoise   ? "timeOfFlight"
-           : level > kMoreNoise ? "activeStereo"
-                                : "structuredLight";
+    const double spread = farCells * z2 - z1 * z1;
+    const bool grows = spread < std::pow(kLeastSpread * farCells, 2) ||
+                       farCells * zs - z1 * s1 > kTriangulation * spread;
+    return level < kLessNoise || !grows ? "timeOfFlight"
+           : level > kMoreNoise         ? "activeStereo"
+                                        : "structuredLight";
 }
 
 void DepthNoiseLearner::decide()
@@ -209,7 +226,8 @@ void DepthNoiseLearner::decide()
     }
     noise_.kind = given_.kind == "learn" ? judgedKind() : given_.kind;
     noise_.sigmaDepth = noise_.sigmaRelative = 0;
-    if (noise_.kind == "structuredLight" || noise_.kind == "rendered")
+    const bool isStructured = noise_.kind == "structuredLight";
+    if (noise_.kind == "rendered" || (isStructured && (given_.kind != "learn" || hasLevels())))
     {
         return;
     }
@@ -230,6 +248,14 @@ void DepthNoiseLearner::decide()
             A += cells_[i] * x * x.transpose();
             b += cells_[i] * x;
         }
+    }
+    if (isStructured)
+    {
+        // Its size without its levels: another camera perhaps, with more noise than is known.
+        const double variance = A(1, 1) > 0 ? b(1) / A(1, 1) : 0;
+        noise_.sigmaInverseDepth =
+            std::max(given_.sigmaInverseDepth, kBeyondCell * std::sqrt(variance));
+        return;
     }
     noise_.sigmaRelative = kBend;
     Eigen::Vector2d variance =

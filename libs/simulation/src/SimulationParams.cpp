@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/choice.h>
 #include <pointplane/core/range.h>
 #include <pointplane/simulation/SimulationParams.h>
 
@@ -10,11 +11,88 @@ SimulationParams SimulationParams::ideal()
     p.readoutColour = p.readoutDepth = p.depthDelay = p.exposure = 0;
     p.lensBlurPx = p.imageNoise = p.vignetting = p.exposureSwing = 0;
     p.sigmaInverseDepth = p.disparityStepPx = p.lateralSigmaPx = p.calibrationSigma = 0;
+    p.sigmaDepth = p.sigmaRelative = 0;
     p.edgeLossPx = p.shadowBaseline = 0;
     p.maxIncidenceDeg = 90;
     p.minDepth = 0.05;
     p.maxDepth = 100;
     return p;
+}
+
+namespace
+{
+/** Active stereo, 848x480, f = 424 px at that width, b = 50 mm; 0.08 px rms of disparity in 1/32 px
+ * (Keselman et al. 2017; Intel's data sheet 337029). The infrared cameras have a global shutter. */
+void makeD435(SimulationParams& p)
+{
+    p.width = 848;
+    p.height = 480;
+    p.focalLengthPx = 424.0 * 640 / 848;
+    p.disparityPxMetre = 424 * 0.05;
+    p.disparityStepPx = 1.0 / 32;
+    p.sigmaInverseDepth = 0.08 / p.disparityPxMetre;
+    p.noiseWindowPx = 7;
+    p.shadowBaseline = 0.05;
+    p.readoutColour = 0.016;
+    p.readoutDepth = 0;
+    p.depthDelay = 0;
+    p.minDepth = 0.2;
+    p.maxDepth = 10;
+}
+
+/** Without what comes of matching a pattern. */
+void makeTimeOfFlight(SimulationParams& p)
+{
+    p.sigmaInverseDepth = p.disparityStepPx = p.shadowBaseline = 0;
+    p.readoutDepth = p.depthDelay = 0;
+}
+
+/** Time of flight, 320x288 (narrow, binned) enlarged to 640x576, 75 deg; 1.5 mm of noise and 0.3 %
+ * of what calibration and several paths of light bend (Tolgyessy et al. 2021). */
+void makeAzure(SimulationParams& p)
+{
+    makeTimeOfFlight(p);
+    p.width = 640;
+    p.height = 576;
+    p.focalLengthPx = 417;
+    p.sigmaDepth = 0.0015;
+    p.sigmaRelative = 0.003;
+    p.upsampling = 2;
+    p.lateralSigmaPx = 0.3;
+    p.readoutColour = 0.016;
+    p.minDepth = 0.25;
+    p.maxDepth = 5.5;
+}
+
+/** LiDAR, 256x192 enlarged to 640x480 by the phone, which smooths the noise and bends surfaces by
+ * half a per cent; 66 deg. */
+void makePhone(SimulationParams& p)
+{
+    makeTimeOfFlight(p);
+    p.focalLengthPx = 490;
+    p.sigmaDepth = 0.002;
+    p.sigmaRelative = 0.005;
+    p.upsampling = 3;
+    p.lateralSigmaPx = 1;
+    p.readoutColour = 0.020;
+    p.exposure = 0.008;
+    p.minDepth = 0.15;
+    p.maxDepth = 5;
+}
+}  // namespace
+
+SimulationParams SimulationParams::of(const std::string& camera)
+{
+    using Make = void (*)(SimulationParams&);
+    SimulationParams out;
+    chosen<Make>(
+        "camera",
+        camera,
+        {{"kinect", [](SimulationParams&) {}},
+         {"d435", makeD435},
+         {"azure", makeAzure},
+         {"phone", makePhone}})(out);
+    return out;
 }
 
 void SimulationParams::check() const
@@ -43,6 +121,10 @@ void SimulationParams::check() const
     checkRange("disparityPxMetre", disparityPxMetre, 1, 1e4);
     checkRange("noiseWindowPx", noiseWindowPx, 1, 64);
     checkRange("calibrationSigma", calibrationSigma, 0, 0.1);
+    checkRange("sigmaDepth", sigmaDepth, 0, 1);
+    checkRange("sigmaRelative", sigmaRelative, 0, 0.2);
+    checkRange("bendGridPx", bendGridPx, 4, 1000);
+    checkRange("upsampling", upsampling, 1, 16);
     checkRange("lateralSigmaPx", lateralSigmaPx, 0, 5);
     checkRange("edgeLossPx", edgeLossPx, 0, 20);
     checkRange("shadowBaseline", shadowBaseline, 0, 1);

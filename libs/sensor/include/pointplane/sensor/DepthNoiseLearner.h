@@ -19,6 +19,9 @@ namespace pointplane
  * (kBend). Cells too small to show that are all that is used: large ones cannot tell a bent depth
  * image from a bent surface.
  *
+ * Where noise is of that size but without the levels, it is learnt if it is more, and time of
+ * flight is known by noise that does not grow with the distance.
+ *
  * The same images give the same noise. Images are looked at rarely once there have been some. */
 class DepthNoiseLearner
 {
@@ -43,6 +46,7 @@ class DepthNoiseLearner
 
     void addCell(const cv::Mat& depth, int u0, int v0);
     void addSteps(const float* row, int count);
+    [[nodiscard]] bool hasLevels() const;  //!< of structured light's disparity
     [[nodiscard]] std::string judgedKind() const;
     void decide();
 

@@ -8,13 +8,15 @@
 
 namespace pointplane
 {
-/** A structured-light depth camera: what it makes of the true inverse depth.
+/** A depth camera: what it makes of the true inverse depth.
  *
- * It matches windows of a projected pattern, so its noise lives in disparity = f b / Z: constant in
- * inverse depth, correlated over the window, and quantised (Khoshelham & Elberink 2012; Konolige &
- * Mihelich 2010). Edges are ragged because a window may match either side (Nguyen, Izadi & Lovell
- * 2012, lateral noise). No reading: in the projector's shadow, at depth edges, on surfaces seen
- * too flat, out of range. */
+ * Structured light and stereo match windows of a projected pattern, so their noise lives in
+ * disparity = f b / Z: constant in inverse depth, correlated over the window, and quantised
+ * (Khoshelham & Elberink 2012; Konolige & Mihelich 2010). Edges are ragged because a window may
+ * match either side (Nguyen, Izadi & Lovell 2012, lateral noise). Time of flight errs by lengths: a
+ * constant, interpolated between pixels where the image was enlarged, and in proportion, smoothly.
+ * No reading: in the projector's shadow, at depth edges, on surfaces seen too flat, out of range.
+ */
 class DepthSensor
 {
  public:
@@ -29,6 +31,8 @@ class DepthSensor
     struct FrameNoise
     {
         cv::Mat matching;  //!< CV_32FC1, of the inverse depth, calibration included [1/m]
+        cv::Mat depth;     //!< CV_32FC1, of the depth [m]
+        cv::Mat relative;  //!< CV_32FC1, of the depth, over it
         cv::Mat dx, dy;    //!< CV_16SC1, which neighbour a pixel shows [px]
     };
     [[nodiscard]] FrameNoise frameNoise(std::uint64_t frameKey) const;
@@ -38,6 +42,7 @@ class DepthSensor
         const FrameNoise& noise,
         int v,
         float* q) const;
+    void addLengths(const FrameNoise& noise, int v, float* depth) const;
     [[nodiscard]] cv::Mat readable(const CastImage& cast) const;
     void dropShadow(const float* inverseDepth, uchar* readable) const;
     void dropFlat(const CastImage& cast, int v, uchar* readable) const;

@@ -5,6 +5,8 @@
 #include <pointplane/sensor/PinholeCamera.h>
 #include <pointplane/sensor/RgbdFrame.h>
 
+#include <string>
+
 namespace pointplane
 {
 /** The simulated camera; each effect has its own switch. The defaults are those of a first
@@ -40,6 +42,10 @@ struct SimulationParams
     double disparityPxMetre{43.5};
     double noiseWindowPx{9};
     double calibrationSigma{0};
+    double sigmaDepth{0};
+    double sigmaRelative{0};
+    double bendGridPx{100};
+    int upsampling{1};
     double lateralSigmaPx{0.6};
     double edgeLossPx{1};
     double shadowBaseline{0.075};
@@ -49,6 +55,10 @@ struct SimulationParams
 
     /** A camera without noise, blur, gaps or shutter: ground truth in pictures. */
     [[nodiscard]] static SimulationParams ideal();
+
+    /** A camera that people own: kinect, d435, azure, phone. Resolution, field of view, rate, depth
+     * noise of its kind, shutters. \throws std::invalid_argument naming the cameras */
+    [[nodiscard]] static SimulationParams of(const std::string& camera);
 
     template <class V>
     void visit(V&& v)
@@ -89,6 +99,16 @@ struct SimulationParams
           calibrationSigma,
           "1/m",
           "error of 1/Z, smooth over the image and the same in every frame");
+        v("sigmaDepth", sigmaDepth, "m", "noise of Z that does not depend on it");
+        v("sigmaRelative",
+          sigmaRelative,
+          "-",
+          "error of Z over Z that bends surfaces smoothly, new in every frame");
+        v("bendGridPx", bendGridPx, "px", "over which surfaces are bent");
+        v("upsampling",
+          upsampling,
+          "-",
+          "pixels per measured one, along each side: sigmaDepth is interpolated between them");
         v("lateralSigmaPx", lateralSigmaPx, "px", "from which neighbour a pixel gets its depth");
         v("edgeLossPx", edgeLossPx, "px", "no depth this near to depth edges; 0 = all kept");
         v("shadowBaseline",
