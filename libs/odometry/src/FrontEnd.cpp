@@ -75,8 +75,6 @@ std::shared_ptr<KeyframeImages> FrontEnd::keyframeImages(const Features& feature
     }
     auto out = std::make_shared<KeyframeImages>();
     out->frame = features.frame;
-    out->frame.gray = features.frame.gray.clone();
-    out->frame.depth = features.frame.depth.clone();
     out->surface = SurfaceSamples(out->frame);
     out->described = features.described;
     return out;

@@ -7,7 +7,7 @@
 
 #include "Aligner.h"
 #include "FrontEnd.h"
-#include "FrozenImages.h"
+#include "LatestImages.h"
 #include "Stopwatch.h"
 #include "Track.h"
 #include "frame_checks.h"
@@ -34,7 +34,7 @@ struct Odometry::Impl
     Aligner aligner;
     ErrorModel errors;
     Track track;
-    FrozenImages frozen;
+    LatestImages images;
     FrameFeatures shown;  //!< of the latest frame, for pictures
 };
 
@@ -73,7 +73,8 @@ void Odometry::Impl::place(const RgbdFrame& frame, OdometryResult& result)
     {
         return lose(frame.stamp, "its time stamp is not after the previous frame's", result);
     }
-    if (frozen.repeats(frame) && !track.isEmpty())
+    RgbdFrame own = frame;
+    if (!images.renew(own) && !track.isEmpty())
     {
         // Nothing was measured: the camera, or what carries its images, has stopped.
         result.status = TrackingStatus::Predicted;
@@ -81,7 +82,7 @@ void Odometry::Impl::place(const RgbdFrame& frame, OdometryResult& result)
         result.increment = track.predict(frame.stamp);
         return;
     }
-    const Features current = frontEnd.extract(frame, result.diagnostics);
+    const Features current = frontEnd.extract(own, result.diagnostics);
     shown = shownPlanes(current);
     const std::string interruption =
         track.isEmpty() ? "" : track.interruption(frame.stamp, frame.camera);

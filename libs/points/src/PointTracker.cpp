@@ -114,7 +114,12 @@ struct ReferencePatches
     WarpedPatches refined;
     std::vector<ComparedPatch> compared;
 
-    explicit ReferencePatches(int windowPx) : searched(windowPx) {}
+    ReferencePatches(int windowPx, size_t numPoints, size_t numLevels) : searched(windowPx)
+    {
+        searched.reserve(numPoints, numLevels);
+        refined.reserve(numPoints, windowPx / 2);
+        compared.reserve(numPoints);
+    }
 
     /** \param pyramid with derivatives \param halfPx half of the window \param brightness constant
      * for edges, along which it may be all that tells anything */
@@ -248,7 +253,11 @@ PointReference PointTracker::makeReference(const RgbdFrame& frame) const
         PatchUncertainty uncertainty;
     };
     std::vector<Edge> edges;
-    const auto patches = std::make_shared<ReferencePatches>(params_.windowPx);
+    const std::vector<cv::Point2f> corners = candidates(pyramid);
+    const auto patches = std::make_shared<ReferencePatches>(
+        params_.windowPx,
+        std::min(corners.size(), static_cast<size_t>(params_.maxPoints)),
+        pyramid.size() / 2);
     const auto add =
         [&](const PointFeature& point, const PatchUncertainty& uncertainty, Brightness brightness)
     {
@@ -260,7 +269,7 @@ PointReference PointTracker::makeReference(const RgbdFrame& frame) const
         out.ofBrightness_px.push_back(uncertainty.displacement(params_.maxNoisePx));
     };
     const double noise = imageNoise(frame.gray);
-    for (const cv::Point2f& pixel : candidates(pyramid))
+    for (const cv::Point2f& pixel : corners)
     {
         if (out.points.size() >= static_cast<size_t>(params_.maxPoints))
         {

@@ -345,6 +345,12 @@ std::size_t PatchTemplates::templateSize() const
     return static_cast<std::size_t>(windowPx_ * stripsPerRow * kStripSamples);
 }
 
+void PatchTemplates::reserve(std::size_t patches, std::size_t levels)
+{
+    normals_.reserve(patches * levels);
+    samples_.reserve(patches * levels * templateSize());
+}
+
 void PatchTemplates::add(
     const std::vector<cv::Mat>& pyramid, const cv::Point2f& centre, Brightness brightness)
 {

@@ -32,6 +32,9 @@ class PatchTemplates
     /** \param windowPx side of the patches, below 64 */
     explicit PatchTemplates(int windowPx);
 
+    /** Makes room: memory that grows is copied, and new to the process again and again. */
+    void reserve(std::size_t patches, std::size_t levels);
+
     /** \param pyramid by cv::buildOpticalFlowPyramid with this window, with derivatives
      * \param centre inside the image */
     void add(const std::vector<cv::Mat>& pyramid, const cv::Point2f& centre, Brightness brightness);

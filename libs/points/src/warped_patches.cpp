@@ -34,6 +34,13 @@ bool canSample(const cv::Mat& image, const Eigen::Vector2f& pixel)
 }
 }  // namespace
 
+void WarpedPatches::reserve(std::size_t patches, int halfPx)
+{
+    const auto side = static_cast<std::size_t>(2 * halfPx + 1);
+    patches_.reserve(patches);
+    samples_.reserve(patches * side * side);
+}
+
 void WarpedPatches::add(
     const cv::Mat& gray,
     const cv::Mat& derivatives,
@@ -47,6 +54,7 @@ void WarpedPatches::add(
         cv::Rect(cvRound(centre.x) - halfPx, cvRound(centre.y) - halfPx, side, side) &
         cv::Rect(0, 0, gray.cols, gray.rows);
     std::vector<Eigen::Vector2d> gradients;
+    gradients.reserve(static_cast<std::size_t>(pixels.area()));
     Eigen::Vector2d mean(0, 0);
     const Patch patch{
         cv::Rect2f(cv::Rect(pixels.tl(), pixels.size() - cv::Size(1, 1))) - centre,

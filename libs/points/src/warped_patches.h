@@ -21,6 +21,9 @@ using Directions = Eigen::Matrix<double, 2, Eigen::Dynamic, Eigen::ColMajor, 2, 
 class WarpedPatches
 {
  public:
+    /** Makes room for patches of at most this size. */
+    void reserve(std::size_t patches, int halfPx);
+
     /** \param gray CV_8UC1 \param derivatives CV_16SC2, Scharr's (OpenCV's pyramids), gain 32
      * \param centre inside the image \param halfPx the patch has 2 halfPx + 1 pixels a side
      * \param measured directions in which it has structure: its position is left alone in others */

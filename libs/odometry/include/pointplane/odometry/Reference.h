@@ -18,7 +18,7 @@ namespace pointplane
 /** What is kept of a key frame's images: about 2 MB at 640 x 480. */
 struct KeyframeImages
 {
-    RgbdFrame frame;                           //!< a copy
+    RgbdFrame frame;                           //!< shares the images
     SurfaceSamples surface;                    //!< by which a motion is judged
     std::optional<DescribedPoints> described;  //!< made when they are needed first
 };

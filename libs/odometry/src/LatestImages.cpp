@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "FrozenImages.h"
+#include "LatestImages.h"
 
 #include <cstddef>
 #include <cstring>
@@ -25,16 +25,28 @@ bool isSame(const cv::Mat& a, const cv::Mat& b)
     }
     return true;
 }
+
+/** Leaves the memory so far to those who share it. */
+void copy(const cv::Mat& from, cv::Mat& to)
+{
+    if (to.u != nullptr && to.u->refcount > 1)
+    {
+        to.release();
+    }
+    from.copyTo(to);
+}
 }  // namespace
 
-bool FrozenImages::repeats(const RgbdFrame& frame)
+bool LatestImages::renew(RgbdFrame& frame)
 {
-    if (isSame(depth_, frame.depth) && isSame(gray_, frame.gray))
+    const bool isNew = !isSame(depth_, frame.depth) || !isSame(gray_, frame.gray);
+    if (isNew)
     {
-        return true;
+        copy(frame.depth, depth_);
+        copy(frame.gray, gray_);
     }
-    frame.depth.copyTo(depth_);
-    frame.gray.copyTo(gray_);
-    return false;
+    frame.depth = depth_;
+    frame.gray = gray_;
+    return isNew;
 }
 }  // namespace pointplane
