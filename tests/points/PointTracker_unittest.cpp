@@ -191,10 +191,10 @@ TEST(PointTracker, RejectsWhatIsHidden)
     ASSERT_GT(numHidden, 15);
     constexpr unsigned kNumTextures = 16;
     std::ptrdiff_t numWrong = 0;
+    RgbdFrame second = wall({1.5, 0.5}, 2);
     for (unsigned k = 0; k < kNumTextures; ++k)
     {
         // Something else in front of the middle, with a texture of its own.
-        RgbdFrame second = wall({1.5, 0.5}, 2);
         const test::Texture other(99 + k, 5, 80);
         for (int v = hidden.y; v < hidden.br().y; ++v)
         {
