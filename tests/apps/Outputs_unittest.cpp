@@ -19,8 +19,8 @@
 #include "TempDir.h"
 #include "rawlog_samples.h"
 #include "run_app.h"
-#include <gmock/gmock.h>
 #include <fcntl.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>

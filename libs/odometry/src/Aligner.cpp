@@ -29,19 +29,29 @@ constexpr int kFewPoints = 6;
 /** Standard deviations from the predicted pose that they are not believed then. */
 constexpr double kMostSurprise = 5;
 
-/** An estimate needs no alternative when so much of the surfaces in view agrees with it (a motion
- * that is wrong by 5 cm or 5 deg leaves a third), and so much of surfaces and points together. */
-constexpr double kConvincingSurfaces = 0.75, kConvincingTogether = 0.9;
+/** An estimate is convincing, and no alternative is looked for, when all four hold. They decide how
+ * much time is spent, not what is believed: an alternative needs more evidence, and leastAgreement
+ * has the last word.
+ *
+ * Of the surfaces in view, nine tenths agree with a right motion and a third with one that is wrong
+ * by 5 cm or 5 deg (docs/theory.md, "Verdict"): so much is between. */
+constexpr double kConvincingSurfaces = 0.75;
 
-/** Nor when its points and planes agree with each other: reduced chi-square; sensors are up to ten
- * times as noisy as propagated, planes more. */
+/** Surfaces and the share of points found again: along a wall, surfaces agree with any motion. With
+ * the least surfaces, a seventh of the points must be found; with all of them, none. */
+constexpr double kConvincingTogether = 0.9;
+
+/** Residuals about five (points) and ten times (planes) as large as propagated, squared. How large
+ * they are where all is well differs tenfold between cameras: only gross disagreement tells. */
 constexpr double kConvincingPointChi2 = 30, kConvincingPlaneChi2 = 100;
 
-/** A place is not taken for another one that shows so much of its surfaces; the motion is a first
- * guess yet. */
+/** Surfaces of a place that agree when it is recognised. By key points alone the motion is
+ * centimetres off: less is asked than of an estimate, and twice what a wrong motion shows. What is
+ * recalled is then aligned and judged like any reference. */
 constexpr double kRecognised = 0.6;
 
-/** The time at which a depth image was exposed is known this well [s]. */
+/** About half of the time between two frames at 30 Hz, by which the stamp of a depth image may be
+ * off where a source gives both images one stamp [s]. */
 constexpr double kTimeSigma = 0.015;
 
 /** Surfaces that are compared: of the newest reference, and of older ones until there are as many.

@@ -97,6 +97,17 @@ void addPerson(SceneBuilder& builder, Random& random)
     builder.addCylinder({0, -0.25, hip}, 0.045, shoulder - hip, shirt, shirt);
     builder.endMover();
 }
+
+/** A camera held in a hand in one place. \param eye, target [m] \param rate of the hand [m/s] and
+ * [rad/s] */
+void watch(
+    CameraMotion& motion, const Eigen::Vector3d& eye, const Eigen::Vector3d& target, double rate)
+{
+    motion.eye = eye;
+    motion.target = target;
+    motion.handSpeed = rate;
+    motion.handTurnRate = rate;
+}
 }  // namespace
 
 Scene makePerson(std::uint64_t seed)
@@ -104,11 +115,7 @@ Scene makePerson(std::uint64_t seed)
     SceneBuilder builder = closedRoom("person", seed);
     Random random({seed, 4});
     addPerson(builder, random);
-    CameraMotion& motion = builder.scene().motion;
-    motion.eye = {-2.0, 0.0, 1.35};
-    motion.target = {0.8, 0.0, 0.95};
-    motion.handSpeed = 0.2;
-    motion.handTurnRate = 0.2;
+    watch(builder.scene().motion, {-2.0, 0.0, 1.35}, {0.8, 0.0, 0.95}, 0.2);
     return builder.build(roomLamp());
 }
 
@@ -127,11 +134,7 @@ Scene makePush(std::uint64_t seed)
     const Finish card{{90, 140, 180}, 1e-3, pattern(random, 25)};
     builder.addBox({0.2, -0.5, 0.75}, {0.16, 0.26, 0.22}, 0.1, card, card);
     builder.endMover();
-    CameraMotion& motion = builder.scene().motion;
-    motion.eye = {-0.45, 0.0, 1.35};
-    motion.target = {0.8, 0.0, 0.75};
-    motion.handSpeed = 0.2;
-    motion.handTurnRate = 0.2;
+    watch(builder.scene().motion, {-0.45, 0.0, 1.35}, {0.8, 0.0, 0.75}, 0.2);
     return builder.build(roomLamp());
 }
 
@@ -160,11 +163,7 @@ Scene makeDoor(std::uint64_t seed)
     builder.addWall(behind + width, behind, height, leaf);
     builder.addWall(hinge + width, behind + width, height, {{90, 120, 140}, 2e-3, {}});
     builder.endMover();
-    CameraMotion& motion = builder.scene().motion;
-    motion.eye = {0.0, 0.3, 1.4};
-    motion.target = {-2.4, 0.1, 1.15};
-    motion.handSpeed = 0.2;
-    motion.handTurnRate = 0.2;
+    watch(builder.scene().motion, {0.0, 0.3, 1.4}, {-2.4, 0.1, 1.15}, 0.2);
     return builder.build(roomLamp());
 }
 
@@ -188,11 +187,7 @@ Scene makeHalf(std::uint64_t seed)
         });
     builder.addWall({-0.6, 1.5, 0.05}, {-0.6, 0.12, 0.05}, 1.95, {{150, 120, 90}, 1.5e-3, print});
     builder.endMover();
-    CameraMotion& motion = builder.scene().motion;
-    motion.eye = {-1.8, 0.0, 1.3};
-    motion.target = {0.8, 0.0, 1.0};
-    motion.handSpeed = 0.15;
-    motion.handTurnRate = 0.15;
+    watch(builder.scene().motion, {-1.8, 0.0, 1.3}, {0.8, 0.0, 1.0}, 0.15);
     return builder.build(roomLamp());
 }
 }  // namespace pointplane
