@@ -2,92 +2,28 @@
 #include <pointplane/evaluation/svg_chart.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <optional>
 
 #include "ChartAxis.h"
+#include "chart_colours.h"
+#include "svg_elements.h"
 #include "thinned.h"
 
 namespace pointplane
 {
 namespace
 {
-constexpr double kFontSize = 12;      // [px] of everything that is written
+using svg::label;
+using svg::line;
+using svg::number;
+using svg::point;
+using svg::turned;
+
 constexpr double kLetterWidth = 6.6;  // mean, a little too large
 constexpr double kTickSpacing = 58;
 constexpr std::size_t kLevels = 32;
-
-/** Colours of Okabe and Ito, which people with colour-blindness can tell apart; those for a dark
- * background are lighter. */
-struct Theme
-{
-    const char *ink, *muted, *grid, *accent, *alarm;
-    std::array<const char*, 8> palette;
-};
-constexpr Theme kLight{
-    "#1c2430",
-    "#6b7480",
-    "#e1e6eb",
-    "#b36b00",
-    "#c2255c",
-    {"#0072b2", "#d55e00", "#009e73", "#a14f86", "#8a6d00", "#3a9bd9", "#6f4fb3", "#495057"}};
-constexpr Theme kDark{
-    "#e8ecf0",
-    "#9aa5b1",
-    "#333d47",
-    "#f0a83c",
-    "#ff7a9c",
-    {"#4db2f0", "#ff8a3d", "#3fcf9f", "#e08fc4", "#e0c050", "#9ad4f7", "#b79cf0", "#ced4da"}};
-
-std::string number(double value)
-{
-    char text[32];
-    std::snprintf(text, sizeof text, "%.1f", value);
-    const std::string out = text;
-    return out.size() > 2 && out.compare(out.size() - 2, 2, ".0") == 0
-               ? out.substr(0, out.size() - 2)
-               : out;
-}
-
-std::string point(double x, double y) { return number(x) + "," + number(y); }
-
-std::string line(const char* style, double x1, double y1, double x2, double y2)
-{
-    return "<line class=\"" + std::string(style) + "\" x1=\"" + number(x1) + "\" y1=\"" +
-           number(y1) + "\" x2=\"" + number(x2) + "\" y2=\"" + number(y2) + "\"/>\n";
-}
-
-std::string label(
-    const std::string& text, double x, double y, const char* anchor, const std::string& more = "")
-{
-    return "<text x=\"" + number(x) + "\" y=\"" + number(y) + "\" text-anchor=\"" + anchor + "\"" +
-           more + ">" + xmlEscaped(text) + "</text>\n";
-}
-
-std::string turned(const std::string& text, double x, double y)
-{
-    return label(
-        text, x, y, "middle", " transform=\"rotate(-90 " + number(x) + " " + number(y) + ")\"");
-}
-
-/** Blue, yellow, red: visible on white and on black. */
-std::string levelColour(double level)
-{
-    static constexpr double kStops[3][3] = {{38, 118, 202}, {230, 172, 40}, {208, 28, 46}};
-    const double at = 2 * std::clamp(level, 0.0, 1.0);
-    const auto k = static_cast<std::size_t>(std::min(1.0, std::floor(at)));
-    char text[16];
-    const auto mixed = [&](std::size_t channel)
-    {
-        const double f = at - static_cast<double>(k);
-        return static_cast<unsigned>(
-            std::lround((1 - f) * kStops[k][channel] + f * kStops[k + 1][channel]));
-    };
-    std::snprintf(text, sizeof text, "#%02x%02x%02x", mixed(0), mixed(1), mixed(2));
-    return text;
-}
 
 /** Draws one chart. */
 class Drawing
@@ -131,12 +67,6 @@ class Drawing
     std::vector<LegendItem> legend_;
     double legendHeight_{0};
 };
-
-/** \param name of the colour, or empty \param index in the palette */
-std::string colourClass(const std::string& name, std::size_t index)
-{
-    return name.empty() ? "c" + std::to_string(index % kLight.palette.size()) : name;
-}
 
 Drawing::Drawing(const Chart& chart)
     : chart_(chart),
@@ -573,68 +503,6 @@ std::string Drawing::svg(const std::string& attributes, const std::string& style
     return out + colourBar() + legend() + "</svg>\n";
 }
 }  // namespace
-
-std::string xmlEscaped(const std::string& text)
-{
-    std::string out;
-    for (const char c : text)
-    {
-        switch (c)
-        {
-            case '&':
-                out += "&amp;";
-                break;
-            case '<':
-                out += "&lt;";
-                break;
-            case '>':
-                out += "&gt;";
-                break;
-            case '"':
-                out += "&quot;";
-                break;
-            default:
-                out += c;
-        }
-    }
-    return out;
-}
-
-std::string chartStyle(bool dark)
-{
-    const Theme& theme = dark ? kDark : kLight;
-    std::string out;
-    const auto rule = [&](const std::string& selector, const std::string& declarations)
-    { out += ".plot " + selector + "{" + declarations + "}\n"; };
-    const auto colour = [&](const std::string& name, const std::string& value)
-    {
-        rule(".line." + name, "stroke:" + value);
-        rule(
-            ".dot." + name + ",.plot .mark." + name + ",.plot .band." + name + ",.plot .bar." +
-                name,
-            "fill:" + value);
-    };
-    char text[96];
-    std::snprintf(text, sizeof text, "font:%gpx system-ui,\"DejaVu Sans\",sans-serif;", kFontSize);
-    rule("text", text + std::string("fill:") + theme.ink);
-    rule(".grid", std::string("stroke:") + theme.grid + ";stroke-width:1");
-    rule(".zero", std::string("stroke:") + theme.muted + ";stroke-width:1");
-    rule(".axis", std::string("stroke:") + theme.muted + ";stroke-width:1");
-    rule(".line", "fill:none;stroke-width:1.6;stroke-linejoin:round");
-    rule(".dashed", "stroke-dasharray:6 4");
-    rule(".level", "fill:none;stroke-width:4.5;stroke-linecap:round;stroke-linejoin:round");
-    rule(".band", "fill-opacity:.25");
-    rule(".mark", std::string("stroke:") + theme.ink + ";stroke-width:1.5");
-    colour("ink", theme.ink);
-    colour("muted", theme.muted);
-    colour("accent", theme.accent);
-    colour("alarm", theme.alarm);
-    for (std::size_t k = 0; k < theme.palette.size(); ++k)
-    {
-        colour("c" + std::to_string(k), theme.palette[k]);
-    }
-    return out;
-}
 
 std::string svgOf(const Chart& chart) { return Drawing(chart).svg("", ""); }
 
