@@ -145,7 +145,9 @@ int runOdometry(const std::vector<std::string>& args, std::ostream& out, std::os
             {
                 OdometryParams params = loadOdometryParams(options.config, options.settings);
                 const ParameterTable table = parametersOf(params);
-                out << (dumpConfig ? iniText(table) : markdownText(table));
+                out
+                    << (dumpConfig ? iniText(table, OdometryParams::kFirstExpertSection)
+                                   : markdownText(table, OdometryParams::kFirstExpertSection));
                 return kExitOk;
             }
             return run(options, out, err);

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/mrpt_io/params_ini.h>
 
+#include <algorithm>
 #include <cctype>
 #include <sstream>
 #include <string>
 
 #include "TempDir.h"
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace pointplane
@@ -14,10 +16,27 @@ namespace
 {
 const std::string kRoot = POINTPLANE_SOURCE_DIR;
 
+/** Few enough to read; the rest comes last. */
+TEST(ConfigFiles, atMost45KeysAreNotForExperts)
+{
+    OdometryParams params;
+    const ParameterTable table = parametersOf(params);
+    const auto expert = std::find_if(
+        table.begin(),
+        table.end(),
+        [](const ParameterRef& p) { return p.section == OdometryParams::kFirstExpertSection; });
+    ASSERT_NE(expert, table.end());
+    EXPECT_LE(expert - table.begin(), 45);
+    const std::string text = iniText(table, OdometryParams::kFirstExpertSection);
+    EXPECT_THAT(text, testing::HasSubstr("# For experts: "));
+}
+
 TEST(ConfigFiles, configIniIsTheDumpedDefault)
 {
     OdometryParams params;
-    EXPECT_EQ(test::readBytes(kRoot + "/config.ini"), iniText(parametersOf(params)))
+    EXPECT_EQ(
+        test::readBytes(kRoot + "/config.ini"),
+        iniText(parametersOf(params), OdometryParams::kFirstExpertSection))
         << "run docs/update_config.sh";
 }
 
@@ -31,7 +50,7 @@ TEST(ConfigFiles, theDocumentedKeysAreThoseOfTheProgram)
     ASSERT_NE(last, std::string::npos);
     EXPECT_EQ(
         page.substr(first + begin.size(), last - first - begin.size()),
-        markdownText(parametersOf(params)))
+        markdownText(parametersOf(params), OdometryParams::kFirstExpertSection))
         << "run docs/update_config.sh";
 }
 

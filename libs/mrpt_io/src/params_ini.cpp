@@ -18,6 +18,8 @@ namespace pointplane
 {
 namespace
 {
+constexpr const char* kExpert = "the insides of each stage. Few recordings need another value.";
+
 [[nodiscard]] std::string trimmed(const std::string& text)
 {
     const auto first = text.find_first_not_of(" \t\r");
@@ -251,7 +253,7 @@ void applySetting(const std::string& setting, const ParameterTable& table)
     assign(where, find(where, section, key, table), trimmed(setting.substr(equals + 1)));
 }
 
-std::string iniText(const ParameterTable& table)
+std::string iniText(const ParameterTable& table, const std::string& firstExpert)
 {
     std::ostringstream out;
     out << "# Complete configuration of pointplane-odometry, written by --dump-config.\n"
@@ -262,7 +264,8 @@ std::string iniText(const ParameterTable& table)
         if (p.section != section)
         {
             section = p.section;
-            out << "\n[" << section << "]\n";
+            out << (section == firstExpert ? "\n# For experts: " + std::string(kExpert) + "\n" : "")
+                << "\n[" << section << "]\n";
         }
         const std::string assignment = p.key + " = " + p.text();
         constexpr std::size_t kColumn = 36;
@@ -273,7 +276,7 @@ std::string iniText(const ParameterTable& table)
     return out.str();
 }
 
-std::string markdownText(const ParameterTable& table)
+std::string markdownText(const ParameterTable& table, const std::string& firstExpert)
 {
     std::ostringstream out;
     std::string section;
@@ -281,7 +284,10 @@ std::string markdownText(const ParameterTable& table)
     {
         if (p.section != section)
         {
-            out << (section.empty() ? "" : "\n") << "### [" << p.section
+            out << (section.empty() ? "" : "\n")
+                << (p.section == firstExpert ? "**For experts:** " + std::string(kExpert) + "\n\n"
+                                             : "")
+                << "### [" << p.section
                 << "]\n\n| key | default | unit | meaning |\n|---|---|---|---|\n";
             section = p.section;
         }

@@ -72,11 +72,13 @@ void parseIni(const std::string& text, const std::string& name, const ParameterT
 /** Applies "Section.key=value". \throws InputError */
 void applySetting(const std::string& setting, const ParameterTable& table);
 
-/** The complete file, every key with unit and help. */
-[[nodiscard]] std::string iniText(const ParameterTable& table);
+/** The complete file, every key with unit and help.
+ * \param firstExpert section before which a line says that few will need what follows */
+[[nodiscard]] std::string iniText(const ParameterTable& table, const std::string& firstExpert = "");
 
 /** The same as a Markdown table per section. */
-[[nodiscard]] std::string markdownText(const ParameterTable& table);
+[[nodiscard]] std::string markdownText(
+    const ParameterTable& table, const std::string& firstExpert = "");
 /** @} */
 
 /** Defaults, then the file, then the settings, then the check of ranges.

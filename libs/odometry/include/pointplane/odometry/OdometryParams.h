@@ -39,24 +39,25 @@ struct PipelineParams
         v("searchAround",
           searchAround,
           "-",
-          "prediction (features are looked for where the motion model puts them) or previous (the "
-          "paper: where they were)");
+          "prediction (a point is looked for where the camera's latest motion would put it) or "
+          "previous (where it was in the frame before, as in the paper)");
         v("degeneracy",
           degeneracy,
           "-",
-          "fuse (motion model where the frame does not tell) or gate (the paper's: all or "
-          "nothing)");
+          "what becomes of a frame that does not tell all directions, like one of a single wall: "
+          "fuse (the predicted motion tells the others) or gate (the whole frame is predicted, as "
+          "in "
+          "the paper)");
         v("gateSigma",
           gateSigma,
           "m, rad",
-          "gate: frames with a larger standard deviation in any direction (largest eigenvalue) are "
-          "predicted instead");
+          "with degeneracy = gate: a frame whose pose is less certain than this in any direction "
+          "(standard deviation) is predicted");
         v("maxPointChi2",
           maxPointChi2,
           "-",
-          "fuse: frames whose points disagree with their covariances by more than this (chi-square "
-          "per "
-          "degree of freedom) are predicted instead");
+          "with degeneracy = fuse: a frame is predicted when its points miss by more than the root "
+          "of this times what they should (chi-square per degree of freedom)");
         v("leastAgreement",
           leastAgreement,
           "-",
@@ -98,6 +99,10 @@ struct OdometryParams
     ReferenceWindow::TParams reference;
     JointCovariance::TParams covariance;
 
+    /** From here on, sections are about the insides of a stage; those before, about what is to be
+     * done, with which camera. */
+    static constexpr const char* kFirstExpertSection = "PointTracker";
+
     /** Calls f(sectionName, group) for each group. */
     template <class F>
     void visitSections(F&& f)
@@ -106,6 +111,8 @@ struct OdometryParams
         f("DepthNoise", depthNoise);
         f("Shutter", shutter);
         f("Points", points);
+        f("Reference", reference);
+        f("Covariance", covariance);
         f("PointTracker", pointTracker);
         f("PointDetector", pointDetector);
         f("PointMatcher", pointMatcher);
@@ -115,8 +122,6 @@ struct OdometryParams
         f("PoseSolver", poseSolver);
         f("NoiseScale", noiseScale);
         f("MotionModel", motionModel);
-        f("Reference", reference);
-        f("Covariance", covariance);
     }
 
     /** \throws std::invalid_argument naming section and key */

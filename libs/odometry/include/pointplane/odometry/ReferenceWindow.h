@@ -29,9 +29,9 @@ class ReferenceWindow
             v("reference",
               reference,
               "-",
-              "keyframes (key frames, and the previous frame's planes), previous (frame to frame: "
-              "the latest one that was tracked) or adjacent (the paper: the frame before, tracked "
-              "or not)");
+              "what a frame is compared with: keyframes (a few earlier frames that are kept, which "
+              "drifts least), previous (the latest frame that was tracked) or adjacent (the frame "
+              "before, tracked or not, as in the paper)");
             v("maxKeyframes", maxKeyframes, "-", "that are kept; the oldest is dropped");
             v("keyframeDistance", keyframeDistance, "m", "new key frame after this translation");
             v("keyframeAngleDeg", keyframeAngleDeg, "deg", "or after this rotation");

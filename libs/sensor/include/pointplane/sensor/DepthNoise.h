@@ -75,8 +75,11 @@ struct DepthNoise
         v("kind",
           kind,
           "-",
-          "learn (from the depth images), structuredLight, activeStereo, timeOfFlight, rendered "
-          "(levels learnt), or given (as the next three say)");
+          "how the depth camera errs: learn (found out from the images), the kind of camera where "
+          "it "
+          "is known (structuredLight, activeStereo, timeOfFlight, rendered; how much is learnt), "
+          "or "
+          "given (as the next three say)");
         v("sigmaInverseDepth",
           sigmaInverseDepth,
           "1/m",
