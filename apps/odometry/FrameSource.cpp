@@ -123,6 +123,12 @@ std::vector<std::string> FrameSource::notes() const
                 "' (--sensor-label chooses)");
         }
     }
+    if (isNominal_)
+    {
+        out.emplace_back(
+            "camera: nominal intrinsics, nobody calibrated it; the covariances do not know that "
+            "(Covariance.principalPoint and focalLength can tell them)");
+    }
     if (numReplaced_ > 0)
     {
         out.push_back(
@@ -173,6 +179,7 @@ SourceItem FrameSource::item(const mrpt::obs::CObservation::Ptr& observation)
         if (out.frameIndex >= options_.first)
         {
             out.converted = converter_.convert(*scan);
+            isNominal_ = isNominal_ || out.converted->frame.camera.isNominal;
         }
     }
     return out;

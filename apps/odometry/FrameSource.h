@@ -69,6 +69,7 @@ class FrameSource
     bool pendingIsObject_{false};  //!< not out of a sensory frame
     std::string label_;
     std::map<std::string, std::size_t> framesOf_;
+    bool isNominal_{false};       //!< the recording says so of its camera
     std::size_t numReplaced_{0};  //!< observations of an earlier run
     std::size_t numFrames_{0};
     std::string damage_;

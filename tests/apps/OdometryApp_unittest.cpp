@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OdometryApp.h"
 
+#include <pointplane/mrpt_io/ObservationConverter.h>
 #include <pointplane/mrpt_io/RawlogReader.h>
 #include <pointplane/mrpt_io/VisualOdometry.h>
 #include <pointplane/mrpt_io/errors.h>
@@ -264,6 +265,23 @@ TEST_F(OdometryApp, aRunOnAnOutputReplacesWhatIsThere)
         EXPECT_THAT(again.out, HasSubstr("replaced: 13 poses and comments of an earlier run"));
     }
     EXPECT_EQ(readBytes(out_), readBytes(first));
+}
+
+TEST_F(OdometryApp, nominalIntrinsicsAreTold)
+{
+    for (const bool isNominal : {false, true})
+    {
+        RawlogWriter writer(in_);
+        CObservationComment comment;
+        comment.timestamp = sampleScan(0)->timestamp;
+        comment.text = cameraComment("RGBD", {}, isNominal);
+        writer.write(comment);
+        writer.write(*sampleScan(0, 64, 48));
+        writer.close();
+        const Outcome outcome = run({in_, "-o", out_});
+        EXPECT_EQ(outcome.code, kExitOk) << outcome.err;
+        EXPECT_EQ(outcome.out.find("nominal intrinsics") != std::string::npos, isNominal);
+    }
 }
 
 TEST_F(OdometryApp, otherCamerasAreNamed)
