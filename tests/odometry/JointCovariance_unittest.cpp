@@ -70,8 +70,7 @@ TEST(JointCovariance, errorsAgainstOneReferenceDoNotAddUp)
     }
 }
 
-/** What a frame says as a reference has half of its own error in common with its pose: of n
- * increments, each adds one, and the first and last keep half of theirs. */
+/** As a reference, a frame errs as its pose does. */
 TEST(JointCovariance, errorsFromFrameToFrameAddUp)
 {
     JointCovariance joint = started();
@@ -82,7 +81,7 @@ TEST(JointCovariance, errorsFromFrameToFrameAddUp)
     }
     for (int n = 1; n <= 10; ++n)
     {
-        EXPECT_THAT(joint.relative(12 - n, kAtRest), isTimesIdentity(n + 1)) << n;
+        EXPECT_THAT(joint.relative(12 - n, kAtRest), isTimesIdentity(n)) << n;
     }
 }
 
@@ -91,6 +90,7 @@ TEST(JointCovariance, referencesDrift)
     JointCovariance joint = started();
     JointCovariance::Measurement measurement = against(1);
     measurement.drift = 0.5 * Matrix6d::Identity();
+    measurement.steps[1] = {1, 1, 1};
     for (int frame = 2; frame <= 11; ++frame)
     {
         joint.measure(frame, kAtRest, kFrame, measurement);
@@ -98,6 +98,27 @@ TEST(JointCovariance, referencesDrift)
     }
     EXPECT_THAT(joint.latest(), isTimesIdentity(1 + 10 * 0.5));
     EXPECT_THAT(joint.relative(9, kAtRest), isTimesIdentity(2 + 2 * 0.5));
+}
+
+/** Back at the reference's view, nothing of its drift is left: not in this frame, and in what it
+ * has in common with those that saw it. */
+TEST(JointCovariance, driftVanishesWhereItIsNotKept)
+{
+    JointCovariance joint = started();
+    JointCovariance::Measurement measurement = against(1);
+    measurement.drift = 4 * Matrix6d::Identity();
+    measurement.steps[1] = {1, 0.5, 1};
+    joint.measure(2, kAtRest, kFrame, measurement);
+    joint.keep({1});
+    EXPECT_THAT(joint.latest(), isTimesIdentity(1 + 2));
+    measurement.steps[1] = {0.5, 0, 1};
+    joint.measure(3, kAtRest, kFrame, measurement);
+    joint.keep({1});
+    EXPECT_THAT(joint.latest(), isTimesIdentity(1 + 0.5));
+    measurement.steps[1] = {0, 0, 1};
+    joint.measure(4, kAtRest, kFrame, measurement);
+    EXPECT_THAT(joint.latest(), isTimesIdentity(1));
+    EXPECT_THAT(joint.relative(2, kAtRest), isTimesIdentity(1 + 3));
 }
 
 /** Where nothing but the motion model tells the pose, an error of the velocity goes on. */
@@ -125,10 +146,9 @@ TEST(JointCovariance, errorsOfTheCameraAreTheSameInAllFrames)
 {
     JointCovariance::TParams params;
     params.history = 30;
-    params.vignetting = 0.5;
-    params.principalPoint = 2;
-    params.focalLength = 3;
-    JointCovariance joint(params);
+    CameraVector sigmas;
+    sigmas << 0.5, 2, 2, 3, 0, 0, 0;
+    JointCovariance joint(params, sigmas.cwiseAbs2().asDiagonal());
     joint.start(1, Matrix6d::Zero());
     const auto seen = [](double metres)
     {
@@ -151,6 +171,27 @@ TEST(JointCovariance, errorsOfTheCameraAreTheSameInAllFrames)
     EXPECT_NEAR(sigma(2, 2), 2 * 0.10, 1e-12);
     EXPECT_NEAR(sigma(2, 3), 3 * 0.10, 1e-12);
     EXPECT_NEAR(sigma(12, 0), 0, 1e-9) << "alike";
+}
+
+/** What is learnt of the camera between two frames that it displaces alike: they differ by what has
+ * been learnt. */
+TEST(JointCovariance, errorsOfTheCameraChangeAsTheyAreLearnt)
+{
+    JointCovariance::TParams params;
+    params.history = 30;
+    JointCovariance joint(params, 4 * CameraMatrix::Identity());
+    joint.start(1, Matrix6d::Zero());
+    JointCovariance::Measurement seen = against(1);
+    seen.noise.setZero();
+    seen.camera.topLeftCorner<6, 6>().setIdentity();
+    seen.cameraGain *= 0.5;
+    seen.cameraNoise = 0.25 * CameraMatrix::Identity();
+    joint.measure(2, kAtRest, kFrame, seen);
+    joint.keep({1});
+    EXPECT_THAT(joint.latest(), isTimesIdentity(4));
+    joint.measure(3, kAtRest, kFrame, seen);
+    EXPECT_THAT(joint.latest(), isTimesIdentity(0.25 * 4 + 0.25));
+    EXPECT_THAT(joint.relative(2, kAtRest), isTimesIdentity(0.25 * 4 + 0.25));
 }
 
 TEST(JointCovariance, predictedFramesAndANewWindow)
@@ -177,13 +218,27 @@ TEST(JointCovariance, predictedFramesAndANewWindow)
     EXPECT_THROW(joint.measure(5, kAtRest, kFrame, against(1)), std::exception);
 }
 
+/** A place that is compared with again: its pose was kept, what it errs by seen from here is new.
+ */
+TEST(JointCovariance, aRecalledReferenceDriftsByTheWholeWay)
+{
+    JointCovariance joint = started();
+    joint.measure(2, kAtRest, kFrame, against(1));
+    joint.restart(2, {1});
+    JointCovariance::Measurement measurement = against(1);
+    measurement.drift = 4 * Matrix6d::Identity();
+    measurement.steps[1] = {0.5, 0.1, 3};
+    joint.measure(3, kAtRest, kFrame, measurement);
+    EXPECT_THAT(joint.latest(), isTimesIdentity(1 + 3 * 4));
+}
+
 TEST(JointCovariance, keepsWhatIsStillNeeded)
 {
     JointCovariance joint = started(2);
     for (int frame = 2; frame <= 6; ++frame)
     {
         joint.measure(frame, kAtRest, kFrame, against(1));
-        joint.keep({1}, 3);
+        joint.keep({1}, {3});
     }
     EXPECT_TRUE(joint.knows(6) && joint.knows(5) && joint.knows(4));
     EXPECT_TRUE(joint.knows(3));
@@ -204,13 +259,10 @@ TEST(JointCovariance, monteCarlo)
     test::GaussianSampler setup(91);
     std::vector<Eigen::Isometry3d> poses{se3Exp(setup.vector<6>())};
     std::vector<JointCovariance::Measurement> measurements;
-    JointCovariance joint({});
     JointCovariance::TParams params;
     params.history = kFrames;
-    params.vignetting = 0.7;
-    params.principalPoint = 0.5;
-    params.focalLength = 0.3;
-    joint = JointCovariance(params);
+    const CameraMatrix cameraCov = setup.covariance<kNumCameraErrors>(0.1, 0.5);
+    JointCovariance joint(params, cameraCov);
     const Matrix6d startCov = setup.covariance<6>(0.1, 1);
     joint.start(0, startCov);
     for (int k = 1; k < kFrames; ++k)
@@ -226,8 +278,12 @@ TEST(JointCovariance, monteCarlo)
         m.noise = setup.covariance<12>(0.1, 1);
         m.priorNoise = setup.covariance<12>(0.1, 1);
         m.drift = setup.covariance<6>(0.1, 0.5);
-        m.camera = setup.vector<12>() * Eigen::RowVector4d(1, -0.5, 0.3, 0.2);
+        m.camera = setup.vector<12>() * setup.vector<kNumCameraErrors>().transpose();
         m.camera.bottomRightCorner<6, 3>().setConstant(0.4);
+        m.cameraGain = 0.8 * CameraMatrix::Identity();
+        m.cameraNoise = setup.covariance<kNumCameraErrors>(0.01, 0.1);
+        m.steps[0] = {0.7, 0.4, 1};
+        m.steps[k - 1] = {0.9, 0.8, 1};
         joint.measure(k, poses.back(), 0.5, m);
         joint.keep({0, k - 1, k});
         measurements.push_back(m);
@@ -239,19 +295,22 @@ TEST(JointCovariance, monteCarlo)
     for (int run = 0; run < kRuns; ++run)
     {
         std::vector<Vector6d> pose{sampler.sample(startCov)};
-        std::map<int, Vector6d> reference{{0, pose[0]}};
+        std::map<int, Vector6d> drift{{0, Vector6d::Zero()}};
         Vector6d velocity = Vector6d::Zero();
-        Eigen::Vector4d camera = sampler.vector<4>();
-        camera.array() *=
-            Eigen::Array4d(params.vignetting, params.principalPoint, params.principalPoint, 0.3);
+        CameraVector camera = sampler.sample(cameraCov);
         for (int k = 1; k < kFrames; ++k)
         {
             const JointCovariance::Measurement& m = measurements[static_cast<size_t>(k - 1)];
             const Matrix6d Ad = adjoint(poses[static_cast<size_t>(k - 1)]);
             const Matrix6d toBase = Ad.inverse();
-            for (auto& [frame, error] : reference)
+            for (auto& [frame, error] : drift)
             {
-                error += Ad * sampler.sample(m.drift);
+                const auto it = m.steps.find(frame);
+                if (it != m.steps.end())
+                {
+                    error = it->second.kept * error +
+                            std::sqrt(it->second.gained) * (Ad * sampler.sample(m.drift));
+                }
             }
             const Vector6d before = toBase * pose.back();
             Vector12d predicted;
@@ -260,16 +319,13 @@ TEST(JointCovariance, monteCarlo)
             shared += m.camera * camera;
             for (const auto& [frame, change] : m.references)
             {
-                shared += change * (toBase * reference.at(frame));
+                shared += change * (toBase * (pose[static_cast<size_t>(frame)] + drift.at(frame)));
             }
-            // Half of the own error's variance is also that of the frame as a reference.
-            const double root = std::sqrt(0.5);
-            const Vector12d both = root * sampler.sample(m.noise);
-            const Vector12d own = both + root * sampler.sample(m.noise);
-            const Vector12d other = both + root * sampler.sample(m.noise);
-            pose.push_back(Ad * (shared + own).head<6>());
-            velocity = (shared + own).tail<6>();
-            reference[k] = Ad * (shared + other).head<6>();
+            shared += sampler.sample(m.noise);
+            pose.push_back(Ad * shared.head<6>());
+            velocity = shared.tail<6>();
+            drift[k].setZero();
+            camera = m.cameraGain * camera + sampler.sample(m.cameraNoise);
         }
         latest.push_back(pose.back());
         since.push_back(adjoint(poses[2].inverse()) * (pose.back() - pose[2]));
@@ -289,7 +345,7 @@ TEST(JointCovariance, refusesParametersNamingTheKey)
     };
     refused([](auto& p) { p.model = "none"; });
     refused([](auto& p) { p.noise = 0; });
-    refused([](auto& p) { p.drift = -1; });
+    refused([](auto& p) { p.driftSigma = -1; });
     refused([](auto& p) { p.vignetting = -0.1; });
     refused([](auto& p) { p.motion = -0.1; });
     refused([](auto& p) { p.principalPoint = -0.1; });

@@ -114,6 +114,7 @@ TEST(NoiseScale, constantFactorsComeOnTop)
     noise.update(with(50, 50), 1);
     EXPECT_EQ(noise.factors().points, 3);
     EXPECT_EQ(noise.factors().planes, 5);
+    EXPECT_EQ(noise.levels().planes, 1);
 }
 
 TEST(NoiseScale, refusesParametersOutOfRange)

@@ -61,6 +61,39 @@ TEST(ShutterCalibrator, canTakeImagesForThoseOfOneInstant)
     }
 }
 
+TEST(ShutterCalibrator, estimatesWhatTheSourceDoesNotTell)
+{
+    const ShutterCalibrator calibrator(params());
+    EXPECT_EQ(calibrator.estimated({}), Eigen::Vector3d(1, 1, 1));
+    EXPECT_EQ(calibrator.estimated({0.025, kUnknown, 0.001}), Eigen::Vector3d(0, 1, 1));
+    EXPECT_EQ(calibrator.estimated({0.025, 0.02, 0.001}), Eigen::Vector3d(0, 0, 0));
+}
+
+/** Prior and frame, which counts as a tenth, know the same: the estimate goes half of the way, its
+ * error is half of the one before and half of the frame's. */
+TEST(ShutterCalibrator, learnsByHand)
+{
+    ShutterCalibrator::TParams p = params();
+    p.sigmaPrior = 0.01;
+    p.varianceFactor = 10;
+    ShutterCalibrator calibrator(p);
+    CameraInformation camera;
+    camera.information.setIdentity();
+    camera.information *= 1e5;
+    camera.gradient.tail<3>() << -400, 0, 200;  // 4 ms more readout, 2 ms less delay
+    const ShutterCalibrator::Change change = calibrator.update(camera);
+    EXPECT_NEAR(calibrator.estimate()[0], 0.021 + 0.002, 1e-12);
+    EXPECT_NEAR(calibrator.estimate()[1], 0.022, 1e-12);
+    EXPECT_NEAR(calibrator.estimate()[2], -0.003 - 0.001, 1e-12);
+    EXPECT_NEAR(change.gain(0, 0), 0.5, 1e-12);
+    EXPECT_NEAR(change.noise(2, 2), 0.25e-4, 1e-15);
+
+    p.selfCalibrate = false;
+    ShutterCalibrator fixed(p);
+    EXPECT_EQ(fixed.update(camera).gain(0, 0), 1);
+    EXPECT_EQ(fixed.estimate()[0], 0.021);
+}
+
 TEST(ShutterCalibrator, refusesParametersOutOfRange)
 {
     const auto refused = [](auto change)

@@ -244,4 +244,34 @@ TEST(ShutterCorrection, nothingToCorrect)
         EXPECT_THAT(correctedPlane(none, plane, handVelocity()), test::IsMatrixNear(theta, 1e-15));
     }
 }
+
+/** Both corrections are linear in the three times. */
+TEST(ShutterCorrection, changesWithTheShutter)
+{
+    PointFeature point = pointOn({0.4, -0.3, 1.7}, {0.1, -0.2, -0.5}, 31);
+    PlaneFeature plane;
+    plane.plane_cam.theta_m << 0.2, -0.4, 0.6;
+    plane.rowLever << 0.1, -0.2, 0.05, 0.3, 0.1, 0, -0.1, 0.2, 0.15;
+    const Vector6d V = handVelocity();
+    const auto at = [&](int k, double by)
+    {
+        ShutterModel shutter = kinect();
+        (k == 0 ? shutter.readoutColour : k == 1 ? shutter.readoutDepth : shutter.depthDelay) += by;
+        return ShutterCorrection(shutter, kHeight);
+    };
+    constexpr double kStep = 1e-3;
+    Eigen::Matrix3d ofPoint, ofPlane;
+    for (int k = 0; k < 3; ++k)
+    {
+        const ShutterCorrection after = at(k, kStep), before = at(k, -kStep);
+        ofPoint.col(k) =
+            (after.pointJacobian(point) - before.pointJacobian(point)) * V / (2 * kStep);
+        ofPlane.col(k) =
+            (after.planeJacobian(plane) - before.planeJacobian(plane)) * V / (2 * kStep);
+    }
+    const ShutterCorrection correction(kinect(), kHeight);
+    EXPECT_THAT(correction.pointByShutter(point, V), test::IsMatrixNear(ofPoint, 1e-9));
+    EXPECT_THAT(correction.planeByShutter(plane, V), test::IsMatrixNear(ofPlane, 1e-9));
+    EXPECT_GT(ofPoint.col(0).norm(), 0.1);
+}
 }  // namespace pointplane

@@ -59,7 +59,7 @@ ByCamera differences(F&& of)
 {
     constexpr double kStep = 1e-4;
     ByCamera out = ByCamera::Zero();
-    for (int k = 1; k < kNumCameraErrors; ++k)
+    for (int k = 1; k < kFirstShutterError; ++k)
     {
         out.col(k) = (of(k, kStep) - of(k, -kStep)) / (2 * kStep);
     }
@@ -75,6 +75,23 @@ TEST(cameraErrors, ofAPointByHand)
     EXPECT_NEAR(J(1, 2), -2.0 / 480, 1e-12);
     EXPECT_NEAR(J(0, 3), -0.5, 1e-12);
     EXPECT_NEAR(J(1, 3), 0.25, 1e-12);
+}
+
+TEST(cameraErrors, beforeTheFirstFrame)
+{
+    JointCovariance::TParams calibration;
+    calibration.vignetting = 0.1;
+    calibration.principalPoint = 2;
+    calibration.focalLength = 0.003;
+    ShutterCalibrator::TParams shutter;
+    shutter.sigmaPrior = 0.02;
+    CameraVector variances;
+    variances << 0.01, 4, 4, 9e-6, 4e-4, 4e-4, 4e-4;
+    EXPECT_THAT(
+        cameraCovariance(calibration, shutter),
+        test::IsMatrixNear(CameraMatrix(variances.asDiagonal()), 1e-12));
+    shutter.selfCalibrate = false;
+    EXPECT_EQ((cameraCovariance(calibration, shutter).bottomRightCorner<3, 3>().norm()), 0);
 }
 
 TEST(cameraErrors, asCalibrationsChange)

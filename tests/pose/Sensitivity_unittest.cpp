@@ -2,6 +2,8 @@
 #include <pointplane/core/covariance.h>
 #include <pointplane/pose/PoseSolver.h>
 
+#include <Eigen/Cholesky>
+
 #include <vector>
 
 #include "matchers.h"
@@ -156,7 +158,7 @@ TEST(Sensitivity, toErrorsOfTheCamera)
     const Solved solved = solve(problem);
     for (int k = 0; k < kNumCameraErrors; ++k)
     {
-        const Eigen::Vector4d camera = 0.01 * Eigen::Vector4d::Unit(k);
+        const CameraVector camera = 0.01 * CameraVector::Unit(k);
         PoseProblem displaced = problem;
         for (PointPair& pair : displaced.points)
         {
@@ -174,6 +176,33 @@ TEST(Sensitivity, toErrorsOfTheCamera)
             << k;
         EXPECT_GT(expected.head<6>().norm(), 1e-4);
     }
+}
+
+/** Features that err by the camera alone: where motion and camera are told apart, the residuals say
+ * by how much. */
+TEST(Sensitivity, theCameraIsToldByTheResiduals)
+{
+    PoseProblem problem = makeProblem(87);
+    test::GaussianSampler sampler(88);
+    const CameraVector errors = 0.01 * sampler.vector<kNumCameraErrors>();
+    const auto random = [&] {
+        return ByCamera(
+            0.02 * sampler.vector<3>() * sampler.vector<kNumCameraErrors>().transpose());
+    };
+    for (PointPair& pair : problem.points)
+    {
+        pair.dRef_dCamera = random();
+        pair.dCur_dCamera = random();
+        pair.ref.mean += pair.dRef_dCamera * errors;
+        pair.cur.mean += pair.dCur_dCamera * errors;
+    }
+    const CameraInformation camera = solve(problem).analysis.camera;
+    EXPECT_THAT(
+        camera.information, test::IsMatrixNear(CameraMatrix(camera.information.transpose()), 1e-6));
+    // What is added to the features' errors to explain them is the opposite of these.
+    const CameraVector found = camera.information.ldlt().solve(camera.gradient);
+    EXPECT_THAT(found, test::IsMatrixNear(errors, 3e-4));
+    EXPECT_GT(errors.norm(), 0.01);
 }
 
 /** All that the estimate depends on moves: so does the estimate. */

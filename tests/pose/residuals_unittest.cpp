@@ -176,9 +176,9 @@ TEST(Residuals, changeWithTheCamera)
     const auto check = [&](auto pair, auto residual, auto&& meanOf)
     {
         constexpr double kStep = 1e-5;
-        pair.dRef_dCamera = sampler.vector<3>() * sampler.vector<4>().transpose();
-        pair.dCur_dCamera = sampler.vector<3>() * sampler.vector<4>().transpose();
-        const auto with = [&](const Eigen::Vector4d& camera)
+        pair.dRef_dCamera = sampler.vector<3>() * sampler.vector<kNumCameraErrors>().transpose();
+        pair.dCur_dCamera = sampler.vector<3>() * sampler.vector<kNumCameraErrors>().transpose();
+        const auto with = [&](const CameraVector& camera)
         {
             auto moved = pair;
             meanOf(moved.ref) += pair.dRef_dCamera * camera;
@@ -188,7 +188,7 @@ TEST(Residuals, changeWithTheCamera)
         ByCamera expected;
         for (int k = 0; k < kNumCameraErrors; ++k)
         {
-            const Eigen::Vector4d step = kStep * Eigen::Vector4d::Unit(k);
+            const CameraVector step = kStep * CameraVector::Unit(k);
             expected.col(k) = (with(step) - with(-step)) / (2 * kStep);
         }
         EXPECT_THAT(residual(pair, motion).ofCamera, test::IsMatrixNear(expected, 1e-5));

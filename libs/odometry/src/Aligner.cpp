@@ -26,6 +26,9 @@ constexpr int kMinMatches = 3;
 /** So few points cannot contradict each other when they are wrong; a plane is worth three. */
 constexpr int kFewPoints = 6;
 
+/** Points that should be in view: of fewer, a share says little. */
+constexpr int kHandful = 20;
+
 /** Standard deviations from the predicted pose that they are not believed then. */
 constexpr double kMostSurprise = 5;
 
@@ -41,9 +44,13 @@ constexpr double kConvincingSurfaces = 0.75;
  * the least surfaces, a seventh of the points must be found; with all of them, none. */
 constexpr double kConvincingTogether = 0.9;
 
-/** Residuals about five (points) and ten times (planes) as large as propagated, squared. How large
- * they are where all is well differs tenfold between cameras: only gross disagreement tells. */
-constexpr double kConvincingPointChi2 = 30, kConvincingPlaneChi2 = 100;
+/** Residuals up to twice as large as in the frames before, squared: a wrong motion disagrees more.
+ */
+constexpr double kConvincingRise = 4;
+
+/** A prediction that is less certain than this says nothing of which plane is which: other planes
+ * are as near, and as parallel (PlaneMatcher). */
+constexpr double kUncertainRotation = 10 * M_PI / 180, kUncertainTranslation = 0.1;  // [rad], [m]
 
 /** Surfaces of a place that agree when it is recognised. By key points alone the motion is
  * centimetres off: less is asked than of an estimate, and twice what a wrong motion shows. What is
@@ -77,6 +84,14 @@ double maxSigma(const Matrix6d& cov)
 {
     const Eigen::SelfAdjointEigenSolver<Matrix6d> es(cov);
     return std::sqrt(std::max(0.0, es.eigenvalues().maxCoeff()));
+}
+
+/** Of a predicted pose. */
+bool isUncertain(const Matrix6d& cov)
+{
+    const Vector6d variances = cov.diagonal();
+    return variances.head<3>().maxCoeff() > kUncertainTranslation * kUncertainTranslation ||
+           variances.tail<3>().maxCoeff() > kUncertainRotation * kUncertainRotation;
 }
 
 /** How much speaks for an alignment. */
@@ -129,7 +144,6 @@ void tell(const Alignment& alignment, FrameDiagnostics& diagnostics)
 
 double Alignment::pointShare() const
 {
-    constexpr int kHandful = 20;
     return static_cast<double>(estimate.numPointInliers) / std::max(numSought, kHandful);
 }
 
@@ -169,19 +183,19 @@ Alignment Aligner::align(
     const Motion start{expected, predicted.motion.mean.velocity};
     const bool verifies = params_.leastAgreement > 0;
     Alignment out = attempt(scene, start, Search::Close);
-    if (track.overlap(out.associations) < minOverlap_ || (verifies && !isConvincing(out)))
+    if (track.overlap(out.associations) < minOverlap_ || (verifies && !isConvincing(scene, out)))
     {
         Alignment wide = attempt(scene, start, Search::Wide);
         if (!verifies || evidence(wide) > evidence(out))
         {
             out = std::move(wide);
         }
-        if (params_.searchImages && !isConvincing(out))
+        if (params_.searchImages && !isConvincing(scene, out))
         {
             searchImages(scene, out);
         }
     }
-    contradict(out);
+    contradict(scene, out);
     tell(out, diagnostics);
     diagnostics.msMatching = watch.ms() - diagnostics.msPose;
     return out;
@@ -229,7 +243,7 @@ void Aligner::searchImages(const Scene& scene, Alignment& best) const
         {
             best = std::move(other);
         }
-        if (isConvincing(best))
+        if (isConvincing(scene, best))
         {
             return;
         }
@@ -370,25 +384,41 @@ void Aligner::verify(const Scene& scene, Alignment& alignment)
     }
 }
 
-bool Aligner::isConvincing(const Alignment& a) const
+bool Aligner::isConvincing(const Scene& scene, const Alignment& a) const
 {
+    const NoiseFactors usual = scene.errors.usual();
     return a.holds && a.agreement.fraction() > kConvincingSurfaces &&
            a.agreement.fraction() + a.pointShare() > kConvincingTogether &&
-           a.estimate.pointChi2PerDof < kConvincingPointChi2 &&
-           a.estimate.planeChi2PerDof < kConvincingPlaneChi2;
+           a.estimate.pointChi2PerDof < kConvincingRise * usual.points &&
+           a.estimate.planeChi2PerDof < kConvincingRise * usual.planes;
 }
 
-/** The last word: surfaces that should be in view and are not. */
-void Aligner::contradict(Alignment& alignment) const
+/** The last word: surfaces that should be in view and are not; matches that might be any. */
+void Aligner::contradict(const Scene& scene, Alignment& alignment) const
 {
-    const bool isCompared = alignment.agreement.seen() > 0;
-    if (alignment.holds && isCompared && alignment.agreement.fraction() < params_.leastAgreement)
+    if (!alignment.holds || params_.leastAgreement <= 0)
     {
-        std::ostringstream reason;
+        return;
+    }
+    std::ostringstream reason;
+    const double agreement = alignment.agreement.fraction();
+    if (alignment.agreement.seen() > 0 && agreement < params_.leastAgreement)
+    {
         reason << "the depth image contradicts the motion of " << alignment.numMatches()
-               << " point and plane matches: it shows "
-               << std::lround(100 * alignment.agreement.fraction())
+               << " point and plane matches: it shows " << std::lround(100 * agreement)
                << " % of the surfaces that should be in view";
+    }
+    else if (
+        isUncertain(scene.predicted.pose.cov) && alignment.numSought >= kHandful &&
+        alignment.estimate.numPointInliers < kFewPoints && agreement <= kConvincingTogether)
+    {
+        reason << "of " << alignment.numSought << " points that should be in view "
+               << scene.predicted.dt << " s after the previous measured frame, "
+               << alignment.estimate.numPointInliers << " agree with the motion of "
+               << alignment.problem.planes.size() << " plane matches";
+    }
+    if (!reason.str().empty())
+    {
         alignment.reason = reason.str();
         alignment.holds = false;
     }

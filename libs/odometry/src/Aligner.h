@@ -4,6 +4,7 @@
 #include <pointplane/odometry/Features.h>
 #include <pointplane/odometry/OdometryParams.h>
 #include <pointplane/odometry/OdometryResult.h>
+#include <pointplane/odometry/PairBuilder.h>
 #include <pointplane/odometry/Verdict.h>
 #include <pointplane/pose/PoseSolver.h>
 
@@ -82,8 +83,8 @@ class Aligner
     void estimate(const Scene& scene, const Motion& start, Alignment& alignment) const;
     void judge(Alignment& alignment) const;
     static void verify(const Scene& scene, Alignment& alignment);
-    [[nodiscard]] bool isConvincing(const Alignment& alignment) const;
-    void contradict(Alignment& alignment) const;
+    [[nodiscard]] bool isConvincing(const Scene& scene, const Alignment& alignment) const;
+    void contradict(const Scene& scene, Alignment& alignment) const;
     [[nodiscard]] int minMatches() const;
 
     PipelineParams params_;

@@ -25,7 +25,7 @@ struct Odometry::Impl
     OdometryResult process(const RgbdFrame& frame);
     void place(const RgbdFrame& frame, OdometryResult& result);
     void restart(const Features& current, const std::string& reason, OdometryResult& result);
-    void measure(const Features& current, const Alignment& alignment, OdometryResult& result);
+    void measure(const Features& current, Alignment& alignment, OdometryResult& result);
     void predict(const Features& current, const std::string& reason, OdometryResult& result);
     void lose(double stamp, const std::string& reason, OdometryResult& result);
 
@@ -144,23 +144,23 @@ void Odometry::Impl::restart(
 }
 
 /** Learns from the frame and makes it a reference. */
-void Odometry::Impl::measure(
-    const Features& current, const Alignment& alignment, OdometryResult& result)
+void Odometry::Impl::measure(const Features& current, Alignment& alignment, OdometryResult& result)
 {
     result.status = TrackingStatus::Tracked;
     result.reason = alignment.reason;
     const double dt = alignment.predicted.dt;
-    const PoseAnalysis analysis = aligner.analyse(alignment);
-    const JointCovariance::Measurement measurement = errors.learn(
-        {PairBuilder(track.previous(), current),
-         alignment.associations,
-         alignment.problem,
-         alignment.estimate,
-         analysis,
-         dt,
-         track.motionNoise(dt)});
-    showPairs(alignment.associations, &analysis, shown);
     const MotionGaussian& motion = alignment.estimate.motion;
+    PairBuilder(track.previous(), current)
+        .addShutterErrors(
+            alignment.associations,
+            errors.shutter(),
+            motion.mean.velocity,
+            alignment.problem.points,
+            alignment.problem.planes);
+    const PoseAnalysis analysis = aligner.analyse(alignment);
+    const JointCovariance::Measurement measurement =
+        errors.learn({track.references(), alignment.estimate, analysis, dt, track.motionNoise(dt)});
+    showPairs(alignment.associations, &analysis, shown);
     const bool isKeyframe =
         track.needsKeyframe(motion.mean.T_prev_cur, track.overlap(alignment.associations));
     Reference reference = referenceOf(current);

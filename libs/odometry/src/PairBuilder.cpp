@@ -77,4 +77,47 @@ void PairBuilder::build(
         }
     }
 }
+
+void PairBuilder::addShutterErrors(
+    const std::vector<Association>& associations,
+    const ShutterCalibrator& shutter,
+    const Vector6d& velocity,
+    std::vector<PointPair>& points,
+    std::vector<PlanePair>& planes) const
+{
+    const int height = current_.frame.camera.height;
+    const ShutterCorrection current(shutter.complete(current_.frame.shutter), height);
+    const auto ofCurrent = shutter.estimated(current_.frame.shutter).asDiagonal();
+    auto point = points.begin();
+    auto plane = planes.begin();
+    for (const Association& association : associations)
+    {
+        const Reference& reference = *association.reference;
+        const ShutterCorrection past(shutter.complete(reference.shutter), height);
+        const auto ofReference = shutter.estimated(reference.shutter).asDiagonal();
+        const Eigen::Isometry3d T_prev_ref =
+            previous_.T_world_cam.inverse() * reference.T_world_cam;
+        for (const PlaneMatch& match : association.planes)
+        {
+            const PlaneFeature& ref = reference.planes.planes[static_cast<size_t>(match.ref)];
+            const PlaneFeature& cur = current_.planes.planes[static_cast<size_t>(match.cur)];
+            const Eigen::Vector3d theta_m =
+                ref.plane_cam.theta_m + past.planeJacobian(ref) * reference.velocity;
+            plane->dRef_dCamera.rightCols<3>() = transformJacobian(T_prev_ref, theta_m) *
+                                                 past.planeByShutter(ref, reference.velocity) *
+                                                 ofReference;
+            plane->dCur_dCamera.rightCols<3>() = current.planeByShutter(cur, velocity) * ofCurrent;
+            ++plane;
+        }
+        for (const PointTrack& track : association.points)
+        {
+            const PointFeature& ref = reference.points.points[static_cast<size_t>(track.ref)];
+            point->dRef_dCamera.rightCols<3>() =
+                T_prev_ref.linear() * past.pointByShutter(ref, reference.velocity) * ofReference;
+            point->dCur_dCamera.rightCols<3>() =
+                current.pointByShutter(track.cur, velocity) * ofCurrent;
+            ++point;
+        }
+    }
+}
 }  // namespace pointplane

@@ -7,8 +7,8 @@
 
 namespace pointplane
 {
-PoseHistory::PoseHistory(const JointCovariance::TParams& params)
-    : history_(params.history), joint_(params), poses_{Eigen::Isometry3d::Identity()}
+PoseHistory::PoseHistory(const JointCovariance::TParams& params, const CameraMatrix& cameraCov)
+    : history_(params.history), joint_(params, cameraCov), poses_{Eigen::Isometry3d::Identity()}
 {
     joint_.start(latestFrame_, Matrix6d::Zero());
 }
@@ -29,9 +29,9 @@ void PoseHistory::measure(
     poses_.push_front(T_world_prev * T_prev_cur);
 }
 
-void PoseHistory::keep(const std::vector<int>& references, std::optional<int> frame)
+void PoseHistory::keep(const std::vector<int>& references, const std::vector<int>& poses)
 {
-    joint_.keep(references, frame);
+    joint_.keep(references, poses);
     poses_.resize(std::min(poses_.size(), static_cast<size_t>(history_) + 1));
 }
 

@@ -5,7 +5,6 @@
 #include <pointplane/odometry/uncertainty/JointCovariance.h>
 
 #include <deque>
-#include <optional>
 #include <vector>
 
 namespace pointplane
@@ -15,7 +14,9 @@ namespace pointplane
 class PoseHistory
 {
  public:
-    explicit PoseHistory(const JointCovariance::TParams& params);
+    explicit PoseHistory(
+        const JointCovariance::TParams& params,
+        const CameraMatrix& cameraCov = CameraMatrix::Zero());
 
     /** The next frame was not measured: it is where the increment leads to. */
     void predict(const PoseGaussian& increment);
@@ -28,16 +29,13 @@ class PoseHistory
         double dt,
         const JointCovariance::Measurement& errors);
 
-    /** The next frames are compared with this one and with later ones, and with these references
-     * from before. */
-    void restart(int frame, const std::vector<int>& references = {})
-    {
-        joint_.restart(frame, references);
-    }
+    /** The next frames are compared with this one and with later ones.
+     * \param poses that stay known, too */
+    void restart(int frame, const std::vector<int>& poses = {}) { joint_.restart(frame, poses); }
 
     /** Forgets what neither the history nor comparison with these references needs.
-     * \param frame whose pose is needed, too */
-    void keep(const std::vector<int>& references, std::optional<int> frame);
+     * \param poses that stay known, too */
+    void keep(const std::vector<int>& references, const std::vector<int>& poses);
 
     [[nodiscard]] const Eigen::Isometry3d& latest() const { return poses_.front(); }
     [[nodiscard]] int latestFrame() const { return latestFrame_; }

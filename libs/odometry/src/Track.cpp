@@ -2,6 +2,7 @@
 #include "Track.h"
 
 #include <pointplane/core/covariance.h>
+#include <pointplane/odometry/uncertainty/camera_errors.h>
 
 #include <Eigen/Cholesky>
 
@@ -27,7 +28,7 @@ Track::Track(const OdometryParams& params)
       fuses_(params.pipeline.fuses()),
       isFrameToFrame_(params.reference.isFrameToFrame()),
       motion_(params.motionModel),
-      history_(params.covariance),
+      history_(params.covariance, cameraCovariance(params.covariance, params.shutter)),
       window_(params.reference)
 {
 }
@@ -174,7 +175,7 @@ bool Track::restartAtUnmatched()
         return false;
     }
     window_.leave();
-    history_.restart(unmatched_->id, referenceIds());
+    history_.restart(unmatched_->id, placeIds());
     window_.add(std::move(*unmatched_), true);
     unmatched_.reset();
     return true;
@@ -189,14 +190,9 @@ void Track::add(Reference frame, bool isKeyframe)
     forgetOthers();
 }
 
-/** What the next frames may be compared with. */
-std::vector<int> Track::referenceIds() const
+std::vector<int> Track::placeIds() const
 {
     std::vector<int> out;
-    for (const Reference* reference : window_.active())
-    {
-        out.push_back(reference->id);
-    }
     for (const Reference& place : window_.places())
     {
         out.push_back(place.id);
@@ -207,6 +203,15 @@ std::vector<int> Track::referenceIds() const
 /** Keeps what the next frame will be compared with, and the history. */
 void Track::forgetOthers()
 {
-    history_.keep(referenceIds(), unmatched_ ? std::optional(unmatched_->id) : std::nullopt);
+    std::vector<int> active, poses = placeIds();
+    for (const Reference* reference : window_.active())
+    {
+        active.push_back(reference->id);
+    }
+    if (unmatched_)
+    {
+        poses.push_back(unmatched_->id);
+    }
+    history_.keep(active, poses);
 }
 }  // namespace pointplane

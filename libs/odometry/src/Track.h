@@ -115,7 +115,7 @@ class Track
     /** \return velocity of the previous frame */
     Vector6d follow(const MotionGaussian& motion, double dt);
     void add(Reference frame, bool isKeyframe);
-    [[nodiscard]] std::vector<int> referenceIds() const;
+    [[nodiscard]] std::vector<int> placeIds() const;
     void forgetOthers();
 
     double maxGap_;

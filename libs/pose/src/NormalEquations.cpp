@@ -77,18 +77,21 @@ Matrix312d NormalEquations::jacobian(size_t i) const
     return J;
 }
 
-Matrix124d NormalEquations::cameraInfluence() const
+NormalEquations::CameraColumns NormalEquations::cameraColumns() const
 {
-    Matrix124d out = Matrix124d::Zero();
+    CameraColumns out;
     for (size_t i = 0; i < residuals_.size(); ++i)
     {
         const auto& [residual, W, squaredNorm] = residuals_[i];
         const double w = robust(squaredNorm, isPoint(i)).first;
         if (w > 0)
         {
-            const ByCamera weighted = gain(i) * w * W * residual.ofCamera;
-            out.topRows<6>() += residual.J.transpose() * weighted;
-            out.bottomRows<6>() += residual.J_V.transpose() * weighted;
+            const ByCamera& K = residual.ofCamera;
+            const ByCamera weighted = gain(i) * w * W * K;
+            out.H.topRows<6>() += residual.J.transpose() * weighted;
+            out.H.bottomRows<6>() += residual.J_V.transpose() * weighted;
+            out.own.information += K.transpose().lazyProduct(weighted);
+            out.own.gradient += weighted.transpose() * residual.r;
         }
     }
     return out;

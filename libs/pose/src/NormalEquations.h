@@ -64,8 +64,13 @@ class NormalEquations
     /** How the gradient changes with the residual. */
     [[nodiscard]] Matrix123d influence(size_t i) const;
 
-    /** How the gradient changes with errors of the camera. */
-    [[nodiscard]] Matrix124d cameraInfluence() const;
+    /** The columns of the normal equations that belong to errors of the camera. */
+    struct CameraColumns
+    {
+        MotionByCamera H{MotionByCamera::Zero()};  //!< with pose and velocity
+        CameraInformation own;                     //!< with each other, motion not eliminated
+    };
+    [[nodiscard]] CameraColumns cameraColumns() const;
 
  private:
     /** A residual, the weight matrix that it is given, and its squared norm by that. */

@@ -71,7 +71,6 @@ Sensitivity SolutionAnalysis::sensitivity() const
     }
     out.points = propagate(H_inverse_, currentNoise(problem_.points, 0));
     out.planes = propagate(H_inverse_, currentNoise(problem_.planes, problem_.points.size()));
-    out.camera = -H_inverse_ * equations_.cameraInfluence();
     return out;
 }
 

@@ -22,7 +22,7 @@ class SolutionAnalysis
         const Matrix12d& H,
         const Matrix12d& H_inverse);
 
-    /** Of references, features and camera; not of the prior. */
+    /** Of references and features; not of prior and camera. */
     [[nodiscard]] Sensitivity sensitivity() const;
 
     /** References with points and references with planes. */

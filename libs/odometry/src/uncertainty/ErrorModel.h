@@ -2,7 +2,7 @@
 #pragma once
 
 #include <pointplane/odometry/OdometryParams.h>
-#include <pointplane/odometry/PairBuilder.h>
+#include <pointplane/odometry/Reference.h>
 #include <pointplane/odometry/uncertainty/JointCovariance.h>
 #include <pointplane/odometry/uncertainty/NoiseScale.h>
 #include <pointplane/odometry/uncertainty/ResidualVariogram.h>
@@ -13,17 +13,26 @@
 
 namespace pointplane
 {
-/** Where errors of a measured pose come from, and how large they are, as learnt from the frames so
- * far:
+/** Where errors of a measured pose come from, and how large they are. To first order
  *
- * - the frame's own points and planes are noisy (NoiseScale for the solver's weights,
- *   ResidualVariogram and frame_errors for the covariance that is told);
- * - what a reference says drifts as it is seen from elsewhere (ResidualVariogram, frame_errors);
- * - the camera's calibration and shutter are not what they are modelled as (camera_errors,
- *   ShutterCalibrator);
- * - the motion that was predicted is uncertain (MotionModel, owned by Track).
+ *     x = sum_r K_r (X_r + D_r) + K_0 (predicted motion) + B k + e
  *
- * JointCovariance keeps account of how the errors of poses depend on these and on each other. */
+ * x is the error of pose and velocity; K_r, K_0 and B are how the solution follows each term
+ * (Sensitivity in PoseAnalysis). The terms:
+ *
+ * - X_r: error of the pose of reference r.
+ * - D_r: what all features of reference r err by together, seen from here rather than from where it
+ *   stood, because depth, lens and scene are not quite what they are modelled as. A Gaussian field
+ *   over views: ReferenceErrors. Its size follows the residuals: NoiseScale, ResidualVariogram.
+ * - Predicted motion: the previous pose and velocity, and white acceleration: MotionModel, which
+ *   Track owns.
+ * - k: errors of the camera that all frames share: vignetting, principal point, focal length, and
+ *   the shutter. All are considered, the shutter's are learnt: camera_errors, ShutterCalibrator.
+ * - e: noise of the frame's own points and planes, learnt from how residuals change from frame to
+ *   frame: ResidualVariogram.
+ *
+ * JointCovariance keeps account of how the errors of all poses depend on these. Derivations are in
+ * docs/theory.md, section Window; how to calibrate it is in docs/consistency.md. */
 class ErrorModel
 {
  public:
@@ -32,14 +41,15 @@ class ErrorModel
     /** Variance of the features, for the solver. */
     [[nodiscard]] NoiseFactors noise() const { return noise_.factors(); }
 
+    /** Variance of the residuals so far, over the propagated one. */
+    [[nodiscard]] NoiseFactors usual() const { return noise_.residuals(); }
+
     [[nodiscard]] const ShutterCalibrator& shutter() const { return shutter_; }
 
     /** A measured frame. */
     struct Measured
     {
-        const PairBuilder& pairs;
-        const std::vector<Association>& associations;
-        const PoseProblem& problem;
+        const std::vector<const Reference*>& references;  //!< the previous frame first
         const PoseEstimate& estimate;
         const PoseAnalysis& analysis;
         double dt;              //!< [s] since the previous one
@@ -51,7 +61,8 @@ class ErrorModel
 
  private:
     [[nodiscard]] JointCovariance::Measurement errorsOf(
-        const Measured& frame, const Matrix6d& ofShutter);
+        const Measured& frame, const NoiseFactors& usual) const;
+    void drift(const Measured& frame, JointCovariance::Measurement& out) const;
 
     JointCovariance::TParams params_;
     bool isJoint_, fuses_;

@@ -7,15 +7,14 @@
 #include <pointplane/odometry/uncertainty/JointCovariance.h>
 
 #include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <utility>
 
 namespace pointplane
 {
 namespace
 {
-/** Part of a frame's own error that stays when others are compared with it: it measured its pose by
- * features of which about half will measure that of others. */
-constexpr double kOwnErrorKept = 0.5;
-
 constexpr Eigen::Index kSize = 6;
 }  // namespace
 
@@ -28,7 +27,6 @@ void JointCovariance::TParams::check() const
 {
     (void)isJoint();
     checkRange("noise", noise, 1e-3, 1000);
-    checkRange("drift", drift, 0, 1000);
     checkRange("driftSigma", driftSigma, 0, 1);
     checkRange("motion", motion, 0, 1000);
     checkRange("vignetting", vignetting, 0, 1);
@@ -37,16 +35,18 @@ void JointCovariance::TParams::check() const
     checkRange("history", history, 1, 300);
 }
 
-JointCovariance::JointCovariance(const TParams& params) : params_(params) { params_.check(); }
+JointCovariance::JointCovariance(const TParams& params, const CameraMatrix& cameraCov)
+    : params_(params), cameraCov_(cameraCov)
+{
+    params_.check();
+}
 
 void JointCovariance::start(int frame, const Matrix6d& cov)
 {
     blocks_ = {{Kind::Pose, frame}, {Kind::Velocity, 0}, {Kind::Camera, 0}};
-    cov_ = Eigen::MatrixXd::Zero(3 * kSize, 3 * kSize);
+    cov_ = Eigen::MatrixXd::Zero(2 * kSize + kNumCameraErrors, 2 * kSize + kNumCameraErrors);
     cov_.topLeftCorner<kSize, kSize>() = cov;
-    const Eigen::Matrix<double, kNumCameraErrors, 1> camera{
-        params_.vignetting, params_.principalPoint, params_.principalPoint, params_.focalLength};
-    cov_.diagonal().segment<kNumCameraErrors>(find(Kind::Camera, 0)) = camera.cwiseAbs2();
+    cov_.bottomRightCorner<kNumCameraErrors, kNumCameraErrors>() = cameraCov_;
     restart(frame);
 }
 
@@ -54,17 +54,17 @@ void JointCovariance::predict(
     int frame, const Eigen::Isometry3d& T_world_latest, const Matrix6d& cov)
 {
     Eigen::MatrixXd A = Eigen::MatrixXd::Zero(kSize, cov_.cols());
-    A.leftCols<kSize>().setIdentity();
+    A.middleCols<kSize>(newest()).setIdentity();
     prepend({{Kind::Pose, frame}}, A, propagate(adjoint(T_world_latest), cov));
 }
 
-void JointCovariance::restart(int frame, const std::vector<int>& references)
+void JointCovariance::restart(int frame, const std::vector<int>& poses)
 {
-    keep(references, frame);
+    std::vector<int> kept = poses;
+    kept.push_back(frame);
+    keep({}, kept);
     previous_ = frame;
-    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(kSize, cov_.cols());
-    A.middleCols<kSize>(find(Kind::Pose, frame)).setIdentity();
-    prepend({{Kind::Reference, frame}}, A, Matrix6d::Zero());
+    prepend({{Kind::Drift, frame}}, Eigen::MatrixXd::Zero(kSize, cov_.cols()), Matrix6d::Zero());
 }
 
 /** Of pose and velocity on all blocks so far. The predicted motion starts at the previous frame
@@ -80,7 +80,9 @@ Eigen::MatrixXd JointCovariance::dependence(
         dt * prior + measurement.prior.rightCols<kSize>();
     for (const auto& [frame, change] : measurement.references)
     {
-        A.middleCols<kSize>(find(Kind::Reference, frame)) += change * Ad_inverse;
+        const Eigen::Matrix<double, 2 * kSize, kSize> ofReference = change * Ad_inverse;
+        A.middleCols<kSize>(find(Kind::Pose, frame)) += ofReference;
+        A.middleCols<kSize>(find(Kind::Drift, frame)) += ofReference;
     }
     A.middleCols<kNumCameraErrors>(find(Kind::Camera, 0)) += measurement.camera;
     A.topRows<kSize>() = (Ad * A.topRows<kSize>()).eval();
@@ -91,35 +93,30 @@ void JointCovariance::measure(
     int frame, const Eigen::Isometry3d& T_world_prev, double dt, const Measurement& measurement)
 {
     const Matrix6d Ad = adjoint(T_world_prev);
-    const Matrix6d drift = propagate(Ad, measurement.drift);
-    for (size_t k = 0; k < blocks_.size(); ++k)
-    {
-        if (blocks_[k].kind == Kind::Reference)
-        {
-            const auto row = static_cast<Eigen::Index>(k) * kSize;
-            cov_.block<kSize, kSize>(row, row) += drift;
-        }
-    }
-    // Pose, velocity, and the same frame as a reference.
-    Eigen::MatrixXd A(3 * kSize, cov_.cols());
+    drift(Ad, measurement);
+
+    // Pose and velocity, what the frame errs by as a reference (at its own view, nothing), camera.
+    constexpr Eigen::Index camera = 3 * kSize, size = camera + kNumCameraErrors;
+    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(size, cov_.cols());
     A.topRows<2 * kSize>() = dependence(Ad, dt, measurement);
-    A.bottomRows<kSize>() = A.topRows<kSize>();
+    A.block<kNumCameraErrors, kNumCameraErrors>(camera, find(Kind::Camera, 0)) =
+        measurement.cameraGain;
     Matrix12d toWorld = Matrix12d::Identity();
     toWorld.topLeftCorner<kSize, kSize>() = Ad;
-    const Matrix12d own = propagate(toWorld, measurement.noise);
-    const Matrix12d prior = propagate(toWorld, measurement.priorNoise);
-    Eigen::MatrixXd Q(3 * kSize, 3 * kSize);
-    Q.topLeftCorner<2 * kSize, 2 * kSize>() = own + prior;
-    Q.bottomLeftCorner<kSize, 2 * kSize>() = (kOwnErrorKept * own + prior).topRows<kSize>();
-    Q.topRightCorner<2 * kSize, kSize>() = Q.bottomLeftCorner<kSize, 2 * kSize>().transpose();
-    Q.bottomRightCorner<kSize, kSize>() = (own + prior).topLeftCorner<kSize, kSize>();
+    Eigen::MatrixXd Q = Eigen::MatrixXd::Zero(size, size);
+    Q.topLeftCorner<2 * kSize, 2 * kSize>() =
+        propagate(toWorld, Matrix12d(measurement.noise + measurement.priorNoise));
+    Q.bottomRightCorner<kNumCameraErrors, kNumCameraErrors>() = measurement.cameraNoise;
 
-    const auto velocity = find(Kind::Velocity, 0) / kSize;
-    prepend({{Kind::Pose, frame}, {Kind::Velocity, 0}, {Kind::Reference, frame}}, A, Q);
+    const std::vector<Block> added{
+        {Kind::Pose, frame}, {Kind::Velocity, 0}, {Kind::Drift, frame}, {Kind::Camera, 0}};
+    prepend(added, A, Q);
     std::vector<std::size_t> kept;
     for (std::size_t k = 0; k < blocks_.size(); ++k)
     {
-        if (k != static_cast<std::size_t>(velocity) + 3)
+        const Kind kind = blocks_[k].kind;
+        const bool isReplaced = kind == Kind::Velocity || kind == Kind::Camera;
+        if (k < added.size() || !isReplaced)
         {
             kept.push_back(k);
         }
@@ -128,21 +125,46 @@ void JointCovariance::measure(
     previous_ = frame;
 }
 
-void JointCovariance::keep(const std::vector<int>& references, std::optional<int> pose)
+/** What the references say changes with the view. A place that was recalled is new. */
+void JointCovariance::drift(const Matrix6d& Ad, const Measurement& measurement)
 {
+    const Matrix6d perView = propagate(Ad, measurement.drift);
+    for (const auto& [frame, step] : measurement.steps)
+    {
+        if (!has(Kind::Drift, frame))
+        {
+            prepend(
+                {{Kind::Drift, frame}},
+                Eigen::MatrixXd::Zero(kSize, cov_.cols()),
+                step.whole * perView);
+            continue;
+        }
+        const Eigen::Index row = find(Kind::Drift, frame);
+        cov_.middleRows<kSize>(row) *= step.kept;
+        cov_.middleCols<kSize>(row) *= step.kept;
+        cov_.block<kSize, kSize>(row, row) += step.gained * perView;
+    }
+}
+
+void JointCovariance::keep(const std::vector<int>& references, const std::vector<int>& poses)
+{
+    const auto contains = [](const std::vector<int>& frames, int frame)
+    { return std::count(frames.begin(), frames.end(), frame) > 0; };
     std::vector<std::size_t> kept;
     int numPoses = 0;
     for (std::size_t k = 0; k < blocks_.size(); ++k)
     {
         const auto& [kind, frame] = blocks_[k];
+        const bool isReference = contains(references, frame);
         bool isWanted = true;
         if (kind == Kind::Pose)
         {
-            isWanted = numPoses++ <= params_.history || frame == previous_ || frame == pose;
+            isWanted = numPoses++ <= params_.history || frame == previous_ || isReference ||
+                       contains(poses, frame);
         }
-        else if (kind == Kind::Reference)
+        else if (kind == Kind::Drift)
         {
-            isWanted = std::count(references.begin(), references.end(), frame) > 0;
+            isWanted = isReference;
         }
         if (isWanted)
         {
@@ -152,32 +174,47 @@ void JointCovariance::keep(const std::vector<int>& references, std::optional<int
     select(kept);
 }
 
-Matrix6d JointCovariance::latest() const { return at(0, 0); }
+Matrix6d JointCovariance::latest() const { return at(newest(), newest()); }
 
-bool JointCovariance::knows(int frame) const
+bool JointCovariance::knows(int frame) const { return has(Kind::Pose, frame); }
+
+Matrix6d JointCovariance::relative(int from, const Eigen::Isometry3d& T_world_from) const
+{
+    const Eigen::Index n = newest(), k = find(Kind::Pose, from);
+    return propagate(
+        adjoint(T_world_from.inverse()), (at(n, n) - at(n, k) - at(k, n) + at(k, k)).eval());
+}
+
+bool JointCovariance::has(Kind kind, int frame) const
 {
     return std::any_of(
         blocks_.begin(),
         blocks_.end(),
-        [frame](const Block& b) { return b.kind == Kind::Pose && b.frame == frame; });
+        [&](const Block& b) { return b.kind == kind && b.frame == frame; });
 }
 
-Matrix6d JointCovariance::relative(int from, const Eigen::Isometry3d& T_world_from) const
-{
-    const Eigen::Index k = find(Kind::Pose, from);
-    return propagate(
-        adjoint(T_world_from.inverse()), (at(0, 0) - at(0, k) - at(k, 0) + at(k, k)).eval());
-}
-
-/** First row of a block. */
-Eigen::Index JointCovariance::find(Kind kind, int frame) const
+/** First row of the latest pose. */
+Eigen::Index JointCovariance::newest() const
 {
     const auto it = std::find_if(
-        blocks_.begin(),
-        blocks_.end(),
-        [&](const Block& b) { return b.kind == kind && b.frame == frame; });
-    POINTPLANE_CHECK(it != blocks_.end(), "frame " << frame << " is not in the window");
-    return (it - blocks_.begin()) * kSize;
+        blocks_.begin(), blocks_.end(), [](const Block& b) { return b.kind == Kind::Pose; });
+    return find(Kind::Pose, it->frame);
+}
+
+/** First row of the first such block. */
+/** First row of the first such block. */
+Eigen::Index JointCovariance::find(Kind kind, int frame) const
+{
+    Eigen::Index row = 0;
+    for (const Block& block : blocks_)
+    {
+        if (block.kind == kind && block.frame == frame)
+        {
+            return row;
+        }
+        row += block.size();
+    }
+    throw std::invalid_argument("frame " + std::to_string(frame) + " is not in the window");
 }
 
 Matrix6d JointCovariance::at(Eigen::Index row, Eigen::Index column) const
@@ -199,23 +236,28 @@ void JointCovariance::prepend(
     blocks_.insert(blocks_.begin(), blocks.begin(), blocks.end());
 }
 
+/** \param kept in ascending order */
 void JointCovariance::select(const std::vector<std::size_t>& kept)
 {
+    std::vector<Eigen::Index> rows;  // that are kept
+    Eigen::Index row = 0;
+    auto next = kept.begin();
     std::vector<Block> blocks;
-    const auto n = static_cast<Eigen::Index>(kept.size());
-    Eigen::MatrixXd cov(n * kSize, n * kSize);
-    for (Eigen::Index i = 0; i < n; ++i)
+    for (std::size_t k = 0; k < blocks_.size(); ++k)
     {
-        const auto row = static_cast<Eigen::Index>(kept[static_cast<std::size_t>(i)]) * kSize;
-        blocks.push_back(blocks_[kept[static_cast<std::size_t>(i)]]);
-        for (Eigen::Index j = 0; j < n; ++j)
+        const Eigen::Index end = row + blocks_[k].size();
+        if (next != kept.end() && *next == k)
         {
-            const auto column =
-                static_cast<Eigen::Index>(kept[static_cast<std::size_t>(j)]) * kSize;
-            cov.block<kSize, kSize>(i * kSize, j * kSize) = at(row, column);
+            ++next;
+            blocks.push_back(blocks_[k]);
+            for (Eigen::Index i = row; i < end; ++i)
+            {
+                rows.push_back(i);
+            }
         }
+        row = end;
     }
+    cov_ = cov_(rows, rows).eval();
     blocks_ = std::move(blocks);
-    cov_ = std::move(cov);
 }
 }  // namespace pointplane

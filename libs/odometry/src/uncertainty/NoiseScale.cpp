@@ -12,8 +12,8 @@ namespace
 /** A few odd frames must neither make features certain nor worthless. */
 constexpr double kMinVariance = 0.1, kMaxVariance = 100;
 
-/** Before anything is known, for the solver, and for what is told as if so many frames had said it.
- */
+/** Before anything is known: for the solver, which should not believe too much at first, and for
+ * the covariances that are told, where it counts as the mean of so many frames. */
 constexpr double kCautiousVariance = 4;
 constexpr double kQuickVariance = 3;
 constexpr int kInitialFrames = 3;
@@ -69,6 +69,17 @@ void NoiseScale::Average::follow(double variance, double dt, double timeConstant
         cautious += rate * (target - cautious);
         quick += std::max(rate, 1.0 / (numFrames + kInitialFrames)) * (target - quick);
     }
+}
+
+NoiseFactors NoiseScale::levels() const
+{
+    return {pointResiduals_.quick * pointCommon_.quick, planeResiduals_.quick * planeCommon_.quick};
+}
+
+double NoiseScale::overCautious() const
+{
+    const Average& average = pointResiduals_.numFrames > 0 ? pointResiduals_ : planeResiduals_;
+    return average.quick / average.cautious;
 }
 
 NoiseFactors NoiseScale::factors() const

@@ -3,18 +3,30 @@
 
 namespace pointplane
 {
+CameraMatrix cameraCovariance(
+    const JointCovariance::TParams& calibration, const ShutterCalibrator::TParams& shutter)
+{
+    const double time = shutter.selfCalibrate ? shutter.sigmaPrior : 0;
+    CameraVector sigmas;
+    sigmas << calibration.vignetting, calibration.principalPoint, calibration.principalPoint,
+        calibration.focalLength, time, time, time;
+    return sigmas.cwiseAbs2().asDiagonal();
+}
+
 ByCamera pointByCamera(const Eigen::Vector3d& p_cam, const PinholeCamera& camera)
 {
-    ByCamera out;
-    out << Eigen::Vector3d::Zero(), Eigen::Vector3d(-p_cam.z() / camera.fx, 0, 0),
+    ByCamera out = ByCamera::Zero();
+    out.leftCols<kFirstShutterError>() << Eigen::Vector3d::Zero(),
+        Eigen::Vector3d(-p_cam.z() / camera.fx, 0, 0),
         Eigen::Vector3d(0, -p_cam.z() / camera.fy, 0), Eigen::Vector3d(-p_cam.x(), -p_cam.y(), 0);
     return out;
 }
 
 ByCamera planeByCamera(const Eigen::Vector3d& theta_m, const PinholeCamera& camera)
 {
-    ByCamera out;
-    out << Eigen::Vector3d::Zero(), Eigen::Vector3d(0, 0, theta_m.x() / camera.fx),
+    ByCamera out = ByCamera::Zero();
+    out.leftCols<kFirstShutterError>() << Eigen::Vector3d::Zero(),
+        Eigen::Vector3d(0, 0, theta_m.x() / camera.fx),
         Eigen::Vector3d(0, 0, theta_m.y() / camera.fy),
         Eigen::Vector3d(theta_m.x(), theta_m.y(), 0);
     return out;

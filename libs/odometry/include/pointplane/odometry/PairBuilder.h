@@ -29,6 +29,15 @@ class PairBuilder
         std::vector<PointPair>& points,
         std::vector<PlanePair>& planes) const;
 
+    /** Fills in how the pairs err with the shutter, now that the current frame's velocity is known.
+     * \param points, planes of the same associations */
+    void addShutterErrors(
+        const std::vector<Association>& associations,
+        const ShutterCalibrator& shutter,
+        const Vector6d& velocity,
+        std::vector<PointPair>& points,
+        std::vector<PlanePair>& planes) const;
+
     /** Orientation of the previous frame. */
     [[nodiscard]] Eigen::Matrix3d R_world_prev() const { return previous_.T_world_cam.linear(); }
 

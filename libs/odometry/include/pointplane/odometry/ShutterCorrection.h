@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pointplane/core/Parameters.h>
+#include <pointplane/core/types.h>
 #include <pointplane/planes/PlaneFeature.h>
 #include <pointplane/points/PointFeature.h>
 #include <pointplane/sensor/RgbdFrame.h>
@@ -28,6 +28,13 @@ class ShutterCorrection
     /** dtheta_m / dV of a plane: theta_m - (delay I + readout L) g with g = theta x omega - theta
      * theta^T rho and L the plane's rowLever; derivation in docs/theory.md. */
     [[nodiscard]] Matrix36d planeJacobian(const PlaneFeature& plane) const;
+
+    /** How these two times V change with readoutColour, readoutDepth, depthDelay [1/s], whatever
+     * they are. */
+    [[nodiscard]] Eigen::Matrix3d pointByShutter(
+        const PointFeature& point, const Vector6d& velocity) const;
+    [[nodiscard]] Eigen::Matrix3d planeByShutter(
+        const PlaneFeature& plane, const Vector6d& velocity) const;
 
  private:
     ShutterModel shutter_;

@@ -29,7 +29,15 @@ struct Sensitivity
      * the noise factors, and without the references' own errors. */
     Matrix12d points{Matrix12d::Zero()}, planes{Matrix12d::Zero()};
     /** Change with errors of the camera, by which all features err together. */
-    Matrix124d camera{Matrix124d::Zero()};
+    MotionByCamera camera{MotionByCamera::Zero()};
+};
+
+/** What the residuals say of the camera's errors once pose and velocity have been eliminated (Schur
+ * complement): to first order, they are gradient + information * change. */
+struct CameraInformation
+{
+    CameraMatrix information{CameraMatrix::Zero()};
+    CameraVector gradient{CameraVector::Zero()};  //!< of half of the cost
 };
 
 /** How far a feature is from where the estimate puts it, and what the current frame's noise makes
@@ -51,6 +59,7 @@ struct FeatureResidual
 struct PoseAnalysis
 {
     Sensitivity sensitivity;
+    CameraInformation camera;
     double pointVariance{0};  //!< of points over the propagated one, from the median; 0 = none
     double planeVariance{0};  //!< of planes, likewise
     Disagreement pointDisagreement;  //!< of the references' points, with all other features

@@ -6,11 +6,15 @@
 
 namespace pointplane
 {
-/** Of errors of the camera, the same in all frames: its vignetting [-], the principal point's x and
- * y [px], and the focal length [relative]. */
-constexpr int kNumCameraErrors = 4;
-using ByCamera = Eigen::Matrix<double, 3, kNumCameraErrors>;     //!< a feature or residual
-using Matrix124d = Eigen::Matrix<double, 12, kNumCameraErrors>;  //!< pose and velocity
+/** Errors of the camera, the same in all frames: its vignetting [-], the principal point's x and y
+ * [px], the focal length [relative], and the shutter: readout of colour, readout of depth, delay of
+ * depth [s]. */
+constexpr int kNumCameraErrors = 7;
+constexpr int kFirstShutterError = 4;
+using CameraVector = Eigen::Matrix<double, kNumCameraErrors, 1>;
+using CameraMatrix = Eigen::Matrix<double, kNumCameraErrors, kNumCameraErrors>;
+using ByCamera = Eigen::Matrix<double, 3, kNumCameraErrors>;         //!< a feature or residual
+using MotionByCamera = Eigen::Matrix<double, 12, kNumCameraErrors>;  //!< pose and velocity
 
 /** The same point seen twice.
  *

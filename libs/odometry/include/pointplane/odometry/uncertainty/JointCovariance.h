@@ -6,7 +6,6 @@
 #include <pointplane/pose/pairs.h>
 
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,9 +24,8 @@ class JointCovariance
     struct TParams
     {
         std::string model{"joint"};
-        double noise{0.92};
-        double drift{0.21};
-        double driftSigma{0.0005};
+        double noise{1.0};
+        double driftSigma{0.00035};
         double motion{0.07};
         double vignetting{0.15};
         double principalPoint{0.2};
@@ -45,19 +43,14 @@ class JointCovariance
             v("noise",
               noise,
               "-",
-              "variance of one frame's own error, over what the change of the residuals from frame "
-              "to frame makes of its points and planes");
-            v("drift",
-              drift,
-              "-",
-              "variance that what planes say of a reference gains until another view (0.15 m or 10 "
-              "deg), over what the residuals gain; 33 times as much for points");
+              "variance of a frame's own points and planes over what is learnt of it (1 = as "
+              "learnt)");
             v("driftSigma",
               driftSigma,
-              "m",
-              "standard deviation that it gains besides in every direction (and half as many rad), "
-              "for features 1 m away whose residuals gain as much as was propagated; with their "
-              "distance to the power of 1.5");
+              "-",
+              "how far all that a reference frame tells errs together once the camera has moved by "
+              "one view (0.15 m, a turn of 2 rad, or 1 s): standard deviation over the distance of "
+              "the scene");
             v("motion",
               motion,
               "-",
@@ -83,6 +76,17 @@ class JointCovariance
         [[nodiscard]] bool isJoint() const;  //!< or of independent increments
     };
 
+    /** How what a reference says changes from the view of the previous frame to that of this one:
+     * its error is `kept` times the one before plus noise (ReferenceErrors). Variances are over
+     * that of one view. */
+    struct DriftStep
+    {
+        double kept{1};
+        double gained{0};  //!< variance of the noise
+        double whole{
+            1};  //!< variance of the error seen from this frame, if nothing is known before
+    };
+
     /** On what pose (left perturbation in the previous measured frame) and
      * velocity of a measured frame depend. */
     struct Measurement
@@ -91,11 +95,16 @@ class JointCovariance
         Matrix12d prior{Matrix12d::Zero()};       //!< change with that of the predicted motion
         Matrix12d noise{Matrix12d::Zero()};       //!< of the frame's own features
         Matrix12d priorNoise{Matrix12d::Zero()};  //!< of the predicted motion, without the velocity
-        Matrix124d camera{Matrix124d::Zero()};    //!< change with errors of the camera
-        Matrix6d drift{Matrix6d::Zero()};  //!< gained by each reference since the previous frame
+        MotionByCamera camera{MotionByCamera::Zero()};  //!< change with errors of the camera
+        Matrix6d drift{Matrix6d::Zero()};  //!< covariance that what a reference says gains per view
+        std::map<int, DriftStep> steps;    //!< of each reference that others are compared with
+        CameraMatrix cameraGain{CameraMatrix::Identity()};  //!< the camera's errors after the frame
+        CameraMatrix cameraNoise{CameraMatrix::Zero()};     //!< are gain * before + noise
     };
 
-    explicit JointCovariance(const TParams& params);
+    /** \param cameraCov of the camera's errors to begin with */
+    explicit JointCovariance(
+        const TParams& params, const CameraMatrix& cameraCov = CameraMatrix::Zero());
 
     /** The first frame, a reference. \param cov of its pose */
     void start(int frame, const Matrix6d& cov);
@@ -104,9 +113,9 @@ class JointCovariance
      * \param cov of the motion from there (left perturbation in its frame) */
     void predict(int frame, const Eigen::Isometry3d& T_world_latest, const Matrix6d& cov);
 
-    /** A frame whose pose is known becomes the previous one and a reference.
-     * \param references that stay, too */
-    void restart(int frame, const std::vector<int>& references = {});
+    /** A frame whose pose is known becomes the previous one and the only reference.
+     * \param poses that stay known, too */
+    void restart(int frame, const std::vector<int>& poses = {});
 
     /** A measured frame: the next previous one, and a reference.
      * \param T_world_prev pose of the previous measured frame \param dt [s] since that */
@@ -116,8 +125,9 @@ class JointCovariance
         double dt,
         const Measurement& measurement);
 
-    /** Forgets all other references, and poses beyond the history but the previous and `pose`. */
-    void keep(const std::vector<int>& references, std::optional<int> pose = {});
+    /** Forgets what other references err by, and poses beyond the history but theirs, the previous
+     * frame's and these. */
+    void keep(const std::vector<int>& references, const std::vector<int>& poses = {});
 
     /** Of the latest pose; positive semidefinite. */
     [[nodiscard]] Matrix6d latest() const;
@@ -134,17 +144,24 @@ class JointCovariance
     {
         Pose,
         Velocity,
-        Camera,  //!< the first of its rows; they stay what they are
-        Reference
+        Camera,
+        Drift  //!< of a reference: error of what it says, seen from the previous frame
     };
     struct Block
     {
         Kind kind;
         int frame;
+        [[nodiscard]] Eigen::Index size() const
+        {
+            return kind == Kind::Camera ? kNumCameraErrors : 6;
+        }
     };
 
+    [[nodiscard]] Eigen::Index newest() const;
+    [[nodiscard]] bool has(Kind kind, int frame) const;
     [[nodiscard]] Eigen::Index find(Kind kind, int frame) const;
     [[nodiscard]] Matrix6d at(Eigen::Index row, Eigen::Index column) const;
+    void drift(const Matrix6d& Ad, const Measurement& measurement);
     [[nodiscard]] Eigen::MatrixXd dependence(
         const Matrix6d& Ad, double dt, const Measurement& measurement) const;
     void prepend(
@@ -152,8 +169,9 @@ class JointCovariance
     void select(const std::vector<std::size_t>& kept);
 
     TParams params_;
+    CameraMatrix cameraCov_;
     std::vector<Block> blocks_;  //!< poses newest first
-    Eigen::MatrixXd cov_;        //!< six rows per block
+    Eigen::MatrixXd cov_;        //!< of the blocks in this order
     int previous_{0};
 };
 }  // namespace pointplane

@@ -53,6 +53,13 @@ class NoiseScale
     /** For the solver, whose features have to stand beside a predicted motion. */
     [[nodiscard]] NoiseFactors factors() const;
 
+    /** By residuals and disagreement, without the constant factors. */
+    [[nodiscard]] NoiseFactors levels() const;
+
+    /** How much the variance of residuals so far exceeds that which factors() cautiously goes by at
+     * the start: that of points, or of planes where there are no points. */
+    [[nodiscard]] double overCautious() const;
+
     /** By the residuals alone. */
     [[nodiscard]] NoiseFactors residuals() const
     {

@@ -2,19 +2,16 @@
 #pragma once
 
 #include <pointplane/core/Parameters.h>
-#include <pointplane/odometry/PairBuilder.h>
-#include <pointplane/pose/PoseSolver.h>
+#include <pointplane/pose/PoseAnalysis.h>
 #include <pointplane/sensor/RgbdFrame.h>
-
-#include <vector>
 
 namespace pointplane
 {
 /** The shutter of a camera that nobody has calibrated, from its own motion.
  *
  * Residuals that remain at the estimated pose depend on the readout times and on the delay of the
- * depth image through the velocity, which differs between frames. Their information on the shutter,
- * with the motion eliminated (Schur complement), is summed over frames. */
+ * depth image through the velocity, which differs between frames. What they say of these times once
+ * the motion is eliminated (CameraInformation) is summed over frames. */
 class ShutterCalibrator
 {
  public:
@@ -68,16 +65,19 @@ class ShutterCalibrator
      * stamps, the estimate is added. An instant when nothing is corrected. */
     [[nodiscard]] ShutterModel complete(const ShutterModel& source) const;
 
-    /** Takes in the residuals of a measured frame.
-     * \param prior of its motion \param noise of points and planes
-     * \return covariance of the pose (left perturbation) that comes from what is not known of the
-     * shutter; zero when it is not calibrated */
-    Matrix6d update(
-        const PairBuilder& builder,
-        const std::vector<Association>& associations,
-        const Motion& motion,
-        const MotionPrior& prior,
-        const NoiseFactors& noise);
+    /** 1 for each of the three times that is estimated, 0 for those that the source knows. */
+    [[nodiscard]] Eigen::Vector3d estimated(const ShutterModel& source) const;
+
+    /** How the error of the estimate changes: it is gain times the one before, plus noise. */
+    struct Change
+    {
+        Eigen::Matrix3d gain{Eigen::Matrix3d::Identity()};
+        Eigen::Matrix3d noise{Eigen::Matrix3d::Zero()};  //!< its covariance [s^2]
+    };
+
+    /** Takes in what a measured frame says. \param variance of its features over the one that the
+     * solver weighed them by */
+    Change update(const CameraInformation& camera, double variance = 1);
 
     /** readoutColour, readoutDepth, depthDelay [s]. */
     [[nodiscard]] const Eigen::Vector3d& estimate() const { return estimate_; }
