@@ -92,6 +92,10 @@ TEST(cameraErrors, beforeTheFirstFrame)
         test::IsMatrixNear(CameraMatrix(variances.asDiagonal()), 1e-12));
     shutter.selfCalibrate = false;
     EXPECT_EQ((cameraCovariance(calibration, shutter).bottomRightCorner<3, 3>().norm()), 0);
+    shutter.selfCalibrate = true;
+    shutter.correct = false;
+    EXPECT_EQ((cameraCovariance(calibration, shutter).bottomRightCorner<3, 3>().norm()), 0)
+        << "images are taken for those of one instant";
 }
 
 TEST(cameraErrors, asCalibrationsChange)

@@ -6,7 +6,7 @@ namespace pointplane
 CameraMatrix cameraCovariance(
     const JointCovariance::TParams& calibration, const ShutterCalibrator::TParams& shutter)
 {
-    const double time = shutter.selfCalibrate ? shutter.sigmaPrior : 0;
+    const double time = shutter.correct && shutter.selfCalibrate ? shutter.sigmaPrior : 0;
     CameraVector sigmas;
     sigmas << calibration.vignetting, calibration.principalPoint, calibration.principalPoint,
         calibration.focalLength, time, time, time;
