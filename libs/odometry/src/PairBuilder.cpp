@@ -87,14 +87,15 @@ void PairBuilder::addShutterErrors(
 {
     const int height = current_.frame.camera.height;
     const ShutterCorrection current(shutter.complete(current_.frame.shutter), height);
-    const auto ofCurrent = shutter.estimated(current_.frame.shutter).asDiagonal();
+    const Eigen::Matrix3d ofCurrent =
+        shutter.estimated(current_.frame.shutter).asDiagonal();
     auto point = points.begin();
     auto plane = planes.begin();
     for (const Association& association : associations)
     {
         const Reference& reference = *association.reference;
         const ShutterCorrection past(shutter.complete(reference.shutter), height);
-        const auto ofReference = shutter.estimated(reference.shutter).asDiagonal();
+        const Eigen::Matrix3d ofReference = shutter.estimated(reference.shutter).asDiagonal();
         const Eigen::Isometry3d T_prev_ref =
             previous_.T_world_cam.inverse() * reference.T_world_cam;
         for (const PlaneMatch& match : association.planes)
