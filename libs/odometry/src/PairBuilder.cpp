@@ -87,8 +87,7 @@ void PairBuilder::addShutterErrors(
 {
     const int height = current_.frame.camera.height;
     const ShutterCorrection current(shutter.complete(current_.frame.shutter), height);
-    const Eigen::Matrix3d ofCurrent =
-        shutter.estimated(current_.frame.shutter).asDiagonal();
+    const Eigen::Matrix3d ofCurrent = shutter.estimated(current_.frame.shutter).asDiagonal();
     auto point = points.begin();
     auto plane = planes.begin();
     for (const Association& association : associations)
