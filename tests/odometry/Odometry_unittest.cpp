@@ -353,7 +353,7 @@ TEST(Odometry, refusesParametersNamingSectionAndKey)
         message([](auto& p) { p.pipeline.degeneracy = "hope"; }), "[Pipeline]", "degeneracy");
     expectNamed(message([](auto& p) { p.pipeline.gateSigma = 0; }), "[Pipeline]", "gateSigma");
     expectNamed(
-        message([](auto& p) { p.pipeline.maxPointChi2 = 0; }), "[Pipeline]", "maxPointChi2");
+        message([](auto& p) { p.pipeline.leastAgreement = 1; }), "[Pipeline]", "leastAgreement");
     expectNamed(message([](auto& p) { p.pipeline.maxGap = -1; }), "[Pipeline]", "maxGap");
     expectNamed(message([](auto& p) { p.pipeline.numThreads = 3; }), "[Pipeline]", "numThreads");
     expectNamed(message([](auto& p) { p.shutter.readoutDepth = 2; }), "[Shutter]", "readoutDepth");

@@ -67,7 +67,7 @@ TEST(PapersPipeline, theLargestEigenvalueGates)
 TEST(PapersPipeline, nothingElseGates)
 {
     OdometryParams params = paper();
-    params.pipeline.maxPointChi2 = 1e-9;
+    params.pipeline.leastAgreement = 0.99;
     EXPECT_EQ(CheckedOdometry(params).run(0, 2).status, TrackingStatus::Tracked);
 }
 

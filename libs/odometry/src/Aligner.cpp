@@ -29,12 +29,13 @@ constexpr int kFewPoints = 6;
 /** Points that should be in view: of fewer, a share says little. */
 constexpr int kHandful = 20;
 
-/** Standard deviations from the predicted pose that they are not believed then. */
+/** Standard deviations from the predicted motion beyond which an estimate has to be convincing by
+ * itself. Cameras in hands stay below three, at any frame rate: the prediction knows how little it
+ * knows. Of estimates beyond five, hardly one is right (docs/theory.md, "Verdict"). */
 constexpr double kMostSurprise = 5;
 
-/** An estimate is convincing, and no alternative is looked for, when all four hold. They decide how
- * much time is spent, not what is believed: an alternative needs more evidence, and leastAgreement
- * has the last word.
+/** An estimate is convincing when all of the following holds. No alternative is looked for then,
+ * and it is believed even far from the predicted motion.
  *
  * Of the surfaces in view, nine tenths agree with a right motion and a third with one that is wrong
  * by 5 cm or 5 deg (docs/theory.md, "Verdict"): so much is between. */
@@ -314,7 +315,6 @@ void Aligner::judge(Alignment& alignment) const
     alignment.observableDirections =
         observableDirections(estimate.infoPoints + estimate.infoPlanes, predicted.cov);
     const auto matches = static_cast<int>(alignment.numMatches());
-    const int worth = matches + 2 * static_cast<int>(alignment.problem.planes.size());
     const double sigma = maxSigma(estimate.pose().cov);
     std::ostringstream reason;
     if (matches < minMatches())
@@ -329,15 +329,6 @@ void Aligner::judge(Alignment& alignment) const
         {
             reason << "largest standard deviation " << sigma << " is above the gate";
         }
-    }
-    else if (solver_.isWeighted() && estimate.pointChi2PerDof > params_.maxPointChi2)
-    {
-        reason << "the points contradict their covariances (chi-square per degree of freedom "
-               << estimate.pointChi2PerDof << ")";
-    }
-    else if (worth < kFewPoints && surprise(estimate, predicted) > kMostSurprise)
-    {
-        reason << "only " << matches << " point and plane matches, far from the predicted motion";
     }
     else if (alignment.observableDirections == 0)
     {
@@ -387,7 +378,8 @@ void Aligner::verify(const Scene& scene, Alignment& alignment)
 bool Aligner::isConvincing(const Scene& scene, const Alignment& a) const
 {
     const NoiseFactors usual = scene.errors.usual();
-    return a.holds && a.agreement.fraction() > kConvincingSurfaces &&
+    const int worth = a.estimate.numPointInliers + 3 * static_cast<int>(a.problem.planes.size());
+    return a.holds && worth >= kFewPoints && a.agreement.fraction() > kConvincingSurfaces &&
            a.agreement.fraction() + a.pointShare() > kConvincingTogether &&
            a.estimate.pointChi2PerDof < kConvincingRise * usual.points &&
            a.estimate.planeChi2PerDof < kConvincingRise * usual.planes;
@@ -396,17 +388,23 @@ bool Aligner::isConvincing(const Scene& scene, const Alignment& a) const
 /** The last word: surfaces that should be in view and are not; matches that might be any. */
 void Aligner::contradict(const Scene& scene, Alignment& alignment) const
 {
-    if (!alignment.holds || params_.leastAgreement <= 0)
+    if (!alignment.holds || !fuses_)
     {
         return;
     }
     std::ostringstream reason;
     const double agreement = alignment.agreement.fraction();
+    const double farOff = surprise(alignment.estimate, scene.predicted.pose);
     if (alignment.agreement.seen() > 0 && agreement < params_.leastAgreement)
     {
         reason << "the depth image contradicts the motion of " << alignment.numMatches()
                << " point and plane matches: it shows " << std::lround(100 * agreement)
                << " % of the surfaces that should be in view";
+    }
+    else if (farOff > kMostSurprise && !isConvincing(scene, alignment))
+    {
+        reason << "the motion is " << std::lround(farOff)
+               << " standard deviations from the predicted one, and too little speaks for it";
     }
     else if (
         isUncertain(scene.predicted.pose.cov) && alignment.numSought >= kHandful &&

@@ -25,7 +25,6 @@ void PipelineParams::check() const
     (void)fuses();
     (void)searchesAhead();
     checkRange("gateSigma", gateSigma, 1e-6, 10);
-    checkRange("maxPointChi2", maxPointChi2, 1e-9, 1e6);
     checkRange("leastAgreement", leastAgreement, 0, 0.99);
     checkRange("maxGap", maxGap, 0.001, 3600);
     checkRange("numThreads", numThreads, 1, 2);

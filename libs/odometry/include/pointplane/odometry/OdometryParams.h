@@ -25,7 +25,6 @@ struct PipelineParams
     std::string searchAround{"prediction"};
     std::string degeneracy{"fuse"};
     double gateSigma{0.05};
-    double maxPointChi2{200};
     double leastAgreement{0.5};
     bool searchImages{true};
     double maxGap{1.0};
@@ -53,11 +52,6 @@ struct PipelineParams
           "m, rad",
           "with degeneracy = gate: a frame whose pose is less certain than this in any direction "
           "(standard deviation) is predicted");
-        v("maxPointChi2",
-          maxPointChi2,
-          "-",
-          "with degeneracy = fuse: a frame is predicted when its points miss by more than the root "
-          "of this times what they should (chi-square per degree of freedom)");
         v("leastAgreement",
           leastAgreement,
           "-",
