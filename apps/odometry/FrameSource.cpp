@@ -126,8 +126,9 @@ std::vector<std::string> FrameSource::notes() const
     if (isNominal_)
     {
         out.emplace_back(
-            "camera: nominal intrinsics, nobody calibrated it; the covariances do not know that "
-            "(Covariance.principalPoint and focalLength can tell them)");
+            "camera: nominal intrinsics, nobody calibrated it; the covariances take them for 2 % "
+            "off "
+            "(a calibration makes poses better)");
     }
     if (numReplaced_ > 0)
     {

@@ -147,9 +147,10 @@ TEST(JointCovariance, errorsOfTheCameraAreTheSameInAllFrames)
     JointCovariance::TParams params;
     params.history = 30;
     CameraVector sigmas;
-    sigmas << 0.5, 2, 2, 3, 0, 0, 0;
-    JointCovariance joint(params, sigmas.cwiseAbs2().asDiagonal());
+    sigmas << 0.5, 2, 2, 3, 0, 0, 0, 0;
+    JointCovariance joint(params);
     joint.start(1, Matrix6d::Zero());
+    joint.changeCamera(sigmas.cwiseAbs2().asDiagonal());
     const auto seen = [](double metres)
     {
         JointCovariance::Measurement out = against(1);
@@ -179,8 +180,9 @@ TEST(JointCovariance, errorsOfTheCameraChangeAsTheyAreLearnt)
 {
     JointCovariance::TParams params;
     params.history = 30;
-    JointCovariance joint(params, 4 * CameraMatrix::Identity());
+    JointCovariance joint(params);
     joint.start(1, Matrix6d::Zero());
+    joint.changeCamera(4 * CameraMatrix::Identity());
     JointCovariance::Measurement seen = against(1);
     seen.noise.setZero();
     seen.camera.topLeftCorner<6, 6>().setIdentity();
@@ -192,6 +194,24 @@ TEST(JointCovariance, errorsOfTheCameraChangeAsTheyAreLearnt)
     joint.measure(3, kAtRest, kFrame, seen);
     EXPECT_THAT(joint.latest(), isTimesIdentity(0.25 * 4 + 0.25));
     EXPECT_THAT(joint.relative(2, kAtRest), isTimesIdentity(0.25 * 4 + 0.25));
+}
+
+/** What the former camera's errors did to the poses stays; those of the new one are its own. */
+TEST(JointCovariance, errorsOfAnotherCameraAreIndependent)
+{
+    JointCovariance::TParams params;
+    params.history = 30;
+    JointCovariance joint(params);
+    joint.start(1, Matrix6d::Zero());
+    JointCovariance::Measurement seen = against(1);
+    seen.noise.setZero();
+    seen.camera.topLeftCorner<6, 6>().setIdentity();
+    joint.changeCamera(4 * CameraMatrix::Identity());
+    joint.measure(2, kAtRest, kFrame, seen);
+    joint.changeCamera(9 * CameraMatrix::Identity());
+    joint.measure(3, kAtRest, kFrame, seen);
+    EXPECT_THAT(joint.latest(), isTimesIdentity(9));
+    EXPECT_THAT(joint.relative(2, kAtRest), isTimesIdentity(9 + 4)) << "alike, they would cancel";
 }
 
 TEST(JointCovariance, predictedFramesAndANewWindow)
@@ -262,9 +282,10 @@ TEST(JointCovariance, monteCarlo)
     JointCovariance::TParams params;
     params.history = kFrames;
     const CameraMatrix cameraCov = setup.covariance<kNumCameraErrors>(0.1, 0.5);
-    JointCovariance joint(params, cameraCov);
+    JointCovariance joint(params);
     const Matrix6d startCov = setup.covariance<6>(0.1, 1);
     joint.start(0, startCov);
+    joint.changeCamera(cameraCov);
     for (int k = 1; k < kFrames; ++k)
     {
         JointCovariance::Measurement m;
@@ -350,6 +371,7 @@ TEST(JointCovariance, refusesParametersNamingTheKey)
     refused([](auto& p) { p.motion = -0.1; });
     refused([](auto& p) { p.principalPoint = -0.1; });
     refused([](auto& p) { p.focalLength = -0.1; });
+    refused([](auto& p) { p.depthScale = -0.1; });
     refused([](auto& p) { p.history = 0; });
 }
 }  // namespace pointplane

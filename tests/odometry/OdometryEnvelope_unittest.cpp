@@ -155,5 +155,27 @@ TEST_F(OdometryEnvelope, oneForeignDepthImageIsNoMotion)
         EXPECT_EQ(process(i).status, TrackingStatus::Tracked) << i;
     }
 }
+/** Their error becomes one of the pose, of which its covariance knows. */
+TEST_F(OdometryEnvelope, nominalIntrinsicsArePoseErrors)
+{
+    const auto deviation = [](double focalLength, bool isNominal)
+    {
+        test::CheckedOdometry other;
+        OdometryResult result;
+        for (int i = 0; i < 60; ++i)
+        {
+            RgbdFrame frame = desk().frame(i);
+            frame.camera.fx *= focalLength;
+            frame.camera.fy *= focalLength;
+            frame.camera.isNominal = isNominal;
+            result = other.process(frame);
+        }
+        return test::normalisedError(desk().sequence().trueMotion(0, 59), result.pose);
+    };
+    const double ofCalibrated = deviation(1, false);
+    EXPECT_GT(deviation(1.02, false), 4 * ofCalibrated) << "who does not know is sure, and wrong";
+    EXPECT_LT(deviation(1.02, true), 1.2 * ofCalibrated);
+    EXPECT_LT(deviation(0.98, true), 1.2 * ofCalibrated);
+}
 }  // namespace
 }  // namespace pointplane

@@ -3,6 +3,7 @@
 
 #include <Eigen/QR>
 
+#include <cmath>
 #include <vector>
 
 #include "matchers.h"
@@ -32,6 +33,9 @@ PinholeCamera changed(PinholeCamera c, int k, double by)
     c.fy *= k == 3 ? 1 + by : 1;
     return c;
 }
+
+/** Of all depths, changed by the k-th error. */
+double scale(int k, double by) { return k == 4 ? 1 + by : 1; }
 
 Eigen::Vector3d lifted(const PinholeCamera& c, const Eigen::Vector2d& uv_px, double z)
 {
@@ -75,6 +79,7 @@ TEST(cameraErrors, ofAPointByHand)
     EXPECT_NEAR(J(1, 2), -2.0 / 480, 1e-12);
     EXPECT_NEAR(J(0, 3), -0.5, 1e-12);
     EXPECT_NEAR(J(1, 3), 0.25, 1e-12);
+    EXPECT_THAT(J.col(4), test::IsMatrixNear(Eigen::Vector3d(0.5, -0.25, 2), 1e-12));
 }
 
 TEST(cameraErrors, beforeTheFirstFrame)
@@ -83,19 +88,38 @@ TEST(cameraErrors, beforeTheFirstFrame)
     calibration.vignetting = 0.1;
     calibration.principalPoint = 2;
     calibration.focalLength = 0.003;
+    calibration.depthScale = 0.005;
     ShutterCalibrator::TParams shutter;
     shutter.sigmaPrior = 0.02;
     CameraVector variances;
-    variances << 0.01, 4, 4, 9e-6, 4e-4, 4e-4, 4e-4;
+    variances << 0.01, 4, 4, 9e-6, 2.5e-5, 4e-4, 4e-4, 4e-4;
     EXPECT_THAT(
-        cameraCovariance(calibration, shutter),
+        cameraCovariance(calibration, shutter, camera()),
         test::IsMatrixNear(CameraMatrix(variances.asDiagonal()), 1e-12));
     shutter.selfCalibrate = false;
-    EXPECT_EQ((cameraCovariance(calibration, shutter).bottomRightCorner<3, 3>().norm()), 0);
+    EXPECT_EQ(
+        (cameraCovariance(calibration, shutter, camera()).bottomRightCorner<3, 3>().norm()), 0);
     shutter.selfCalibrate = true;
     shutter.correct = false;
-    EXPECT_EQ((cameraCovariance(calibration, shutter).bottomRightCorner<3, 3>().norm()), 0)
+    EXPECT_EQ(
+        (cameraCovariance(calibration, shutter, camera()).bottomRightCorner<3, 3>().norm()), 0)
         << "images are taken for those of one instant";
+}
+
+TEST(cameraErrors, nominalIntrinsicsAreThoseOfAModelOfCamera)
+{
+    PinholeCamera nominal = camera();
+    nominal.isNominal = true;
+    JointCovariance::TParams calibration;
+    const auto sigma = [&](int k)
+    { return std::sqrt(cameraCovariance(calibration, {}, nominal)(k, k)); };
+    EXPECT_NEAR(sigma(1), 0.015 * 640, 1e-12);
+    EXPECT_NEAR(sigma(2), 0.015 * 640, 1e-12);
+    EXPECT_NEAR(sigma(3), 0.02, 1e-12);
+    calibration.principalPoint = 20;
+    calibration.focalLength = 0.1;
+    EXPECT_NEAR(sigma(1), 20, 1e-12) << "who says that they are worse is believed";
+    EXPECT_NEAR(sigma(3), 0.1, 1e-12);
 }
 
 TEST(cameraErrors, asCalibrationsChange)
@@ -104,13 +128,15 @@ TEST(cameraErrors, asCalibrationsChange)
     {
         const PinholeCamera c = camera(fy);
         const Eigen::Vector2d uv_px(512, 77);
-        const ByCamera point =
-            differences([&](int k, double by) { return lifted(changed(c, k, by), uv_px, 1.7); });
+        const ByCamera point = differences(
+            [&](int k, double by)
+            { return Eigen::Vector3d(scale(k, by) * lifted(changed(c, k, by), uv_px, 1.7)); });
         EXPECT_THAT(pointByCamera(lifted(c, uv_px, 1.7), c), test::IsMatrixNear(point, 1e-6));
 
         const Eigen::Vector3d theta_m(0.2, -0.4, 0.6);
-        const ByCamera plane =
-            differences([&](int k, double by) { return fitted(changed(c, k, by), c, theta_m); });
+        const ByCamera plane = differences(
+            [&](int k, double by)
+            { return Eigen::Vector3d(fitted(changed(c, k, by), c, theta_m) / scale(k, by)); });
         EXPECT_THAT(planeByCamera(theta_m, c), test::IsMatrixNear(plane, 1e-6));
     }
 }

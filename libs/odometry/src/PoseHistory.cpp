@@ -7,8 +7,8 @@
 
 namespace pointplane
 {
-PoseHistory::PoseHistory(const JointCovariance::TParams& params, const CameraMatrix& cameraCov)
-    : history_(params.history), joint_(params, cameraCov), poses_{Eigen::Isometry3d::Identity()}
+PoseHistory::PoseHistory(const JointCovariance::TParams& params)
+    : history_(params.history), joint_(params), poses_{Eigen::Isometry3d::Identity()}
 {
     joint_.start(latestFrame_, Matrix6d::Zero());
 }

@@ -14,9 +14,11 @@ namespace pointplane
 class PoseHistory
 {
  public:
-    explicit PoseHistory(
-        const JointCovariance::TParams& params,
-        const CameraMatrix& cameraCov = CameraMatrix::Zero());
+    explicit PoseHistory(const JointCovariance::TParams& params);
+
+    /** The next frames are those of another camera. \param cov of its errors; at first, it has none
+     */
+    void changeCamera(const CameraMatrix& cov) { joint_.changeCamera(cov); }
 
     /** The next frame was not measured: it is where the increment leads to. */
     void predict(const PoseGaussian& increment);

@@ -28,7 +28,9 @@ Track::Track(const OdometryParams& params)
       fuses_(params.pipeline.fuses()),
       isFrameToFrame_(params.reference.isFrameToFrame()),
       motion_(params.motionModel),
-      history_(params.covariance, cameraCovariance(params.covariance, params.shutter)),
+      calibration_(params.covariance),
+      shutter_(params.shutter),
+      history_(params.covariance),
       window_(params.reference)
 {
 }
@@ -98,6 +100,10 @@ PoseGaussian Track::restart(Reference frame, const PinholeCamera& camera)
     else
     {
         history_.predict(increment);
+    }
+    if (!started_ || !sameCamera(camera_, camera))
+    {
+        history_.changeCamera(cameraCovariance(calibration_, shutter_, camera));
     }
     history_.restart(history_.latestFrame());
     window_.clear();

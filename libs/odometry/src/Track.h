@@ -121,6 +121,8 @@ class Track
     double maxGap_;
     bool fuses_, isFrameToFrame_;
     MotionModel motion_;
+    JointCovariance::TParams calibration_;
+    ShutterCalibrator::TParams shutter_;
     PoseHistory history_;
     ReferenceWindow window_;
     std::optional<Reference> unmatched_;  //!< has features, but none that the window knows

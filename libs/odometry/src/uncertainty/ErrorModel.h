@@ -26,8 +26,9 @@ namespace pointplane
  *   over views: ReferenceErrors. Its size follows the residuals: NoiseScale, ResidualVariogram.
  * - Predicted motion: the previous pose and velocity, and white acceleration: MotionModel, which
  *   Track owns.
- * - k: errors of the camera that all frames share: vignetting, principal point, focal length, and
- *   the shutter. All are considered, the shutter's are learnt: camera_errors, ShutterCalibrator.
+ * - k: errors of the camera that all frames share: vignetting, principal point, focal length,
+ *   scale of depth, and the shutter. All are considered, the shutter's are learnt: camera_errors,
+ *   ShutterCalibrator.
  * - e: noise of the frame's own points and planes, learnt from how residuals change from frame to
  *   frame: ResidualVariogram.
  *

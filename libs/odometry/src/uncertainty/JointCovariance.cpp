@@ -32,22 +32,26 @@ void JointCovariance::TParams::check() const
     checkRange("vignetting", vignetting, 0, 1);
     checkRange("principalPoint", principalPoint, 0, 100);
     checkRange("focalLength", focalLength, 0, 10);
+    checkRange("depthScale", depthScale, 0, 10);
     checkRange("history", history, 1, 300);
 }
 
-JointCovariance::JointCovariance(const TParams& params, const CameraMatrix& cameraCov)
-    : params_(params), cameraCov_(cameraCov)
-{
-    params_.check();
-}
+JointCovariance::JointCovariance(const TParams& params) : params_(params) { params_.check(); }
 
 void JointCovariance::start(int frame, const Matrix6d& cov)
 {
     blocks_ = {{Kind::Pose, frame}, {Kind::Velocity, 0}, {Kind::Camera, 0}};
     cov_ = Eigen::MatrixXd::Zero(2 * kSize + kNumCameraErrors, 2 * kSize + kNumCameraErrors);
     cov_.topLeftCorner<kSize, kSize>() = cov;
-    cov_.bottomRightCorner<kNumCameraErrors, kNumCameraErrors>() = cameraCov_;
     restart(frame);
+}
+
+void JointCovariance::changeCamera(const CameraMatrix& cov)
+{
+    const Eigen::Index at = find(Kind::Camera, 0);
+    cov_.middleRows<kNumCameraErrors>(at).setZero();
+    cov_.middleCols<kNumCameraErrors>(at).setZero();
+    cov_.block<kNumCameraErrors, kNumCameraErrors>(at, at) = cov;
 }
 
 void JointCovariance::predict(

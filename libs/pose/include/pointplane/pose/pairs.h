@@ -7,10 +7,10 @@
 namespace pointplane
 {
 /** Errors of the camera, the same in all frames: its vignetting [-], the principal point's x and y
- * [px], the focal length [relative], and the shutter: readout of colour, readout of depth, delay of
- * depth [s]. */
-constexpr int kNumCameraErrors = 7;
-constexpr int kFirstShutterError = 4;
+ * [px], the focal length [relative], the scale of depth [relative], and the shutter: readout of
+ * colour, readout of depth, delay of depth [s]. */
+constexpr int kNumCameraErrors = 8;
+constexpr int kFirstShutterError = 5;
 using CameraVector = Eigen::Matrix<double, kNumCameraErrors, 1>;
 using CameraMatrix = Eigen::Matrix<double, kNumCameraErrors, kNumCameraErrors>;
 using ByCamera = Eigen::Matrix<double, 3, kNumCameraErrors>;         //!< a feature or residual

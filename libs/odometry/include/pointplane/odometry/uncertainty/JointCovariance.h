@@ -30,6 +30,7 @@ class JointCovariance
         double vignetting{0.15};
         double principalPoint{0.2};
         double focalLength{0.0004};
+        double depthScale{0.005};
         int history{1};
 
         template <class V>
@@ -69,6 +70,10 @@ class JointCovariance
               focalLength,
               "-",
               "standard deviation of the camera's fx and fy together, over them");
+            v("depthScale",
+              depthScale,
+              "-",
+              "standard deviation of all depths together, over them");
             v("history", history, "frames", "how far back motions are told with their covariances");
         }
         /** \throws std::invalid_argument naming the key */
@@ -102,12 +107,14 @@ class JointCovariance
         CameraMatrix cameraNoise{CameraMatrix::Zero()};     //!< are gain * before + noise
     };
 
-    /** \param cameraCov of the camera's errors to begin with */
-    explicit JointCovariance(
-        const TParams& params, const CameraMatrix& cameraCov = CameraMatrix::Zero());
+    explicit JointCovariance(const TParams& params);
 
     /** The first frame, a reference. \param cov of its pose */
     void start(int frame, const Matrix6d& cov);
+
+    /** From here on, frames are those of another camera. \param cov of its errors; at first, it has
+     * none */
+    void changeCamera(const CameraMatrix& cov);
 
     /** A frame that was not measured. \param T_world_latest pose of the frame before
      * \param cov of the motion from there (left perturbation in its frame) */
@@ -169,7 +176,6 @@ class JointCovariance
     void select(const std::vector<std::size_t>& kept);
 
     TParams params_;
-    CameraMatrix cameraCov_;
     std::vector<Block> blocks_;  //!< poses newest first
     Eigen::MatrixXd cov_;        //!< of the blocks in this order
     int previous_{0};

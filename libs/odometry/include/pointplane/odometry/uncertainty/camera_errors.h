@@ -8,9 +8,12 @@
 
 namespace pointplane
 {
-/** Covariance of the camera's errors before the first frame. */
+/** Covariance of the camera's errors before the first frame. Nominal intrinsics are known as well
+ * as cameras of one model are alike. */
 [[nodiscard]] CameraMatrix cameraCovariance(
-    const JointCovariance::TParams& calibration, const ShutterCalibrator::TParams& shutter);
+    const JointCovariance::TParams& calibration,
+    const ShutterCalibrator::TParams& shutter,
+    const PinholeCamera& camera);
 
 /** How a point that was lifted with the camera's calibration moves with errors of that: if the true
  * focal length is larger, the point is nearer to the optical axis. \param p_cam in it [m]
