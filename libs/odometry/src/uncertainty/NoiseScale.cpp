@@ -22,7 +22,6 @@ constexpr int kInitialFrames = 3;
 void NoiseScale::TParams::check() const
 {
     checkRange("timeConstant", timeConstant, 0.01, 1000);
-    checkRange("agreementTimeConstant", agreementTimeConstant, 0.01, 1000);
     checkRange("pointFactor", pointFactor, 0.01, 1000);
     checkRange("planeFactor", planeFactor, 0.01, 1000);
 }
@@ -52,11 +51,11 @@ void NoiseScale::update(const PoseAnalysis& analysis, double dt)
     pointCommon_.follow(
         needed(analysis.pointDisagreement, pointCommon_.cautious * params_.pointFactor),
         dt,
-        params_.agreementTimeConstant);
+        params_.timeConstant);
     planeCommon_.follow(
         needed(analysis.planeDisagreement, planeCommon_.cautious * params_.planeFactor),
         dt,
-        params_.agreementTimeConstant);
+        params_.timeConstant);
 }
 
 void NoiseScale::Average::follow(double variance, double dt, double timeConstant)

@@ -10,15 +10,17 @@ namespace pointplane
  *
  * Residuals of the frames so far tell how large errors are that differ between features; sensors
  * differ by more than a factor of ten here. Errors that the features of a frame have in common show
- * where reference frames contradict each other about the pose (docs/theory.md). */
+ * where reference frames contradict each other about the pose (docs/theory.md).
+ *
+ * It follows slowly: a depth image that bends for a second makes points look worse and planes
+ * better, and a pose that believed this at once would follow the bent image. */
 class NoiseScale
 {
  public:
     struct TParams
     {
         bool adaptive{true};
-        double timeConstant{1.0};
-        double agreementTimeConstant{2.0};
+        double timeConstant{2.0};
         double pointFactor{3.5};
         double planeFactor{3.5};
 
@@ -30,10 +32,6 @@ class NoiseScale
               "-",
               "the variance of points and planes follows that of their residuals");
             v("timeConstant", timeConstant, "s", "over which it follows");
-            v("agreementTimeConstant",
-              agreementTimeConstant,
-              "s",
-              "over which it follows the disagreement of the reference frames");
             v("pointFactor",
               pointFactor,
               "-",
