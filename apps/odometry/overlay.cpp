@@ -28,7 +28,8 @@ constexpr double kTint = 0.45;
 /** A camera that moves so fast has an arrow as long as half of the image's height [m/s]. */
 constexpr double kFullSpeed = 1.0;
 
-const cv::Scalar kUsed{80, 255, 80}, kRejected{60, 60, 255}, kNew{255, 255, 255};
+const cv::Scalar kUsed{80, 255, 80}, kDoubted{0, 200, 255}, kRejected{60, 60, 255};
+const cv::Scalar kNew{255, 255, 255}, kMoving{255, 0, 255};
 const cv::Scalar kText{255, 255, 255}, kArrow{0, 220, 255};
 
 /** Blue to red, level 0 to 255. */
@@ -125,12 +126,22 @@ void drawPlanes(const FrameFeatures& features, cv::Mat& picture)
     }
 }
 
+/** Tints what has moved. */
+void drawMoving(const MovingRegions& moving, cv::Mat& picture)
+{
+    for (const cv::Rect& cell : moving.cells)
+    {
+        cv::Mat pixels = picture(cell & cv::Rect({}, picture.size()));
+        cv::Mat(pixels * (1 - kTint) + kTint * kMoving).copyTo(pixels);
+    }
+}
+
 void drawPoint(FeatureUse use, const cv::Point2d& at, cv::Mat& picture)
 {
     const cv::Point centre(cvRound(at.x), cvRound(at.y));
-    if (use == FeatureUse::Used)
+    if (use == FeatureUse::Used || use == FeatureUse::Doubted)
     {
-        cv::circle(picture, centre, 3, kUsed, 1);
+        cv::circle(picture, centre, 3, use == FeatureUse::Used ? kUsed : kDoubted, 1);
     }
     else if (use == FeatureUse::Rejected)
     {
@@ -276,6 +287,7 @@ void addCounts(const FrameFeatures& features, Legend& legend)
             [&](const FrameFeatures::Point& p) { return p.use == use; }));
     };
     legend.addPoint(FeatureUse::Used, count(FeatureUse::Used), "used");
+    legend.addPoint(FeatureUse::Doubted, count(FeatureUse::Doubted), "doubted");
     legend.addPoint(FeatureUse::Rejected, count(FeatureUse::Rejected), "rejected");
     legend.addPoint(FeatureUse::New, count(FeatureUse::New), "new points");
     char text[64];
@@ -287,6 +299,8 @@ void addCounts(const FrameFeatures& features, Legend& legend)
             std::count(features.planeUses.begin(), features.planeUses.end(), FeatureUse::Used)),
         features.planeUses.size());
     legend.add(text, 150);
+    std::snprintf(text, sizeof(text), "%.0f %% moving", 100 * features.moving.share());
+    legend.add(text, 90, kMoving);
 }
 }  // namespace
 
@@ -300,6 +314,7 @@ cv::Mat drawOverlay(
 {
     cv::Mat picture = background(gray, depth);
     drawPlanes(record.features, picture);
+    drawMoving(record.features.moving, picture);
     for (const FrameFeatures::Point& point : record.features.points)
     {
         drawPoint(point.use, {point.uv_px.x(), point.uv_px.y()}, picture);

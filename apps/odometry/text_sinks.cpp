@@ -55,9 +55,10 @@ DiagnosticsSink::DiagnosticsSink(const std::string& path) : file_(path)
 {
     file_.writeLine(
         "frame,stamp,status,reason,numPoints,numPlanes,numPointPairs,numPlanePairs,numPointInliers,"
-        "numReferences,iterations,observableDirections,pointChi2PerDof,planeChi2PerDof,"
-        "surfaceAgreement,maxSigmaTranslation,maxSigmaRotation,msPoints,msPlanes,msMatching,msPose,"
-        "msTotal");
+        "numPointsDoubted,numPointsRejected,numReferences,iterations,observableDirections,"
+        "pointChi2PerDof,planeChi2PerDof,surfaceAgreement,movingShare,maxSigmaTranslation,"
+        "maxSigmaRotation,"
+        "msPoints,msPlanes,msMatching,msPose,msTotal");
 }
 
 void DiagnosticsSink::add(const OutputItem& item)
@@ -74,9 +75,11 @@ void DiagnosticsSink::add(const OutputItem& item)
     out << item.source.frameIndex << ',' << stampText(item.source.observation->timestamp) << ','
         << toString(motion.status) << ",\"" << reason << "\"," << d.numPoints << ',' << d.numPlanes
         << ',' << d.numPointPairs << ',' << d.numPlanePairs << ',' << d.numPointInliers << ','
-        << d.numReferences << ',' << d.iterations << ',' << d.observableDirections;
+        << d.numPointsDoubted << ',' << d.numPointsRejected << ',' << d.numReferences << ','
+        << d.iterations << ',' << d.observableDirections;
     out << std::setprecision(6) << ',' << d.pointChi2PerDof << ',' << d.planeChi2PerDof << ','
-        << d.surfaceAgreement << ',' << d.maxSigmaTranslation << ',' << d.maxSigmaRotation;
+        << d.surfaceAgreement << ',' << d.movingShare << ',' << d.maxSigmaTranslation << ','
+        << d.maxSigmaRotation;
     out << std::fixed << std::setprecision(3) << ',' << d.msPoints << ',' << d.msPlanes << ','
         << d.msMatching << ',' << d.msPose << ',' << d.msTotal;
     file_.writeLine(out.str());

@@ -127,6 +127,33 @@ Eigen::Isometry3d untilDepth(const Vector6d& velocity, double delay)
     return se3Exp(std::isfinite(delay) ? Vector6d(delay * velocity) : Vector6d::Zero());
 }
 
+/** How the depth image of a reference lies to the current one's. */
+struct DepthMotion
+{
+    Eigen::Isometry3d T_cur_ref;  //!< between the cameras when their depth images were exposed
+    double slack_m;               //!< by stamps that are off, of surfaces across the view
+    double slackShare;            //!< and of surfaces aslant, in proportion to depth
+};
+
+DepthMotion depthMotion(
+    const Track& track,
+    const Reference& reference,
+    const RgbdFrame& current,
+    const Motion& motion,
+    const ShutterCalibrator& shutter)
+{
+    const Eigen::Isometry3d T_cur_ref = motion.T_prev_cur.inverse() *
+                                        track.previous().T_world_cam.inverse() *
+                                        reference.T_world_cam;
+    const Eigen::Isometry3d T_depth_cur =
+        untilDepth(motion.velocity, shutter.complete(current.shutter).depthDelay).inverse();
+    const Eigen::Isometry3d T_ref_depth =
+        untilDepth(reference.velocity, shutter.complete(reference.shutter).depthDelay);
+    const double speed = motion.velocity.head<3>().norm() + reference.velocity.head<3>().norm();
+    const double rate = motion.velocity.tail<3>().norm() + reference.velocity.tail<3>().norm();
+    return {T_depth_cur * T_cur_ref * T_ref_depth, kTimeSigma * speed, kTimeSigma * rate};
+}
+
 void tell(const Alignment& alignment, FrameDiagnostics& diagnostics)
 {
     const PoseEstimate& estimate = alignment.estimate;
@@ -350,29 +377,44 @@ void Aligner::judge(Alignment& alignment) const
 void Aligner::verify(const Scene& scene, Alignment& alignment)
 {
     const Motion& motion = alignment.estimate.motion.mean;
-    const ShutterCalibrator& shutter = scene.errors.shutter();
     const Eigen::Isometry3d T_cur_world =
         motion.T_prev_cur.inverse() * scene.track.previous().T_world_cam.inverse();
-    const Eigen::Isometry3d T_depth_cur =
-        untilDepth(motion.velocity, shutter.complete(scene.current.frame.shutter).depthDelay)
-            .inverse();
     for (const Reference* reference : scene.track.references())
     {
-        const Eigen::Isometry3d T_cur_ref = T_cur_world * reference->T_world_cam;
-        alignment.numSought += numInView(*reference, scene.current.frame, T_cur_ref);
+        alignment.numSought +=
+            numInView(*reference, scene.current.frame, T_cur_world * reference->T_world_cam);
         if (alignment.agreement.seen() < kEnoughSurfaces)
         {
-            const Eigen::Isometry3d T_ref_depth =
-                untilDepth(reference->velocity, shutter.complete(reference->shutter).depthDelay);
-            const double speed =
-                motion.velocity.head<3>().norm() + reference->velocity.head<3>().norm();
-            alignment.agreement += scene.frontEnd.compare(
-                *reference,
-                scene.current,
-                T_depth_cur * T_cur_ref * T_ref_depth,
-                kTimeSigma * speed);
+            const DepthMotion depth = depthMotion(
+                scene.track, *reference, scene.current.frame, motion, scene.errors.shutter());
+            alignment.agreement +=
+                scene.frontEnd.compare(*reference, scene.current, depth.T_cur_ref, depth.slack_m);
         }
     }
+}
+
+MovingRegions Aligner::findMoving(
+    const FrontEnd& frontEnd,
+    const Features& current,
+    const Track& track,
+    const ErrorModel& errors,
+    const Alignment& alignment)
+{
+    std::vector<EarlierView> earlier;
+    for (const Reference* reference : track.references())
+    {
+        if (reference->images)
+        {
+            const DepthMotion depth = depthMotion(
+                track, *reference, current.frame, alignment.estimate.motion.mean, errors.shutter());
+            earlier.push_back(
+                {&reference->images->frame,
+                 depth.T_cur_ref.inverse(),
+                 depth.slack_m,
+                 depth.slackShare});
+        }
+    }
+    return frontEnd.findMoving(current, earlier);
 }
 
 bool Aligner::isConvincing(const Scene& scene, const Alignment& a) const

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <pointplane/odometry/Features.h>
+#include <pointplane/odometry/MovingRegions.h>
 #include <pointplane/odometry/OdometryParams.h>
 #include <pointplane/odometry/OdometryResult.h>
 #include <pointplane/odometry/PairBuilder.h>
@@ -61,6 +62,14 @@ class Aligner
     /** The place in which the camera is again, or nothing. */
     [[nodiscard]] std::optional<int> recognise(
         const FrontEnd& frontEnd, const Features& current, const Track& track) const;
+
+    /** What has moved in front of the camera since its references. \pre the alignment holds */
+    [[nodiscard]] static MovingRegions findMoving(
+        const FrontEnd& frontEnd,
+        const Features& current,
+        const Track& track,
+        const ErrorModel& errors,
+        const Alignment& alignment);
 
     [[nodiscard]] PoseAnalysis analyse(const Alignment& alignment) const
     {

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <pointplane/odometry/Features.h>
+#include <pointplane/odometry/MovingRegions.h>
 #include <pointplane/odometry/OdometryParams.h>
 #include <pointplane/odometry/OdometryResult.h>
 #include <pointplane/odometry/Reference.h>
 #include <pointplane/sensor/DepthNoiseLearner.h>
 
 #include <optional>
+#include <vector>
 
 namespace pointplane
 {
@@ -32,6 +34,13 @@ class FrontEnd
         const Features& current,
         const Eigen::Isometry3d& T_cur_ref,
         double slack_m) const;
+
+    /** What has moved since earlier frames; see findMovingRegions(). */
+    [[nodiscard]] MovingRegions findMoving(
+        const Features& current, const std::vector<EarlierView>& earlier) const
+    {
+        return findMovingRegions(current.frame, earlier, depthNoise_.noise());
+    }
 
     /** Motion by the images alone, where enough points tell one. */
     [[nodiscard]] std::optional<ImageMotion> alignImages(

@@ -38,6 +38,20 @@ struct Odometry::Impl
     FrameFeatures shown;  //!< of the latest frame, for pictures
 };
 
+namespace
+{
+void count(const FrameFeatures& features, FrameDiagnostics& diagnostics)
+{
+    diagnostics.numPoints = static_cast<int>(features.points.size());
+    for (const FrameFeatures::Point& point : features.points)
+    {
+        diagnostics.numPointsDoubted += point.use == FeatureUse::Doubted;
+        diagnostics.numPointsRejected += point.use == FeatureUse::Rejected;
+    }
+    diagnostics.movingShare = features.moving.share();
+}
+}  // namespace
+
 OdometryResult Odometry::Impl::process(const RgbdFrame& frame)
 {
     const Stopwatch total;
@@ -57,7 +71,7 @@ OdometryResult Odometry::Impl::process(const RgbdFrame& frame)
         result.diagnostics.maxSigmaTranslation = sigma.head<3>().maxCoeff();
         result.diagnostics.maxSigmaRotation = sigma.tail<3>().maxCoeff();
     }
-    result.diagnostics.numPoints = static_cast<int>(shown.points.size());
+    count(shown, result.diagnostics);
     result.diagnostics.msTotal = total.ms();
     return result;
 }
@@ -161,6 +175,7 @@ void Odometry::Impl::measure(const Features& current, Alignment& alignment, Odom
     const JointCovariance::Measurement measurement =
         errors.learn({track.references(), alignment.estimate, analysis, dt, track.motionNoise(dt)});
     showPairs(alignment.associations, &analysis, shown);
+    shown.moving = Aligner::findMoving(frontEnd, current, track, errors, alignment);
     const bool isKeyframe =
         track.needsKeyframe(motion.mean.T_prev_cur, track.overlap(alignment.associations));
     Reference reference = referenceOf(current);

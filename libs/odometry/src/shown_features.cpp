@@ -11,15 +11,28 @@ namespace
 /** Points that are found so close to each other are the same one [px]. */
 constexpr double kSamePoint = 3;
 
-/** A point counts for the pose when its robust weight is above this. */
+/** A feature counts for the pose when its robust weight is above this: a point's as it is, a
+ * plane's over that of the best plane, as noise of all planes lowers the weights of all. */
 constexpr double kUsedWeight = 0.5;
 
-FeatureUse useOf(const FeatureResidual& point)
+FeatureUse useOf(double weight)
 {
-    return point.weight > kUsedWeight ? FeatureUse::Used : FeatureUse::Rejected;
+    return weight > kUsedWeight ? FeatureUse::Used
+           : weight > 0         ? FeatureUse::Doubted
+                                : FeatureUse::Rejected;
 }
 
-/** Keeps of points of the same place the one that was used, else rejected, else new. */
+double largestWeight(const std::vector<FeatureResidual>& features)
+{
+    double out = 0;
+    for (const FeatureResidual& feature : features)
+    {
+        out = std::max(out, feature.weight);
+    }
+    return out;
+}
+
+/** Keeps of points of the same place that which counts most; a new one least. */
 void keepEachOnce(std::vector<FrameFeatures::Point>& points)
 {
     const auto row = [](const FrameFeatures::Point& p)
@@ -74,19 +87,23 @@ void showPairs(
     const PoseAnalysis* analysis,
     FrameFeatures& shown)
 {
-    size_t i = 0;  // in the order of PairBuilder
+    size_t i = 0, j = 0;  // in the order of PairBuilder
+    const double bestPlane = analysis ? largestWeight(analysis->planeResiduals) : 0;
     for (const Association& association : associations)
     {
         for (const PlaneMatch& match : association.planes)
         {
-            shown.planeUses.at(static_cast<size_t>(match.cur)) =
-                analysis ? FeatureUse::Used : FeatureUse::Rejected;
+            FeatureUse& use = shown.planeUses.at(static_cast<size_t>(match.cur));
+            use = std::min(
+                use,
+                analysis ? useOf(analysis->planeResiduals.at(j++).weight / bestPlane)
+                         : FeatureUse::Rejected);
         }
         for (const PointTrack& track : association.points)
         {
             shown.points.push_back(
                 {track.cur.uv_px,
-                 analysis ? useOf(analysis->pointResiduals.at(i++)) : FeatureUse::Rejected});
+                 analysis ? useOf(analysis->pointResiduals.at(i++).weight) : FeatureUse::Rejected});
         }
     }
     keepEachOnce(shown.points);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <pointplane/core/PoseGaussian.h>
+#include <pointplane/odometry/MovingRegions.h>
 #include <pointplane/planes/PlaneFeature.h>
 #include <pointplane/points/PointFeature.h>
 #include <pointplane/sensor/DepthNoise.h>
@@ -30,12 +31,15 @@ struct FrameDiagnostics
     int numPointPairs{0};           //!< matched to a reference
     int numPlanePairs{0};           //!< matched to a reference
     int numPointInliers{0};         //!< pairs with a Tukey weight above 1/2
+    int numPointsDoubted{0};        //!< points found again that count for less than half, each once
+    int numPointsRejected{0};       //!< points found again that do not count, each once
     int numReferences{0};           //!< frames that this one was aligned with
     int iterations{0};              //!< of the pose solver
     int observableDirections{0};    //!< of 6, measured better than the motion model predicts
     double pointChi2PerDof{0};      //!< reduced chi-square of point residuals
     double planeChi2PerDof{0};      //!< reduced chi-square of plane residuals
     double surfaceAgreement{0};     //!< part of the surfaces in view that depth shows; 0 of none
+    double movingShare{0};          //!< part of the surfaces in view that have moved there
     double maxSigmaTranslation{0};  //!< largest standard deviation of the increment [m]
     double maxSigmaRotation{0};     //!< [rad]
     DepthNoise depthNoise;          //!< of the camera, as far as its images have told by then
@@ -61,8 +65,10 @@ struct OdometryResult
 /** What became of a point or plane of a frame. */
 enum class FeatureUse
 {
-    Used,      //!< found again, and the pose follows it; of a point: robust weight above 1/2
-    Rejected,  //!< found again, but the point contradicts the others or the frame was not tracked
+    Used,      //!< found again, and the pose follows it: robust weight above 1/2, of a plane over
+               //!< that of the best plane
+    Doubted,   //!< found again, but it agrees badly with the others: the weight is lower
+    Rejected,  //!< found again, but it contradicts the others, or the frame was not tracked
     New        //!< not compared with an earlier frame
 };
 
@@ -77,6 +83,7 @@ struct FrameFeatures
     std::vector<Point> points;  //!< each once, however many references it was compared with
     PlaneSet planes;
     std::vector<FeatureUse> planeUses;  //!< of planes.planes
+    MovingRegions moving;               //!< what has come to where it was not before
     bool isKeyframe{false};             //!< later frames are compared with this one
 };
 }  // namespace pointplane

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/odometry/MovingRegions.h>
+
+#include <algorithm>
+
+#include "surface_comparison.h"
+
+namespace pointplane
+{
+namespace
+{
+/** Cells along the longer side of the image: a hand at 2 m is one. */
+constexpr int kSamples = 40;
+
+/** Of the eight cells around a moving one, so many move too: fewer are the noise of edges. */
+constexpr int kMovingNeighbours = 2;
+
+/** What earlier frames say of the surface in a cell. */
+enum Cell : std::uint8_t
+{
+    Untold,
+    Still,
+    Moving
+};
+
+Cell cellAt(const Eigen::Vector3f& point, const std::vector<ComparedDepth>& earlier)
+{
+    Cell out = Untold;
+    for (const ComparedDepth& depth : earlier)
+    {
+        const ComparedDepth::Verdict verdict = depth(point);
+        if (verdict == ComparedDepth::Verdict::Vanished)
+        {
+            return Moving;
+        }
+        if (verdict == ComparedDepth::Verdict::Agrees)
+        {
+            out = Still;
+        }
+    }
+    return out;
+}
+
+bool hasMovingNeighbours(const cv::Mat_<std::uint8_t>& cells, int column, int row)
+{
+    int moving = -1;  // without itself
+    for (int v = std::max(0, row - 1); v <= std::min(cells.rows - 1, row + 1); ++v)
+    {
+        for (int u = std::max(0, column - 1); u <= std::min(cells.cols - 1, column + 1); ++u)
+        {
+            moving += cells(v, u) == Moving;
+        }
+    }
+    return moving >= kMovingNeighbours;
+}
+}  // namespace
+
+bool MovingRegions::contains(const cv::Point& pixel) const
+{
+    return std::any_of(
+        cells.begin(), cells.end(), [&](const cv::Rect& cell) { return cell.contains(pixel); });
+}
+
+MovingRegions findMovingRegions(
+    const RgbdFrame& current, const std::vector<EarlierView>& earlier, const DepthNoise& noise)
+{
+    std::vector<ComparedDepth> depths;
+    depths.reserve(earlier.size());
+    for (const EarlierView& view : earlier)
+    {
+        depths.emplace_back(*view.frame, view.T_earlier_cur, noise, view.slack_m, view.slackShare);
+    }
+    const PixelGrid grid(current.depth.size(), kSamples);
+    cv::Mat_<std::uint8_t> cells(grid.size, static_cast<std::uint8_t>(Untold));
+    MovingRegions out;
+    for (int row = 0; row < grid.size.height; ++row)
+    {
+        for (int column = 0; column < grid.size.width; ++column)
+        {
+            const Eigen::Vector3f point = surfaceAt(current, grid.pixel(column, row));
+            cells(row, column) = point.z() > 0 ? cellAt(point, depths) : Untold;
+            out.numCompared += cells(row, column) != Untold;
+        }
+    }
+    const cv::Rect image({}, current.depth.size());
+    for (int row = 0; row < grid.size.height; ++row)
+    {
+        for (int column = 0; column < grid.size.width; ++column)
+        {
+            if (cells(row, column) == Moving && hasMovingNeighbours(cells, column, row))
+            {
+                const cv::Point corner =
+                    grid.pixel(column, row) - cv::Point(1, 1) * (grid.step / 2);
+                out.cells.push_back(cv::Rect(corner, cv::Size(grid.step, grid.step)) & image);
+            }
+        }
+    }
+    return out;
+}
+}  // namespace pointplane
