@@ -36,34 +36,38 @@ namespace
 
 void addOutputOptions(CLI::App& command, RecordingOutput& output)
 {
-    command.add_option("-o,--output", output.path, "rawlog to write")->required();
-    command.add_option("--label", output.label, "sensor label")->capture_default_str();
-    auto* external =
-        command.add_flag("--external", output.external, "images as files beside the rawlog");
-    command.add_flag("--embedded", "images inside the rawlog (default)")->excludes(external);
+    command.add_option("-o,--output", output.path, "Rawlog to write")->required();
+    command.add_option("--label", output.label, "Label of the camera in the rawlog")
+        ->capture_default_str();
+    auto* external = command.add_flag(
+        "--external", output.external, "Put the images into files beside the rawlog");
+    command.add_flag("--embedded", "Put them into the rawlog (default)")->excludes(external);
     command.add_flag(
-        "--strict",
-        output.strict,
-        "stop at a frame that cannot be read, instead of leaving it out");
-    command.add_flag("--quiet", output.quiet, "no progress");
+        "--strict", output.strict, "Stop at a frame that cannot be read (default: leave it out)");
+    command.add_flag("--quiet", output.quiet, "Show no progress");
 }
 
 void addTumCommand(CLI::App& app, TumOptions& options, RecordingOutput& output)
 {
-    CLI::App* tum = app.add_subcommand("tum", "A folder of the TUM RGB-D benchmark's layout");
-    tum->add_option("folder", options.folder, "holds rgb.txt, depth.txt and the images")
+    CLI::App* tum =
+        app.add_subcommand("tum", "A sequence of the TUM RGB-D benchmark, or a folder like one");
+    tum->add_option("folder", options.folder, "Folder with rgb.txt, depth.txt and the images")
         ->required();
     tum->add_option(
         "--camera",
         options.camera,
-        "fr1, fr2, fr3, or a file: MRPT's camera ini or one line `fx fy cx cy k1 k2 p1 p2 k3 width "
+        "Calibration: fr1, fr2, fr3, or a file: MRPT's camera ini or one line `fx fy cx cy k1 k2 "
+        "p1 p2 k3 width "
         "height unitsPerMetre` (default: camera.txt in the folder, or by the folder's name)");
     tum->add_option(
            "--depth-scale",
            options.depthScale,
-           "depth units per metre (default: the camera's, 5000)")
+           "Depth units per metre (default: the camera's, 5000)")
         ->check(isScale());
-    tum->add_option("--max-difference", options.maxDifference, "between colour and depth [s]")
+    tum->add_option(
+           "--max-difference",
+           options.maxDifference,
+           "Longest time between colour and depth of a frame [s]")
         ->capture_default_str();
     addOutputOptions(*tum, output);
 }
@@ -77,7 +81,7 @@ CLI::App* addFolderCommand(CLI::App& app, FolderOptions& options, RecordingOutpu
         "folder",
         "Numbered or stamped images: ScanNet, 7-Scenes, Redwood, Replica, Bonn, Record3D, "
         "StrayScanner, or any two folders like rgb and depth");
-    folder->add_option("folder", options.folder, "holds the images")->required();
+    folder->add_option("folder", options.folder, "Folder with the images")->required();
     folder->add_option(
         "--camera",
         options.camera,
@@ -87,15 +91,19 @@ CLI::App* addFolderCommand(CLI::App& app, FolderOptions& options, RecordingOutpu
         ->add_option(
             "--depth-scale",
             options.depthScale,
-            "depth units per metre (default: the "
+            "Depth units per metre (default: the "
             "layout's, else 1000)")
         ->check(isScale());
     folder->add_option(
         "--fps",
         options.fps,
-        "frames a second, by number (default: stamps, else the "
+        "Frames a second, where images are numbered (default: stamps, else the "
         "layout's rate, else 30)");
-    folder->add_option("--max-difference", options.maxDifference, "between colour and depth [s]")
+    folder
+        ->add_option(
+            "--max-difference",
+            options.maxDifference,
+            "Longest time between colour and depth of a frame [s]")
         ->capture_default_str();
     addOutputOptions(*folder, output);
     return folder;
@@ -104,15 +112,15 @@ CLI::App* addFolderCommand(CLI::App& app, FolderOptions& options, RecordingOutpu
 CLI::App* addKlgCommand(CLI::App& app, KlgOptions& options, RecordingOutput& output)
 {
     CLI::App* klg = app.add_subcommand("klg", "A log of Kintinuous or ElasticFusion");
-    klg->add_option("file", options.file, "the log")->required();
+    klg->add_option("file", options.file, "Log to read")->required();
     klg->add_option(
         "--camera", options.camera, std::string(kCameraHelp) + " (default: 528 px, 640x480)");
     klg->add_option(
            "--depth-scale",
            options.depthScale,
-           "depth units per metre (default: the camera's, 1000)")
+           "Depth units per metre (default: the camera's, 1000)")
         ->check(isScale());
-    klg->add_flag("--bgr", options.bgr, "its colours are in the order blue, green, red");
+    klg->add_flag("--bgr", options.bgr, "Its colours are in the order blue, green, red");
     addOutputOptions(*klg, output);
     return klg;
 }
@@ -120,18 +128,25 @@ CLI::App* addKlgCommand(CLI::App& app, KlgOptions& options, RecordingOutput& out
 CLI::App* addBagCommand(CLI::App& app, BagOptions& options, RecordingOutput& output)
 {
     CLI::App* bag = app.add_subcommand("bag", "A ROS 1 bag, also of RealSense's recorder");
-    bag->add_option("file", options.file, "the bag")->required();
+    bag->add_option("file", options.file, "Bag to read")->required();
     bag->add_option(
-        "--colour-topic", options.colourTopic, "colour images (default: the only ones)");
-    bag->add_option("--depth-topic", options.depthTopic, "depth images (default: the only ones)");
+        "--colour-topic",
+        options.colourTopic,
+        "Topic of the colour images (default: the only ones)");
+    bag->add_option(
+        "--depth-topic", options.depthTopic, "Topic of the depth images (default: the only ones)");
     bag->add_option(
         "--camera",
         options.camera,
-        "of colour, " + std::string(kCameraHelp) + " (default: camera_info of the bag)");
+        "Calibration of colour: " + std::string(kCameraHelp) +
+            " (default: camera_info of the bag)");
     bag->add_option(
-           "--depth-scale", options.depthScale, "units per metre of 16 bit depth (default: 1000)")
+           "--depth-scale", options.depthScale, "Units per metre of 16 bit depth (default: 1000)")
         ->check(isScale());
-    bag->add_option("--max-difference", options.maxDifference, "between colour and depth [s]")
+    bag->add_option(
+           "--max-difference",
+           options.maxDifference,
+           "Longest time between colour and depth of a frame [s]")
         ->capture_default_str();
     addOutputOptions(*bag, output);
     return bag;

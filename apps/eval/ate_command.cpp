@@ -34,19 +34,27 @@ void AteCommand::addTo(CLI::App& command)
     const std::string group = "Protocol";
     command.add_option("groundtruth", groundTruth, "Ground-truth trajectory")->required();
     command.add_option("estimate", estimate, "Estimated trajectory")->required();
-    command.add_option("--offset", options.offset, "Added to the estimate's stamps [s]")
+    command.add_option("--offset", options.offset, "Add this to the estimate's stamps [s]")
         ->capture_default_str()
         ->group(group);
-    command.add_option("--scale", options.scale, "Multiplies the estimate's translations")
+    command.add_option("--scale", options.scale, "Multiply the estimate's translations by this")
         ->capture_default_str()
         ->group(group);
-    command.add_option("--max-difference", options.maxDifference, "Of associated stamps [s]")
+    command
+        .add_option(
+            "--max-difference",
+            options.maxDifference,
+            "Longest time between poses that are compared [s]")
         ->capture_default_str()
         ->check(CLI::PositiveNumber)
         ->group(group);
     const std::map<std::string, Alignment> alignments{
         {"se3", Alignment::Se3}, {"first", Alignment::FirstPose}, {"none", Alignment::None}};
-    command.add_option("--align", options.alignment, "se3 (as the script), first or none [se3]")
+    command
+        .add_option(
+            "--align",
+            options.alignment,
+            "How trajectories are aligned: se3 (as the script), first or none [se3]")
         ->transform(CLI::CheckedTransformer(alignments).description(""))
         ->type_name("NAME")
         ->group(group);

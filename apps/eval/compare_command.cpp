@@ -38,7 +38,7 @@ void CompareCommand::addTo(CLI::App& command)
         ->required()
         ->expected(1, -1);
     rpe.addTo(command);
-    command.add_option("--resamples", bootstrap.resamples, "Of the bootstrap")
+    command.add_option("--resamples", bootstrap.resamples, "Samples of the bootstrap")
         ->capture_default_str()
         ->check(CLI::Range(100, 1000000))
         ->group("Protocol");

@@ -82,10 +82,14 @@ void NeesCommand::addTo(CLI::App& command)
             "about the axes of the ground truth's body")
         ->capture_default_str()
         ->group("Protocol");
-    command.add_option("--offset", options.offset, "Added to the estimate's stamps [s]")
+    command.add_option("--offset", options.offset, "Add this to the estimate's stamps [s]")
         ->capture_default_str()
         ->group("Protocol");
-    command.add_flag("--nearest", nearest, "Ground truth at the nearest stamp, not interpolated")
+    command
+        .add_flag(
+            "--nearest",
+            nearest,
+            "Take ground truth at the nearest stamp instead of interpolating it")
         ->group("Protocol");
     command.add_option("--min-nees", minNees, "Exit with 1 if a joint NEES per dof is below this")
         ->group("Gate");

@@ -155,7 +155,8 @@ void RpeCommand::run(CommandContext& context) const
 void RpeCommandOptions::addTo(CLI::App& command)
 {
     const std::string group = "Protocol";
-    command.add_flag("--fixed-delta", rpe.fixedDelta, "Only pairs --delta apart, not all pairs")
+    command
+        .add_flag("--fixed-delta", rpe.fixedDelta, "Only pairs --delta apart (default: all pairs)")
         ->group(group);
     command.add_option("--delta", rpe.delta, "Distance between the two poses of a pair")
         ->capture_default_str()
@@ -165,10 +166,10 @@ void RpeCommandOptions::addTo(CLI::App& command)
         ->capture_default_str()
         ->check(CLI::IsMember({"s", "m", "rad", "deg", "f"}))
         ->group(group);
-    command.add_option("--offset", rpe.offset, "Added to the estimate's stamps [s]")
+    command.add_option("--offset", rpe.offset, "Add this to the estimate's stamps [s]")
         ->capture_default_str()
         ->group(group);
-    command.add_option("--scale", rpe.scale, "Multiplies the estimate's translations")
+    command.add_option("--scale", rpe.scale, "Multiply the estimate's translations by this")
         ->capture_default_str()
         ->group(group);
     command
@@ -178,10 +179,11 @@ void RpeCommandOptions::addTo(CLI::App& command)
             "At most so many pairs, drawn at random; 0 = all [10000, with --fixed-delta 0]")
         ->check(CLI::NonNegativeNumber)
         ->group(group);
-    command.add_option("--seed", rpe.seed, "Of the random draw")
+    command.add_option("--seed", rpe.seed, "Seed of the random draw")
         ->capture_default_str()
         ->group(group);
-    command.add_flag("--evo", evo, "The TUM paper's and evo's formula instead of the TUM script's")
+    command
+        .add_flag("--evo", evo, "Use the formula of the TUM paper and of evo, not the TUM script's")
         ->group(group);
     command
         .add_flag(

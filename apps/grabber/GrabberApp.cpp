@@ -38,17 +38,20 @@ struct Words
 void addCameraOptions(CLI::App& app, GrabberOptions& o, Words& words)
 {
     const std::string group = "Camera";
-    app.add_option("--driver", o.driver, "auto, openni2 or freenect")->group(group);
-    app.add_option("-d,--device", o.device, "URI, serial number, index in --list, or an .oni file")
+    app.add_option("--driver", o.driver, "Driver: auto, openni2 or freenect")->group(group);
+    app.add_option(
+           "-d,--device", o.device, "Camera: URI, serial number, index in --list, or an .oni file")
         ->group(group);
     app.add_option("--mode", words.mode, "Size and rate of both images")->group(group);
     app.add_option(
-           "--registration", words.registration, "Depth to colour in the camera: auto, on or off")
+           "--registration",
+           words.registration,
+           "Let the camera register depth to colour: auto, on or off")
         ->check(CLI::IsMember({"auto", "on", "off"}))
         ->group(group);
     app.add_flag("!--no-sync", o.camera.frameSync, "Do not synchronise depth and colour")
         ->group(group);
-    app.add_flag("--depth-only", o.camera.depthOnly, "Without colour")->group(group);
+    app.add_flag("--depth-only", o.camera.depthOnly, "Record without colour")->group(group);
     app.add_flag("--lock-exposure", o.capture.lockExposure, "Keep exposure after the warm-up")
         ->group(group);
     app.add_flag(
@@ -62,9 +65,9 @@ void addCameraOptions(CLI::App& app, GrabberOptions& o, Words& words)
     app.add_option("--timeout", o.capture.stallTimeout, "Give up a silent camera after [s]")
         ->check(CLI::PositiveNumber)
         ->group(group);
-    app.add_option("--calibration", o.calibration, "rawlog-grabber ini file of the camera")
+    app.add_option("--calibration", o.calibration, "Calibration file: ini of rawlog-grabber")
         ->group(group);
-    app.add_option("--section", o.section, "Its section: S_LEFT, S_RIGHT, S_LEFT2RIGHT_POSE")
+    app.add_option("--section", o.section, "S of its sections S_LEFT, S_RIGHT, S_LEFT2RIGHT_POSE")
         ->group(group);
     app.add_option("--label", o.label, "Sensor label (default: the ini file's, or OPENNI2)")
         ->group(group);
@@ -85,32 +88,39 @@ void addRecordingOptions(CLI::App& app, GrabberOptions& o, Words& words)
         ->check(CLI::Range(0.2, 60.0))
         ->group(group);
     app.add_option(
-           "--max-skew", o.capture.maxSkew, "Colour to depth in a pair [s] (default: half a frame)")
+           "--max-skew",
+           o.capture.maxSkew,
+           "Longest time between colour and depth of a frame [s] (default: half a frame)")
         ->check(CLI::PositiveNumber)
         ->group(group);
     app.add_option("--split-minutes", words.splitMinutes, "Begin a new file every so many minutes")
         ->check(CLI::PositiveNumber)
         ->group(group);
-    app.add_option("--images", words.images, "embedded, or external: files beside the rawlog")
+    app.add_option(
+           "--images",
+           words.images,
+           "Where images go: embedded, or external (files beside the rawlog)")
         ->check(CLI::IsMember({"embedded", "external"}))
         ->group(group);
     app.add_option(
            "--compression",
            o.recording.encoding.compression,
-           "0 none, 1 fast ... 9 small; lossless")
+           "Lossless compression: 0 = none, 1 = fast ... 9 = small")
         ->check(CLI::Range(0, 9))
         ->group(group);
     app.add_option(
-           "--jpeg", o.recording.encoding.jpegQuality, "Colour as JPEG of this quality (lossy)")
+           "--jpeg",
+           o.recording.encoding.jpegQuality,
+           "Compress colour as JPEG of this quality (lossy)")
         ->check(CLI::Range(1, 100))
         ->group(group);
     app.add_option("--queue", o.recording.queueFrames, "Frames that may wait for the disk")
         ->check(CLI::Range(2, 100000))
         ->group(group);
-    app.add_option("--threads", o.recording.numThreads, "That compress")
+    app.add_option("--threads", o.recording.numThreads, "Threads that compress")
         ->check(CLI::Range(1, 64))
         ->group(group);
-    app.add_option("--min-free-mb", o.minFreeMb, "Stop when the disk has less left")
+    app.add_option("--min-free-mb", o.minFreeMb, "Stop when the disk has less left [MB]")
         ->check(CLI::NonNegativeNumber)
         ->group(group);
 }
@@ -118,13 +128,17 @@ void addRecordingOptions(CLI::App& app, GrabberOptions& o, Words& words)
 void addOtherOptions(CLI::App& app, GrabberOptions& o, Words& words)
 {
     app.add_flag("--list", words.list, "Show cameras, their modes and abilities")->group("Show");
-    app.add_option("--preview", o.preview, "PNG picture, renewed every second")->group("Show");
-    app.add_flag("--quiet", o.quiet, "No status line")->group("Show");
-    app.add_flag("--live", o.live, "Odometry on the stream: a line per frame on standard output")
+    app.add_option("--preview", o.preview, "Renew this PNG picture every second")->group("Show");
+    app.add_flag("--quiet", o.quiet, "Show no status line")->group("Show");
+    app.add_flag("--live", o.live, "Run the odometry on the stream; print a line per frame")
         ->group("Live odometry");
-    app.add_option("--live-config", o.liveOdometry.config, "Its config.ini")
+    app.add_option(
+           "--live-config", o.liveOdometry.config, "With --live: configuration of the odometry")
         ->group("Live odometry");
-    app.add_option("--live-output", o.liveOdometry.poseRawlog, "Rawlog with its pose PDFs")
+    app.add_option(
+           "--live-output",
+           o.liveOdometry.poseRawlog,
+           "With --live: write a rawlog with its pose PDFs")
         ->group("Live odometry");
 }
 

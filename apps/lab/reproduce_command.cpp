@@ -62,7 +62,9 @@ void ReproduceCommand::addTo(CLI::App& command)
         ->delimiter(',')
         ->check(CLI::IsMember(parts))
         ->group("Runs");
-    command.add_option("--corner-duration", cornerDuration, "Of the simulated corner [s]")
+    command
+        .add_option(
+            "--corner-duration", cornerDuration, "Length of the simulated corner sequence [s]")
         ->capture_default_str()
         ->check(CLI::PositiveNumber)
         ->group("Runs");

@@ -25,7 +25,9 @@ void addOptions(CLI::App& app, OdometryOptions& o, bool& dumpConfig, bool& dumpK
         ->type_size(1)
         ->allow_extra_args(false);
     app.add_option(
-        "--sensor-label", o.sensorLabel, "Take this camera (default: that of the first frame)");
+        "--sensor-label",
+        o.sensorLabel,
+        "Use this camera of the rawlog (default: that of the first frame)");
     app.add_flag("--dump-config", dumpConfig, "Print all keys with the values in effect, and exit");
     app.add_flag("--dump-keys", dumpKeys, "The same as Markdown tables, for docs/config.md")
         ->group("");
@@ -36,28 +38,39 @@ void addOutputOptions(CLI::App& app, OdometryOptions& o)
     const std::size_t numOthers = app.get_options().size();
     auto* output =
         app.add_option("-o,--output", o.output, "Write a rawlog with a pose PDF per frame");
-    auto* onlyPoses = app.add_flag("--only-poses", o.onlyPoses, "Leave the observations out of it")
-                          ->needs(output);
+    auto* onlyPoses =
+        app.add_flag("--only-poses", o.onlyPoses, "With -o: leave the observations out")
+            ->needs(output);
     app.add_flag(
            "--format1",
            o.format1,
-           "Write it as actions (CActionRobotMovement3D) and sensory frames")
+           "With -o: write actions (CActionRobotMovement3D) and sensory frames")
         ->needs(output);
     app.add_option(
-           "--since", o.since, "Tell the motions since 1 ... N frames before, too (for nees)")
+           "--since",
+           o.since,
+           "With -o: also write the motions since 1 ... N frames before (for nees)")
         ->check(CLI::Range(1, 300))
         ->needs(output);
-    app.add_flag("--with-points", o.withPoints, "Put point clouds into its scans (rbpf-slam, maps)")
+    app.add_flag(
+           "--with-points",
+           o.withPoints,
+           "With -o: put point clouds into the scans (rbpf-slam, maps)")
         ->needs(output)
         ->excludes(onlyPoses);
     auto* simplemap = app.add_option(
         "--simplemap", o.simplemap, "Write key frames with pose PDFs, for observations2map");
     app.add_option(
-           "--keyframe-distance", o.keyframeDistance, "Least distance between these key frames [m]")
+           "--keyframe-distance",
+           o.keyframeDistance,
+           "With --simplemap: least distance between key frames [m]")
         ->check(CLI::PositiveNumber)
         ->capture_default_str()
         ->needs(simplemap);
-    app.add_option("--keyframe-angle", o.keyframeAngleDeg, "Or least rotation between them [deg]")
+    app.add_option(
+           "--keyframe-angle",
+           o.keyframeAngleDeg,
+           "With --simplemap: or least rotation between them [deg]")
         ->check(CLI::PositiveNumber)
         ->capture_default_str()
         ->needs(simplemap);
@@ -65,14 +78,16 @@ void addOutputOptions(CLI::App& app, OdometryOptions& o)
         "--graph", o.graph, "Write a pose graph with information matrices, for graph-slam");
     auto* trajectory = app.add_option("--trajectory", o.trajectory, "Write the poses as TUM text");
     app.add_option(
-           "--trajectory-frame", o.trajectoryFrame, "Whose poses: optical (the camera's) or robot")
+           "--trajectory-frame",
+           o.trajectoryFrame,
+           "With --trajectory: whose poses, optical (the camera's) or robot")
         ->check(CLI::IsMember({"optical", "robot"}))
         ->capture_default_str()
         ->needs(trajectory);
     app.add_option("--diagnostics", o.diagnostics, "Write a table with a line per frame (CSV)");
     auto* overlay = app.add_option(
         "--overlay", o.overlay, "Draw points and planes of each frame into this folder (JPEG)");
-    app.add_option("--overlay-every", o.overlayEvery, "Draw every N-th frame only")
+    app.add_option("--overlay-every", o.overlayEvery, "With --overlay: draw every N-th frame only")
         ->check(CLI::Range(1, 1000000))
         ->capture_default_str()
         ->needs(overlay);
@@ -89,11 +104,11 @@ void addRunOptions(CLI::App& app, OdometryOptions& o)
     app.add_option("--count", o.count, "Stop after so many frames")
         ->check(CLI::PositiveNumber)
         ->group("Run");
-    app.add_option("--jobs", o.jobs, "1: one thread; more: read, estimate and write in parallel")
+    app.add_option("--jobs", o.jobs, "1 = one thread; more = read, estimate and write in parallel")
         ->check(CLI::Range(1, 64))
         ->capture_default_str()
         ->group("Run");
-    app.add_flag("--profile", o.profile, "Tell the mean time of each stage")->group("Run");
+    app.add_flag("--profile", o.profile, "Print the mean time of each stage")->group("Run");
     app.add_flag("--quiet", o.quiet, "Show no progress")->group("Run");
 }
 

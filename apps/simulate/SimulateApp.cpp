@@ -36,7 +36,7 @@ struct Arguments
 
 std::string sceneHelp()
 {
-    std::string out = "what is seen:";
+    std::string out = "What is seen:";
     for (const SceneInfo& info : sceneList())
     {
         out += "\n  " + info.name + ": " + info.description;
@@ -54,44 +54,49 @@ void addListSettings(CLI::App& app)
             SimulationParams defaults;
             throw CLI::CallForVersion(iniText(parametersOf(kSection, defaults)), 0);
         },
-        "print the keys of --set with their defaults");
+        "Print the keys of --set with their defaults");
 }
 
 void addOptions(CLI::App& app, Arguments& args)
 {
     app.add_option("scene", args.scene, sceneHelp())->required();
-    app.add_option("-o,--output", args.output.path, "rawlog to write")->required();
-    app.add_option("--seed", args.seed, "of motion and noise")->capture_default_str();
-    app.add_option("--duration", args.duration, "[s] (default: 18)");
-    app.add_option("--fps", args.fps, "frames a second (default: 30)");
-    app.add_option("--size", args.size, "of the images, e.g. 320x240 (default: the camera's)");
+    app.add_option("-o,--output", args.output.path, "Rawlog to write")->required();
+    app.add_option(
+           "--seed", args.seed, "Seed of motion and noise: the same seed gives the same bytes")
+        ->capture_default_str();
+    app.add_option("--duration", args.duration, "Length [s] (default: 18)");
+    app.add_option("--fps", args.fps, "Frames a second (default: 30)");
+    app.add_option("--size", args.size, "Size of the images, e.g. 320x240 (default: the camera's)");
     app.add_option(
            "--camera",
            args.camera,
-           "kinect, d435 (active stereo), azure (time of flight) or phone (LiDAR): resolution, "
-           "field "
-           "of view, depth noise, shutters")
+           "kinect, d435 (active stereo), azure (time of flight) or phone (LiDAR); each has its "
+           "resolution, field of view, depth noise and shutters")
         ->check(CLI::IsMember({"kinect", "d435", "azure", "phone"}))
         ->capture_default_str();
-    app.add_flag("--ideal", args.ideal, "no noise, gaps, blur or shutter effects");
-    app.add_option("--set", args.settings, "key=value, any number of times (--list-settings)")
+    app.add_flag("--ideal", args.ideal, "Without noise, gaps, blur and shutter effects");
+    app.add_option(
+           "--set",
+           args.settings,
+           "Set a property of the camera, key=value; repeatable (--list-settings)")
         ->expected(1)
         ->take_all();
-    app.add_option("--label", args.output.label, "sensor label")->capture_default_str();
-    app.add_flag("--external", args.output.external, "images as files beside the rawlog");
+    app.add_option("--label", args.output.label, "Label of the camera in the rawlog")
+        ->capture_default_str();
+    app.add_flag("--external", args.output.external, "Put the images into files beside the rawlog");
     app.add_flag(
-        "--hide-shutter", args.output.hideShutter, "do not tell the rows' times in the rawlog");
+        "--hide-shutter", args.output.hideShutter, "Leave the shutter's times out of the rawlog");
     app.add_flag(
         "--masks",
         args.output.masks,
-        "a picture a frame of what moves, in NAME_Masks: 0 = the still world, 1, 2, ... = movers");
+        "Write pictures of what moves into NAME_Masks: 0 = the still world, 1, 2, ... = movers");
     app.add_option(
            "--truth-frame",
            args.output.truthFrame,
-           "Whose pose the ground truth is: optical (camera) or robot")
+           "Whose poses the ground truth holds: optical (the camera's) or robot")
         ->check(CLI::IsMember({"optical", "robot"}))
         ->capture_default_str();
-    app.add_flag("--quiet", args.output.quiet, "no progress");
+    app.add_flag("--quiet", args.output.quiet, "Show no progress");
     app.set_version_flag("--version", POINTPLANE_VERSION);
 }
 

@@ -346,7 +346,7 @@ void Aligner::judge(Alignment& alignment) const
     std::ostringstream reason;
     if (matches < minMatches())
     {
-        reason << matches << " point and plane matches";
+        reason << "too few points and planes are found again: " << matches;
     }
     else if (!fuses_)
     {
@@ -354,20 +354,21 @@ void Aligner::judge(Alignment& alignment) const
         alignment.holds = sigma <= params_.gateSigma;
         if (!alignment.holds)
         {
-            reason << "largest standard deviation " << sigma << " is above the gate";
+            reason << "the pose is too uncertain: its largest standard deviation " << sigma
+                   << " is above gateSigma";
         }
     }
     else if (alignment.observableDirections == 0)
     {
-        reason << "no direction is measured better than it is predicted";
+        reason << "points and planes tell no direction better than the prediction does";
     }
     else
     {
         alignment.holds = true;
         if (alignment.observableDirections < 6)
         {
-            reason << alignment.observableDirections
-                   << " of 6 directions measured, the others predicted";
+            reason << "only " << alignment.observableDirections
+                   << " of 6 directions are measured, the others are predicted";
         }
     }
     alignment.reason = reason.str();
@@ -439,23 +440,22 @@ void Aligner::contradict(const Scene& scene, Alignment& alignment) const
     const double farOff = surprise(alignment.estimate, scene.predicted.pose);
     if (alignment.agreement.seen() > 0 && agreement < params_.leastAgreement)
     {
-        reason << "the depth image contradicts the motion of " << alignment.numMatches()
-               << " point and plane matches: it shows " << std::lround(100 * agreement)
-               << " % of the surfaces that should be in view";
+        reason << "the depth image shows only " << std::lround(100 * agreement)
+               << " % of the surfaces where the motion of " << alignment.numMatches()
+               << " points and planes puts them";
     }
     else if (farOff > kMostSurprise && !isConvincing(scene, alignment))
     {
         reason << "the motion is " << std::lround(farOff)
-               << " standard deviations from the predicted one, and too little speaks for it";
+               << " standard deviations from the predicted one, and too little confirms it";
     }
     else if (
         isUncertain(scene.predicted.pose.cov) && alignment.numSought >= kHandful &&
         alignment.estimate.numPointInliers < kFewPoints && agreement <= kConvincingTogether)
     {
-        reason << "of " << alignment.numSought << " points that should be in view "
-               << scene.predicted.dt << " s after the previous measured frame, "
-               << alignment.estimate.numPointInliers << " agree with the motion of "
-               << alignment.problem.planes.size() << " plane matches";
+        reason << "only " << alignment.estimate.numPointInliers << " of " << alignment.numSought
+               << " points in view agree with the motion of " << alignment.problem.planes.size()
+               << " planes, " << scene.predicted.dt << " s after the previous measured frame";
     }
     if (!reason.str().empty())
     {

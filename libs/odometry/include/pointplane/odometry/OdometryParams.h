@@ -33,40 +33,39 @@ struct PipelineParams
     template <class V>
     void visit(V&& v)
     {
-        v("usePoints", usePoints, "-", "points contribute");
-        v("usePlanes", usePlanes, "-", "planes contribute");
+        v("usePoints", usePoints, "-", "use points");
+        v("usePlanes", usePlanes, "-", "use planes");
         v("searchAround",
           searchAround,
           "-",
-          "prediction (a point is looked for where the camera's latest motion would put it) or "
-          "previous (where it was in the frame before, as in the paper)");
+          "where a point is searched for: prediction (where the camera's latest motion "
+          "would put it) or previous (where it was in the frame before, as in the paper)");
         v("degeneracy",
           degeneracy,
           "-",
-          "what becomes of a frame that does not tell all directions, like one of a single wall: "
-          "fuse (the predicted motion tells the others) or gate (the whole frame is predicted, as "
-          "in "
-          "the paper)");
+          "what to do if a frame does not tell all six directions, like one of a single "
+          "wall: fuse (the predicted motion tells the others) or gate (the whole frame is "
+          "predicted, as in the paper)");
         v("gateSigma",
           gateSigma,
           "m, rad",
-          "with degeneracy = gate: a frame whose pose is less certain than this in any direction "
-          "(standard deviation) is predicted");
+          "with degeneracy = gate: a frame is predicted if the standard deviation of its "
+          "pose is larger than this in any direction");
         v("leastAgreement",
           leastAgreement,
           "-",
-          "part of the surfaces in view that the depth image must show where the motion puts them; "
-          "frames that show less are predicted instead; 0 = not compared");
+          "fraction of the surfaces in view that the depth image must show where the "
+          "motion puts them; if it shows less, the frame is predicted; 0 = no check");
         v("searchImages",
           searchImages,
           "-",
-          "where the predicted motion leads nowhere, key points of the whole image tell another "
-          "one, and known places are found again");
+          "if the predicted motion fails, find another one from key points of the whole "
+          "image, and recognise known places");
         v("maxGap",
           maxGap,
           "s",
-          "after a longer gap between frames nothing is known of the velocity");
-        v("numThreads", numThreads, "-", "1, or 2: points and planes side by side");
+          "after a longer gap between frames, the velocity counts as unknown");
+        v("numThreads", numThreads, "-", "1, or 2 = points and planes side by side");
     }
     /** \throws std::invalid_argument naming the key */
     void check() const;

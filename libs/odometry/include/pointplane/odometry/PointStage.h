@@ -35,8 +35,8 @@ class PointStage
             v("method",
               method,
               "-",
-              "track (corners searched from the predicted position) or match (detector and "
-              "descriptor)");
+              "track (corners, searched for around the predicted position) or match (key "
+              "points, by their descriptors)");
         }
         void check() const;
         [[nodiscard]] bool tracks() const;  //!< or matches

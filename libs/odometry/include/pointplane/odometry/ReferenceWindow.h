@@ -29,22 +29,25 @@ class ReferenceWindow
             v("reference",
               reference,
               "-",
-              "what a frame is compared with: keyframes (a few earlier frames that are kept, which "
-              "drifts least), previous (the latest frame that was tracked) or adjacent (the frame "
-              "before, tracked or not, as in the paper)");
-            v("maxKeyframes", maxKeyframes, "-", "that are kept; the oldest is dropped");
-            v("keyframeDistance", keyframeDistance, "m", "new key frame after this translation");
+              "what a frame is compared with: keyframes (the latest tracked frame and a few "
+              "earlier ones, which drifts least), previous (the latest tracked frame) or "
+              "adjacent (the frame before, tracked or not, as in the paper)");
+            v("maxKeyframes", maxKeyframes, "-", "number of key frames; the oldest is dropped");
+            v("keyframeDistance",
+              keyframeDistance,
+              "m",
+              "a frame becomes a key frame after this translation");
             v("keyframeAngleDeg", keyframeAngleDeg, "deg", "or after this rotation");
             v("keyframeMinOverlap",
               keyframeMinOverlap,
               "-",
-              "or when less than this fraction of the newest one's points or planes is found "
-              "again");
+              "or when less than this fraction of the newest key frame's points or planes is "
+              "found again");
             v("maxPlaces",
               maxPlaces,
               "-",
-              "older key frames, apart from each other, in which a camera that was lost can find "
-              "itself again; about 2 MB each at 640 x 480");
+              "number of older key frames, apart from each other, in which a lost camera can "
+              "find itself again; about 2 MB each at 640 x 480");
         }
         void check() const;
         [[nodiscard]] bool isFrameToFrame() const;  //!< or against key frames

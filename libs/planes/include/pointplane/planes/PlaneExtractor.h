@@ -36,33 +36,44 @@ class PlaneExtractor
         void visit(V&& v)
         {
             v("cellSizePx", cellSizePx, "px", "side of the square cells that are clustered");
-            v("minValidFraction", minValidFraction, "-", "of a cell's pixels that must have depth");
+            v("minValidFraction",
+              minValidFraction,
+              "-",
+              "least fraction of a cell's pixels with depth");
             v("minPlaneFraction",
               minPlaneFraction,
               "-",
               "smallest plane, as a fraction of the image");
-            v("cellSigmas", cellSigmas, "-", "largest rms residual inside a cell, in sigmas");
-            v("mergeSigmas", mergeSigmas, "-", "largest rms residual of a plane, in sigmas");
-            v("stepSigmas", stepSigmas, "-", "largest rms step that a merge may bridge, in sigmas");
-            v("slopePx", slopePx, "px", "lateral noise: widens the tolerance of slanted planes");
+            v("cellSigmas",
+              cellSigmas,
+              "-",
+              "largest rms residual of a cell, in sigmas of the depth noise");
+            v("mergeSigmas", mergeSigmas, "-", "largest rms residual of a plane, likewise");
+            v("stepSigmas",
+              stepSigmas,
+              "-",
+              "largest rms step between two parts that are merged, likewise");
+            v("slopePx",
+              slopePx,
+              "px",
+              "lateral noise of depth: slanted planes are allowed larger residuals");
             v("mergeCoplanarPlanes",
               mergeCoplanarPlanes,
               "-",
-              "join parts of one plane that are not adjacent");
+              "join parts of one plane that do not touch");
             v("ransac",
               ransac,
               "-",
-              "filter each plane's pixels by RANSAC before the fit (the paper)");
+              "filter each plane's pixels by RANSAC before the fit (as in the paper)");
             v("fitWeights",
               fitWeights,
               "-",
-              "inverseDepth (constant noise in 1/Z) or sigmaZ (the paper's w = sigma_Z^-2, in mm)");
+              "weights of the fit: inverseDepth (noise is constant in 1/Z) or sigmaZ (the "
+              "paper's w = sigma_Z^-2, in mm)");
             v("correlatedPixels",
               correlatedPixels,
               "px",
-              "pixels whose depth errors act as one: the plane's covariance is this many times "
-              "that of "
-              "independent pixels");
+              "number of pixels that err as one: factor on a plane's covariance");
         }
         void check() const;
     };

@@ -32,9 +32,15 @@ class PlaneMatcher
         template <class V>
         void visit(V&& v)
         {
-            v("minOverlap", minOverlap, "-", "common pixels over those of the smaller segment");
-            v("maxNormalAngleDeg", maxNormalAngleDeg, "deg", "between the normals");
-            v("maxDistance", maxDistance, "m", "between the distances |d - d'|");
+            v("minOverlap",
+              minOverlap,
+              "-",
+              "least overlap: common pixels, as a fraction of the smaller segment");
+            v("maxNormalAngleDeg", maxNormalAngleDeg, "deg", "largest angle between the normals");
+            v("maxDistance",
+              maxDistance,
+              "m",
+              "largest difference of the planes' distances d from the camera");
         }
         void check() const;
     };

@@ -41,17 +41,18 @@ class PointDetector
             v("detector",
               detector,
               "-",
-              "surf, orb, akaze, sift, or fast (FAST corners, ORB descriptor)");
-            v("maxPoints", maxPoints, "-", "key points per image, spread evenly");
+              "surf, orb, akaze, sift, or fast (FAST corners with ORB descriptors)");
+            v("maxPoints", maxPoints, "-", "most key points of an image, spread evenly");
             v("gridCellPx",
               gridCellPx,
               "px",
-              "cells from which the strongest points are taken in turn");
-            v("surfThreshold", surfThreshold, "-", "least determinant of the Hessian");
+              "side of the cells from which the strongest points are taken in turn");
+            v("surfThreshold", surfThreshold, "-", "surf: least determinant of the Hessian");
             v("upright",
               upright,
               "-",
-              "surf: no orientation; for less than 15 deg of roll per frame");
+              "surf: no orientation; for cameras that roll less than 15 deg from frame to "
+              "frame");
             v("fastThreshold", fastThreshold, "grey", "fast, orb: least contrast of a corner");
             v("akazeThreshold", akazeThreshold, "-", "akaze: least response");
             v("siftThreshold", siftThreshold, "-", "sift: least contrast");

@@ -36,14 +36,22 @@ class PointLifter
         template <class V>
         void visit(V&& v)
         {
-            v("depthModel", depthModel, "-", "nearest (the paper), or mixture of the 3x3 pixels");
+            v("depthModel",
+              depthModel,
+              "-",
+              "depth of a point: nearest (one reading, as in the paper) or mixture (of the "
+              "3x3 readings around it)");
             v("maxEdgeSigmas",
               maxEdgeSigmas,
               "-",
-              "drop points whose 3x3 depths spread more than this many sigma_Z; 0 = never");
-            v("minValidPixels", minValidPixels, "-", "least number of the 3x3 pixels with depth");
-            v("minDepth", minDepth, "m", "nearer readings are taken for errors");
-            v("maxDepth", maxDepth, "m", "farther readings are taken for errors");
+              "a point is dropped if its 3x3 readings spread by more than this many sigma_Z; "
+              "0 = never");
+            v("minValidPixels",
+              minValidPixels,
+              "-",
+              "a point is dropped if fewer of its 3x3 pixels have depth");
+            v("minDepth", minDepth, "m", "nearer readings count as errors");
+            v("maxDepth", maxDepth, "m", "farther readings count as errors");
         }
         /** \throws std::invalid_argument naming the key */
         void check() const;

@@ -34,17 +34,24 @@ class PointMatcher
         template <class V>
         void visit(V&& v)
         {
-            v("searchRadiusPx", searchRadiusPx, "px", "circle around the expected position");
+            v("searchRadiusPx",
+              searchRadiusPx,
+              "px",
+              "radius of the circle around the expected position");
             v("neighbours",
               neighbours,
               "-",
-              "so many nearest descriptors of the image are looked for in the circle (the paper's "
-              "k-NN); 0 = all that are in it");
+              "k > 0: of a descriptor's k nearest in the whole image, those in the circle are "
+              "candidates (the paper's k-NN); 0: all in the circle are");
             v("maxRatio",
               maxRatio,
               "-",
-              "of the nearest to the second nearest descriptor; 1 = any");
-            v("crossCheck", crossCheck, "-", "only pairs that are nearest to each other");
+              "largest distance to the nearest descriptor, as a fraction of that to the "
+              "second nearest; 1 = any");
+            v("crossCheck",
+              crossCheck,
+              "-",
+              "keep only pairs in which each is nearest to the other");
         }
         /** \throws std::invalid_argument naming the key */
         void check() const;

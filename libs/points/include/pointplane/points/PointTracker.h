@@ -68,29 +68,41 @@ class PointTracker
         template <class V>
         void visit(V&& v)
         {
-            v("maxPoints", maxPoints, "-", "corners of a reference frame");
+            v("maxPoints", maxPoints, "-", "most corners of a reference frame");
             v("minPoints",
               minPoints,
               "-",
-              "where there are fewer corners, points on edges are added, which tell one direction");
-            v("minSpacingFraction", minSpacingFraction, "-", "between corners, of the image width");
-            v("cornerQuality", cornerQuality, "-", "weakest corner relative to the strongest");
+              "if there are fewer corners, points on edges are added, which tell one "
+              "direction");
+            v("minSpacingFraction",
+              minSpacingFraction,
+              "-",
+              "least distance between corners, as a fraction of the image's width");
+            v("cornerQuality",
+              cornerQuality,
+              "-",
+              "weakest corner, as a fraction of the strongest");
             v("maxNoisePx",
               maxNoisePx,
               "px",
-              "directions in which the image's noise moves a point by more count as not measured");
+              "a direction counts as not measured if the image's noise moves a point by more "
+              "than this");
             v("windowPx", windowPx, "px", "side of the patch that is searched for");
-            v("numLevels", numLevels, "-", "pyramid levels");
+            v("numLevels", numLevels, "-", "levels of the image pyramid");
             v("searchRadiusFraction",
               searchRadiusFraction,
               "-",
-              "around the predicted position, of the image width");
-            v("minZncc", minZncc, "-", "least zero-mean normalised cross-correlation of a match");
+              "search radius around the predicted position, as a fraction of the image's "
+              "width");
+            v("minZncc",
+              minZncc,
+              "-",
+              "least similarity of a match (zero-mean normalised cross-correlation)");
             v("sigmaPx", sigmaPx, "px", "noise of a tracked position");
             v("depthVarianceFactor",
               depthVarianceFactor,
               "-",
-              "variance of a corner's inverse depth over the sensor's: depth is worse at texture");
+              "factor on the variance of a corner's inverse depth: depth is worse at texture");
         }
         void check() const;
     };

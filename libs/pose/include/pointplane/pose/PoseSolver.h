@@ -82,7 +82,8 @@ class PoseSolver
             v("weighting",
               weighting,
               "-",
-              "full (inverse covariance), diagonal (the paper's w = 1/diag), or none");
+              "of residuals: full (inverse covariance), diagonal (the paper's w = 1/diag) or "
+              "none");
             v("planeResidual",
               planeResidual,
               "-",
@@ -90,24 +91,25 @@ class PoseSolver
             v("covariance",
               covariance,
               "-",
-              "of the pose: sandwich (H^-1 M H^-1: weights need not be true) or hessian (the "
+              "of the pose: sandwich (H^-1 M H^-1, right for any weights) or hessian (the "
               "paper's H^-1)");
             v("alpha", alpha, "-", "weight of the planes; 0 = points only");
             v("tukeySigmas",
               tukeySigmas,
               "-",
-              "points farther than this many robust sigmas have no weight; 0 = no M-estimator");
+              "points farther off than this many robust sigmas have no weight; 0 = all have "
+              "full weight");
             v("planeStudentDof",
               planeStudentDof,
               "-",
-              "degrees of freedom of Student's t for planes; small = robust, 0 = Gaussian (the "
-              "paper)");
+              "degrees of freedom of Student's t for planes: small = robust, 0 = Gaussian (as "
+              "in the paper)");
             v("priorStudentDof",
               priorStudentDof,
               "-",
               "degrees of freedom of Student's t for the predicted pose: small = quick to believe "
               "a jerk, 0 = Gaussian");
-            v("maxIterations", maxIterations, "-", "Levenberg-Marquardt iterations");
+            v("maxIterations", maxIterations, "-", "most iterations of Levenberg-Marquardt");
         }
         void check() const;
     };

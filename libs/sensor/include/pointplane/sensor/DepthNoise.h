@@ -75,20 +75,19 @@ struct DepthNoise
         v("kind",
           kind,
           "-",
-          "how the depth camera errs: learn (found out from the images), the kind of camera where "
-          "it "
-          "is known (structuredLight, activeStereo, timeOfFlight, rendered; how much is learnt), "
-          "or "
-          "given (as the next three say)");
+          "how the depth camera errs: learn (from its images); structuredLight, "
+          "activeStereo, timeOfFlight or rendered (if you know it; noise of activeStereo "
+          "and timeOfFlight is learnt); given (by the next three keys)");
         v("sigmaInverseDepth",
           sigmaInverseDepth,
           "1/m",
-          "noise of structured light's inverse depth; Khoshelham's sigma_Z = this * Z^2");
-        v("sigmaDepth", sigmaDepth, "m", "given: noise that does not depend on the depth");
+          "noise of the inverse depth where it is not learnt: sigma_Z = this * Z^2 "
+          "(default: Khoshelham's for a Kinect)");
+        v("sigmaDepth", sigmaDepth, "m", "if given: noise that is the same at all depths");
         v("sigmaRelative",
           sigmaRelative,
           "-",
-          "given: smooth error that bends surfaces, over the depth");
+          "if given: smooth error that bends surfaces, as a fraction of the depth");
         v("sigmaPixelPx", sigmaPixelPx, "px", "noise of a key point's position");
     }
     void check() const;

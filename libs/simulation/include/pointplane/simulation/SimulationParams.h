@@ -63,61 +63,87 @@ struct SimulationParams
     template <class V>
     void visit(V&& v)
     {
-        v("width", width, "px", "of the images");
-        v("height", height, "px", "of the images");
-        v("focalLengthPx", focalLengthPx, "px", "of an image 640 px wide");
+        v("width", width, "px", "width of the images");
+        v("height", height, "px", "height of the images");
+        v("focalLengthPx", focalLengthPx, "px", "focal length of an image 640 px wide");
         v("fps", fps, "1/s", "frames a second");
-        v("duration", duration, "s", "of the sequence");
-        v("startStamp", startStamp, "s", "UTC of the first frame");
-        v("motionScale", motionScale, "-", "multiplies the hand's motion");
-        v("motionSpeed", motionSpeed, "-", "how much faster the camera goes along the same path");
+        v("duration", duration, "s", "length of the sequence");
+        v("startStamp", startStamp, "s", "time of the first frame, UTC");
+        v("motionScale", motionScale, "-", "factor on the hand's motion; 0 = none");
+        v("motionSpeed",
+          motionSpeed,
+          "-",
+          "factor on the speed along the same path; 0 = the camera stands still");
         v("movers", movers, "-", "false: the same scene without what moves in it");
         v("sceneSeed", sceneSeed, "-", "chooses textures and small objects");
 
-        v("readoutColour", readoutColour, "s", "first to last row of the colour image");
-        v("readoutDepth", readoutDepth, "s", "first to last row of the depth image");
-        v("depthDelay", depthDelay, "s", "middle of the depth exposure minus colour's");
-        v("exposure", exposure, "s", "of a colour row: motion blur; 0 = none");
-        v("maxBlurSamples", maxBlurSamples, "-", "pictures averaged for motion blur, at most");
+        v("readoutColour",
+          readoutColour,
+          "s",
+          "time from the first to the last row of the colour image");
+        v("readoutDepth", readoutDepth, "s", "the same of the depth image");
+        v("depthDelay",
+          depthDelay,
+          "s",
+          "time from the middle of the colour exposure to that of the depth exposure");
+        v("exposure", exposure, "s", "exposure of a colour row, which blurs motion; 0 = no blur");
+        v("maxBlurSamples", maxBlurSamples, "-", "most pictures that are averaged for motion blur");
 
-        v("antialias", antialias, "-", "pixels at edges of surfaces are averages");
+        v("antialias", antialias, "-", "pixels at edges of surfaces are averages of both sides");
         v("lensBlurPx", lensBlurPx, "px", "standard deviation of the lens's blur");
         v("imageNoise", imageNoise, "1/255", "standard deviation of colour noise at mid grey");
         v("light",
           light,
           "-",
-          "share of the light that the gain makes up for: shot noise grows by its root, read-out "
-          "noise by itself");
-        v("vignetting", vignetting, "-", "loss of brightness in the corners");
+          "brightness of the scene, 1 = full; a gain makes up for less, so read-out noise "
+          "grows by 1/light and shot noise by its root");
+        v("vignetting", vignetting, "-", "how much darker the image's corners are than its centre");
         v("exposureSwing", exposureSwing, "-", "amplitude of slow changes of brightness");
 
-        v("sigmaInverseDepth", sigmaInverseDepth, "1/m", "noise of 1/Z, quantisation included");
-        v("disparityStepPx", disparityStepPx, "px", "disparities are multiples of it; 0 = none");
-        v("disparityPxMetre", disparityPxMetre, "px m", "focal length x baseline: disparity x Z");
-        v("noiseWindowPx", noiseWindowPx, "px", "window over which disparity noise is correlated");
+        v("sigmaInverseDepth", sigmaInverseDepth, "1/m", "noise of 1/Z, rounding included");
+        v("disparityStepPx",
+          disparityStepPx,
+          "px",
+          "disparities are rounded to multiples of this; 0 = not rounded");
+        v("disparityPxMetre",
+          disparityPxMetre,
+          "px m",
+          "disparity times Z: focal length times baseline");
+        v("noiseWindowPx",
+          noiseWindowPx,
+          "px",
+          "side of the window over which disparity noise is correlated");
         v("calibrationSigma",
           calibrationSigma,
           "1/m",
-          "error of 1/Z, smooth over the image and the same in every frame");
-        v("sigmaDepth", sigmaDepth, "m", "noise of Z that does not depend on it");
+          "error of 1/Z that is smooth over the image and the same in every frame");
+        v("sigmaDepth", sigmaDepth, "m", "noise of Z that is the same at all depths");
         v("sigmaRelative",
           sigmaRelative,
           "-",
-          "error of Z over Z that bends surfaces smoothly, new in every frame");
-        v("bendGridPx", bendGridPx, "px", "over which surfaces are bent");
+          "error that bends surfaces smoothly, as a fraction of Z; new in every frame");
+        v("bendGridPx", bendGridPx, "px", "distance over which surfaces are bent");
         v("upsampling",
           upsampling,
           "-",
-          "pixels per measured one, along each side: sigmaDepth is interpolated between them");
-        v("lateralSigmaPx", lateralSigmaPx, "px", "from which neighbour a pixel gets its depth");
-        v("edgeLossPx", edgeLossPx, "px", "no depth this near to depth edges; 0 = all kept");
+          "pixels per measured pixel, along each side; sigmaDepth is interpolated between "
+          "measured ones");
+        v("lateralSigmaPx",
+          lateralSigmaPx,
+          "px",
+          "how far from a pixel its depth is measured (standard deviation)");
+        v("edgeLossPx", edgeLossPx, "px", "no depth this near to depth edges; 0 = none is lost");
         v("shadowBaseline",
           shadowBaseline,
           "m",
-          "from camera to infrared projector: no depth in its shadow; 0 = none");
-        v("maxIncidenceDeg", maxIncidenceDeg, "deg", "no depth on surfaces seen flatter than that");
-        v("minDepth", minDepth, "m", "no depth nearer than that");
-        v("maxDepth", maxDepth, "m", "no depth farther than that");
+          "distance from camera to infrared projector, in whose shadow is no depth; 0 = "
+          "no shadow");
+        v("maxIncidenceDeg",
+          maxIncidenceDeg,
+          "deg",
+          "no depth on surfaces that are seen flatter than this");
+        v("minDepth", minDepth, "m", "no depth nearer than this");
+        v("maxDepth", maxDepth, "m", "no depth farther than this");
     }
 
     /** \throws std::invalid_argument naming the key */

@@ -39,42 +39,45 @@ class JointCovariance
             v("model",
               model,
               "-",
-              "joint (with the errors of the references) or independent (each increment as the "
-              "solver has it, as in the paper)");
+              "joint (frames that are compared with the same references err together) or "
+              "independent (each increment by itself, as in the paper)");
             v("noise",
               noise,
               "-",
-              "variance of a frame's own points and planes over what is learnt of it (1 = as "
-              "learnt)");
+              "factor on the variance of a frame's own points and planes (1 = as learnt)");
             v("driftSigma",
               driftSigma,
               "-",
-              "how far all that a reference frame tells errs together once the camera has moved by "
-              "one view (0.15 m, a turn of 2 rad, or 1 s): standard deviation over the distance of "
-              "the scene");
+              "error that all features of a reference share once the camera has moved by one "
+              "view (0.15 m, a turn of 2 rad, or 1 s): standard deviation as a fraction of "
+              "the scene's distance");
             v("motion",
               motion,
               "-",
-              "variance of how the motion changes, over what the solver is told of it, which is to "
-              "believe a jerk");
+              "factor on the variance of how the motion changes; small, because the solver is "
+              "told of more, so that it believes jerks");
             v("vignetting",
               vignetting,
               "-",
-              "standard deviation of what the image's corners are darker than its centre; where "
-              "shading tells the motion, it looks like one");
+              "how much darker the image's corners are than its centre (standard deviation); "
+              "where shading tells the motion, it looks like motion");
             v("principalPoint",
               principalPoint,
               "px",
-              "standard deviation of the camera's cx and cy: how well it is calibrated");
+              "how well the camera is calibrated: standard deviation of cx and cy");
             v("focalLength",
               focalLength,
               "-",
-              "standard deviation of the camera's fx and fy together, over them");
+              "the same of fx and fy together, as a fraction of them");
             v("depthScale",
               depthScale,
               "-",
-              "standard deviation of all depths together, over them");
-            v("history", history, "frames", "how far back motions are told with their covariances");
+              "standard deviation of the scale of all depths, as a fraction");
+            v("history",
+              history,
+              "frames",
+              "how many frames back the motion is known with its own covariance (--since "
+              "raises it)");
         }
         /** \throws std::invalid_argument naming the key */
         void check() const;

@@ -27,18 +27,27 @@ class MotionModel
         template <class V>
         void visit(V&& v)
         {
-            v("decay", decay, "-", "of the velocity kept over 1/30 s when a frame is not measured");
+            v("decay",
+              decay,
+              "-",
+              "fraction of the velocity that is kept over 1/30 s when a frame is not measured");
             v("velocityRandomWalk",
               velocityRandomWalk,
               "m/s/sqrt(s)",
-              "least change of velocity, per axis; above it, the model follows the motion");
+              "least change of the velocity, per axis; more is learnt from the motion");
             v("angularVelocityRandomWalk",
               angularVelocityRandomWalk,
               "rad/s/sqrt(s)",
-              "least change of angular velocity, per axis");
-            v("timeConstant", timeConstant, "s", "over which the model follows the motion");
-            v("sigmaAcceleration", sigmaAcceleration, "m/s^2", "of a jerk that was not foreseen");
-            v("sigmaAngularAcceleration", sigmaAngularAcceleration, "rad/s^2", "likewise");
+              "the same of the angular velocity");
+            v("timeConstant", timeConstant, "s", "time over which the change is learnt");
+            v("sigmaAcceleration",
+              sigmaAcceleration,
+              "m/s^2",
+              "acceleration of a jerk that was not foreseen (standard deviation)");
+            v("sigmaAngularAcceleration",
+              sigmaAngularAcceleration,
+              "rad/s^2",
+              "the same of the rotation");
         }
         void check() const;
     };

@@ -30,14 +30,14 @@ class NoiseScale
             v("adaptive",
               adaptive,
               "-",
-              "the variance of points and planes follows that of their residuals");
-            v("timeConstant", timeConstant, "s", "over which it follows");
+              "learn the variance of points and planes from their residuals");
+            v("timeConstant", timeConstant, "s", "time over which it is learnt");
             v("pointFactor",
               pointFactor,
               "-",
-              "variance of points over that which the solver weighs against the predicted motion "
-              "with");
-            v("planeFactor", planeFactor, "-", "of planes, likewise");
+              "factor on the variance of points when they are weighed against the predicted "
+              "motion");
+            v("planeFactor", planeFactor, "-", "the same of planes");
         }
         /** \throws std::invalid_argument naming the key */
         void check() const;

@@ -31,29 +31,31 @@ class ShutterCalibrator
             v("correct",
               correct,
               "-",
-              "motion while images are exposed is corrected; false: images are taken for those of "
-              "one instant, whatever the source says (the paper)");
+              "correct for motion while an image is exposed; false: an image counts as one "
+              "instant, whatever the recording says (as in the paper)");
             v("readoutColour",
               readoutColour,
               "s",
-              "first to last row of the colour image, where the source does not say");
-            v("readoutDepth", readoutDepth, "s", "first to last row of the depth image, likewise");
+              "time from the first to the last row of the colour image, if the recording does "
+              "not say");
+            v("readoutDepth", readoutDepth, "s", "the same of the depth image");
             v("depthDelay",
               depthDelay,
               "s",
-              "depth exposure after colour's, in addition to what the source's time stamps say");
+              "time from the exposure of colour to that of depth, on top of what the "
+              "recording's time stamps say");
             v("selfCalibrate",
               selfCalibrate,
               "-",
-              "refine what the source does not say from the camera's own motion");
+              "learn from the camera's motion what the recording does not say");
             v("sigmaPrior",
               sigmaPrior,
               "s",
-              "trust in the three values above when self-calibrating");
+              "how uncertain the three times above are at first (standard deviation)");
             v("varianceFactor",
               varianceFactor,
               "-",
-              "each frame counts as the inverse of this: frames repeat each other's residuals");
+              "so many frames count as one, because frames repeat each other's errors");
         }
         /** \throws std::invalid_argument naming the key */
         void check() const;
