@@ -111,7 +111,7 @@ Disagreement SolutionAnalysis::planeDisagreement(const Matrix12d& cov) const
 
 /** With scores s_g of covariance M_g, the solution leaves each group the gradient
  * g_g = s_g - H_g H^-1 sum(s), whose covariance is
- * M_g - H_g H^-1 M_g - M_g H^-1 H_g + H_g Sigma H_g (docs/theory.md, Noise). */
+ * M_g - H_g H^-1 M_g - M_g H^-1 H_g + H_g Sigma H_g (docs/theory.md, Noise of features). */
 Disagreement SolutionAnalysis::disagreementOf(const Groups& groups, const Matrix12d& cov) const
 {
     Disagreement out;

@@ -206,7 +206,6 @@ Eigen::Index JointCovariance::newest() const
 }
 
 /** First row of the first such block. */
-/** First row of the first such block. */
 Eigen::Index JointCovariance::find(Kind kind, int frame) const
 {
     Eigen::Index row = 0;

@@ -10,7 +10,7 @@
 
 namespace pointplane
 {
-/** First in, first out, between threads, never longer than its capacity. */
+/** Queue between threads, first in, first out, that never holds more than `capacity` items. */
 template <class T>
 class BoundedQueue
 {

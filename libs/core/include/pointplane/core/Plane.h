@@ -13,11 +13,13 @@ struct Plane
     double d{1};                  //!< signed distance of the origin [m]
 };
 
-/** Minimal form theta_m = n / d [1/m] [P17, after Eq. 2]: theta_m . P + 1 = 0 on the plane; its
- * negative dotted with a ray (x, y, 1) is the inverse depth. Undefined for d = 0. */
+/** Minimal form theta_m = n / d [1/m] [P17, after Eq. 2]. On the plane, theta_m . P + 1 = 0. The
+ * inverse depth along a ray (x, y, 1) is -theta_m . ray.
+ * \throws std::invalid_argument if d = 0 */
 [[nodiscard]] Eigen::Vector3d minimalForm(const Plane& plane);
 
-/** Hessian form from theta_m [P17 Eq. 6], with d = 1 / |theta_m| > 0. */
+/** Hessian form from theta_m [P17 Eq. 6], with d = 1 / |theta_m| > 0.
+ * \throws std::invalid_argument if theta_m = 0, the plane at infinity */
 [[nodiscard]] Plane hessianForm(const Eigen::Vector3d& theta_m);
 
 /** 4x3 Jacobian of (n, d) with respect to theta_m [P17, after Eq. 6]. */

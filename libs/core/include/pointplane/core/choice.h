@@ -8,7 +8,8 @@
 
 namespace pointplane
 {
-/** The enumerator that a parameter's word stands for.
+/** Turns the word of a parameter into its enumerator.
+ * \param key name of the parameter, for the message
  * \throws std::invalid_argument naming the key and the words that it may have */
 template <class Enum>
 [[nodiscard]] Enum chosen(

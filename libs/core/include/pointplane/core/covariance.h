@@ -34,7 +34,8 @@ template <class Derived>
     return llt.info() == Eigen::Success;
 }
 
-/** The nearest symmetric matrix whose eigenvalues are at least `floor`; S must be finite. */
+/** The nearest symmetric matrix whose eigenvalues are at least `floor`.
+ * \throws std::invalid_argument if S is not finite */
 template <class Derived>
 [[nodiscard]] typename Derived::PlainObject withEigenvalueFloor(
     const Eigen::MatrixBase<Derived>& S, double floor)
@@ -51,9 +52,9 @@ template <class Derived>
     return 0.5 * (out + out.transpose());
 }
 
-/** Positive definite by a margin that stays when it is copied, transformed or factorised in another
- * order: what is smaller than the 1e-12th part of all eigenvalues drowns in rounding, when nothing
- * is known of other directions. S must be finite. */
+/** S with all eigenvalues raised to at least 1e-14 and 1e-12 of their sum. Smaller ones are lost in
+ * rounding as soon as the matrix is transformed or factorised in another order.
+ * \throws std::invalid_argument if S is not finite */
 template <class Derived>
 [[nodiscard]] typename Derived::PlainObject strictlyPositive(const Eigen::MatrixBase<Derived>& S)
 {

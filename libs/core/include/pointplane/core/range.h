@@ -6,7 +6,7 @@
 namespace pointplane
 {
 /** Throws std::invalid_argument that names the key unless its value lies in [low, high].
- * Every numeric key has such a range where it is checked: what is outside of it means nothing. */
+ * Every numeric key has such a range: the values that make sense. */
 inline void checkRange(const char* key, double value, double low, double high)
 {
     POINTPLANE_CHECK(

@@ -16,7 +16,7 @@ struct ChartSeries
         Steps,
         Dashed,
         Band,   //!< the area between y and yUpper
-        Bars,   //!< of a histogram: bar k from x[k] to x[k + 1]; the last y is of no bar
+        Bars,   //!< a histogram: bar k from x[k] to x[k + 1]; the last y is ignored
         Start,  //!< marks points by a circle
         End     //!< marks points by a square
     };

@@ -7,12 +7,12 @@
 
 namespace pointplane
 {
-/** The table with one line per frame that pointplane-odometry writes (--diagnostics): named columns
- * of numbers, and the tracking status. Columns may come and go; only `stamp` has to be there. */
+/** The table with a line per frame that pointplane-odometry --diagnostics writes: named columns of
+ * numbers, and the tracking status. Only the column `stamp` is required. */
 class FrameTable
 {
  public:
-    /** Throws std::runtime_error naming the file, and the line where one is malformed. */
+    /** \throws std::runtime_error naming the file and, if one is malformed, the line */
     [[nodiscard]] static FrameTable read(const std::string& path);
 
     [[nodiscard]] std::size_t size() const { return stamps_.size(); }

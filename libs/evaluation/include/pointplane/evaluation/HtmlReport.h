@@ -16,7 +16,7 @@ class HtmlReport
     HtmlReport(std::string title, std::string subtitle);
 
     void addParagraph(const std::string& text);
-    /** Text as it is, e.g. a configuration, folded away. */
+    /** Text in its own layout (a configuration, say) that the reader can unfold. */
     void addDetails(const std::string& caption, const std::string& text);
     void addTable(
         const std::string& caption,
@@ -24,7 +24,7 @@ class HtmlReport
         const std::vector<std::vector<std::string>>& rows);
     /** See svgOf(). */
     void addChart(const Chart& chart);
-    /** Embeds a PNG or JPEG file; throws std::runtime_error naming it when it cannot be read. */
+    /** Embeds a PNG or JPEG file. \throws std::runtime_error naming it if it cannot be read */
     void addPicture(const std::string& caption, const std::string& path);
 
     [[nodiscard]] std::string html() const;

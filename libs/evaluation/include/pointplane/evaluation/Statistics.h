@@ -8,7 +8,7 @@
 
 namespace pointplane
 {
-/** The statistics the TUM scripts print, in the unit of the values. */
+/** The statistics that the TUM scripts print, in the unit of the values. */
 struct Statistics
 {
     std::size_t count{0};
@@ -20,19 +20,19 @@ struct Statistics
     double max{0};
 };
 
-/** Exact statistics of values that are never stored: the values are shown twice, in any order.
- * Needs 8 MB whatever their number, so that the 10^8 pairs of 10,000 poses fit in any memory.
+/** Exact statistics of values that are not stored: they are given twice, in any order. It needs 8
+ * MB whatever their number, so the 10^8 pairs of 10,000 poses fit in any memory.
  *
- * The median is a radix selection: the bits of a non-negative double order as the double does, so
- * the first pass counts by the leading bits and the second collects only the values of the one
- * or two bins that hold the middle. */
+ * The median is found by radix selection. The bits of non-negative doubles are ordered as the
+ * doubles are. So the first pass counts values by their leading bits, and the second collects only
+ * those of the one or two bins that hold the middle. */
 class StatisticsAccumulator
 {
  public:
     StatisticsAccumulator();
-    /** First pass. \param value non-negative; NaN and infinity throw std::runtime_error. */
+    /** First pass. \param value non-negative \throws std::runtime_error for NaN and infinity */
     void add(double value);
-    /** Ends the first pass; throws std::runtime_error when there was no value. */
+    /** Ends the first pass. \throws std::runtime_error if there was no value */
     void beginSecondPass();
     /** Second pass: the same values again. */
     void addAgain(double value);
@@ -49,7 +49,8 @@ class StatisticsAccumulator
     double min_{0}, max_{0};
 };
 
-/** Statistics of non-negative values; throws std::runtime_error when empty or not finite. */
+/** Statistics of non-negative values. \throws std::runtime_error if there is none, or one that is
+ * not finite */
 [[nodiscard]] Statistics statisticsOf(const std::vector<double>& values);
 
 /** Statistics with every value multiplied by `factor` (e.g. rad to deg). */

@@ -9,11 +9,11 @@
 
 namespace pointplane
 {
-/** What the odometry said about a frame. */
+/** What the odometry says about a frame. */
 enum class FrameStatus
 {
     Tracked,    //!< measured; also where a file does not mark its frames
-    Predicted,  //!< by the motion model: nothing in the frame was found again
+    Predicted,  //!< by the motion model, because the frame could not be measured
     Lost        //!< the frame could not be used
 };
 
@@ -40,8 +40,8 @@ struct Trajectory
      * perturbation, in the body frame of i-1, i-2, ...), as far back as they were told. */
     std::vector<std::vector<Matrix6d>> sinceCovs;
     std::vector<FrameStatus> status;  //!< empty (all tracked), or one per pose
-    /** The file tells of every frame of the recording whether it was tracked. Lost ones that have
-     * no pose here have a stamp below, or, if their stamp is of no use, are only counted. */
+    /** The file says of every frame of the recording whether it was tracked. Lost frames without a
+     * pose are in lostStamps or, if their stamp is of no use, in lostWithoutTime. */
     bool marksFrames{false};
     std::vector<double> lostStamps;  //!< of lost frames without a pose, in order [s]
     std::size_t lostWithoutTime{0};
@@ -53,9 +53,9 @@ struct Trajectory
     [[nodiscard]] double duration() const { return empty() ? 0 : stamps.back() - stamps.front(); }
 };
 
-/** Sorts by stamp; of equal stamps the last one wins (as in the TUM scripts), but no lost frame
- * over one with a pose, and a warning counts the others. The covariances are kept only if every
- * pose has one. */
+/** Sorts poses by stamp. Of equal stamps the last one wins, as in the TUM scripts, but a lost frame
+ * never wins over a pose; a warning counts the others. Covariances are kept only if every pose has
+ * one. */
 [[nodiscard]] Trajectory makeTrajectory(std::string name, std::vector<StampedPose> poses);
 
 /** Path length from the first pose to each pose [m]. */
@@ -67,12 +67,13 @@ struct Trajectory
 /** Rotation angle of R in [0, pi] [rad], by the arc cosine as the TUM scripts do it. */
 [[nodiscard]] double rotationAngle(const Eigen::Matrix3d& R);
 
-/** Without the poses of lost frames, which nobody measured: they become lostStamps. The motions
- * since earlier frames go, too, as they count all poses. Nothing changes if no frame is lost. */
+/** Removes the poses of lost frames, which nobody measured; their stamps become lostStamps. If
+ * there are any, sinceCovs go, too, because they count all poses. */
 [[nodiscard]] Trajectory withoutLost(Trajectory trajectory);
 
-/** Throws std::runtime_error that names both time ranges when the two do not overlap, or when one
- * of them holds fewer than two poses. \param offset added to the estimate's stamps [s] */
+/** \param offset added to the estimate's stamps [s]
+ * \throws std::runtime_error if the two do not overlap in time (it names both ranges), or if one
+ * has fewer than two poses */
 void checkOverlap(const Trajectory& groundTruth, const Trajectory& estimate, double offset);
 
 /** Median of the intervals between stamps [s]; 0 for fewer than two poses. */

@@ -8,8 +8,9 @@
 
 namespace pointplane
 {
-/** Index of the value nearest to `value` in a sorted, non-empty list, by the bisection of
- * evaluate_rpe.py: of two equally near ones it returns the one the script returns. */
+/** Index of the value nearest to `value` in a sorted list. It bisects as evaluate_rpe.py does, so
+ * of two equally near values it returns the same one. \throws std::invalid_argument if the list is
+ * empty */
 [[nodiscard]] std::size_t nearestIndex(const std::vector<double>& sorted, double value);
 
 /** One-to-one pairs of indices into two sorted lists of stamps, as associate.py: of all pairs with

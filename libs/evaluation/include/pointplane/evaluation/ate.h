@@ -42,8 +42,8 @@ struct AteResult
 };
 
 /** Absolute trajectory error by the protocol of the TUM benchmark's evaluate_ate.py.
- * Throws std::runtime_error when the trajectories do not overlap or fewer than two stamps can be
- * associated. */
+ * \throws std::runtime_error if the trajectories do not overlap, or fewer than two stamps can be
+ * associated */
 [[nodiscard]] AteResult absoluteTrajectoryError(
     const Trajectory& groundTruth, const Trajectory& estimate, const AteOptions& options);
 

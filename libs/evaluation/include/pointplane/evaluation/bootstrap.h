@@ -10,8 +10,8 @@ namespace pointplane
 struct BootstrapOptions
 {
     std::size_t resamples{2000};
-    /** Neighbouring errors of a trajectory are alike, so whole blocks of so many are drawn (moving
-     * block bootstrap, Kuensch 1989); 1 would give intervals that are far too narrow. */
+    /** So many neighbouring errors are drawn together, because they are alike (moving block
+     * bootstrap, Kuensch 1989). With 1, intervals of a trajectory would be far too narrow. */
     std::size_t blockLength{1};
     double confidence{0.95};
     std::uint64_t seed{1};
@@ -25,12 +25,15 @@ struct BootstrapInterval
     [[nodiscard]] bool excludesZero() const { return lower > 0 || upper < 0; }
 };
 
-/** RMSE of `errors` (in time order) with its interval. Needs at least two errors. */
+/** RMSE of `errors` (in time order) with its interval.
+ * \throws std::invalid_argument for fewer than two errors */
 [[nodiscard]] BootstrapInterval bootstrapRmse(
     const std::vector<double>& errors, const BootstrapOptions& options);
 
-/** RMSE(a) - RMSE(b) of two runs whose errors belong together one by one (the same pairs of stamps,
- * in time order): both are resampled alike, so what both have in common cancels. */
+/** RMSE(a) - RMSE(b) of two runs with its interval. Both are resampled alike, so what they have in
+ * common cancels.
+ * \param a, b errors of the same pairs of stamps, in time order
+ * \throws std::invalid_argument for fewer than two errors, or if their numbers differ */
 [[nodiscard]] BootstrapInterval bootstrapRmseDifference(
     const std::vector<double>& a, const std::vector<double>& b, const BootstrapOptions& options);
 }  // namespace pointplane

@@ -18,7 +18,7 @@ struct NeesInterval
     bool sinceStart{false};  //!< all increments from the first pose instead: the poses themselves
 };
 
-/** "1f", "10f", "0.5s", "start"; throws std::invalid_argument for anything else. */
+/** From "1f", "10f", "0.5s" or "start". \throws std::invalid_argument for anything else */
 [[nodiscard]] NeesInterval neesIntervalFromName(const std::string& name);
 [[nodiscard]] std::string nameOf(const NeesInterval& interval);
 
@@ -44,14 +44,16 @@ struct NeesIncrement
     double nees{0};  //!< error^T cov^-1 error; its expectation is 6
 };
 
-/** Covariance of the increment i -> j (left perturbation, in body frame i): the one that was told
- * (Trajectory::sinceCovs) or, for increments that are independent, out of the accumulated poses'
- * covariances. These grow by Sigma_{k+1} = Sigma_k + Ad(T_k) Q_k Ad(T_k)^T (compose()), so that
- * Ad(T_i)^-1 (Sigma_j - Sigma_i) Ad(T_i)^-T holds exactly the increments from i to j. */
+/** Covariance of the increment i -> j (left perturbation, in body frame i) [m, rad].
+ *
+ * It is the one in Trajectory::sinceCovs, if it is there. Else increments count as independent, and
+ * the poses' covariances grow by Sigma_{k+1} = Sigma_k + Ad(T_k) Q_k Ad(T_k)^T (compose()). Then
+ * that of the increments from i to j is Ad(T_i)^-1 (Sigma_j - Sigma_i) Ad(T_i)^-T. */
 [[nodiscard]] Matrix6d incrementCovariance(
     const Trajectory& estimate, std::size_t i, std::size_t j);
 
-/** The covariance of an increment was not told and does not follow from those of the poses. */
+/** The covariance of an increment is not in the file, and does not follow from those of the poses.
+ */
 class UntoldCovariance : public std::runtime_error
 {
  public:
@@ -60,15 +62,15 @@ class UntoldCovariance : public std::runtime_error
 
 /** All increments of the given length that have ground truth at both ends, one per start pose.
  * Ground-truth noise N per pose (in the body frame) adds N + Ad(T_i_j) N Ad(T_i_j)^T.
- * Throws std::runtime_error when the estimate has no covariances or the trajectories do not
- * overlap; UntoldCovariance when a covariance is not positive definite (naming the stamps). */
+ * \throws std::runtime_error if the estimate has no covariances or the trajectories do not overlap
+ * \throws UntoldCovariance naming the stamps, if a covariance is not positive definite */
 [[nodiscard]] std::vector<NeesIncrement> neesIncrements(
     const Trajectory& groundTruth,
     const Trajectory& estimate,
     const NeesInterval& interval,
     const NeesOptions& options);
 
-/** What can be tested of a run. */
+/** What could be tested of a run. */
 struct NeesRun
 {
     struct Tested
@@ -78,20 +80,21 @@ struct NeesRun
     };
     std::vector<Tested> tested;
     std::vector<NeesInterval> untold;  //!< not tested: UntoldCovariance
-    std::string
-        note;  //!< to the user, about untold covariances and what was taken instead, or empty
+    std::string note;  //!< for the user: which covariances are missing and what was tested instead;
+                       //!< or empty
 };
 
-/** The increments of each interval. Where an interval's covariances are not told, the poses since
- * the first one are tested instead, once. Throws as neesIncrements(), but for UntoldCovariance. */
+/** The increments of each interval. If the covariances of an interval are missing, the poses since
+ * the first one are tested instead, once. \throws std::runtime_error as neesIncrements(), but not
+ * UntoldCovariance */
 [[nodiscard]] NeesRun neesRun(
     const Trajectory& groundTruth,
     const Trajectory& estimate,
     const std::vector<NeesInterval>& intervals,
     const NeesOptions& options);
 
-/** Empty when the covariances of all these increments were told; else that they are right only if
- * increments are independent. */
+/** Empty if the covariances of all these increments are in the file; else a note that they are
+ * right only if increments are independent. */
 [[nodiscard]] std::string noteOnUntold(
     const Trajectory& estimate, const std::vector<NeesIncrement>& increments);
 
@@ -117,7 +120,7 @@ struct NeesResult
 {
     NeesInterval interval;
     std::size_t increments{0};
-    /** Of these, how many fit one after the other: the number the bounds are computed with, as
+    /** How many of them fit one after the other. Bounds are computed with this number, because
      * increments that overlap are not independent. */
     std::size_t independent{0};
     ConsistencyTest joint, translation, rotation;
@@ -130,7 +133,7 @@ struct NeesResult
 };
 
 /** Pools the increments of one or more runs. \param independent see NeesResult
- * Throws std::runtime_error when there are fewer than two. */
+ * \throws std::runtime_error if there are fewer than two */
 [[nodiscard]] NeesResult consistencyOf(
     const std::vector<NeesIncrement>& increments,
     std::size_t independent,

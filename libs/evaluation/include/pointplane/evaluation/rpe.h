@@ -20,7 +20,7 @@ enum class DeltaUnit
     Frames
 };
 
-/** `s`, `m`, `rad`, `deg` or `f`; throws std::invalid_argument for anything else. */
+/** From `s`, `m`, `rad`, `deg` or `f`. \throws std::invalid_argument for anything else */
 [[nodiscard]] DeltaUnit deltaUnitFromName(const std::string& name);
 [[nodiscard]] std::string nameOf(DeltaUnit unit);
 
@@ -66,15 +66,15 @@ struct RpeResult
 
 /** Relative pose error by the protocol of the TUM benchmark's evaluate_rpe.py, whose figures it
  * reproduces (docs/evaluation.md says what it leaves to chance).
- * Throws std::runtime_error when the trajectories do not overlap or fewer than two pairs have
- * ground truth at both ends. */
+ * \throws std::runtime_error if the trajectories do not overlap, or fewer than two pairs have
+ * ground truth at both ends */
 [[nodiscard]] RpeResult relativePoseError(
     const Trajectory& groundTruth, const Trajectory& estimate, const RpeOptions& options);
 
 /** "1 s": the distance between the poses of a pair. */
 [[nodiscard]] std::string nameOfDelta(const RpeOptions& options);
 
-/** The protocol without what a run adds: formula, delta, ground truth. */
+/** The protocol as far as options tell it: formula, delta, ground truth. */
 [[nodiscard]] std::string describe(const RpeOptions& options);
 
 /** The protocol in one line, e.g. for a title: formula, delta, pairs used, ground truth,

@@ -35,13 +35,13 @@ struct DrawnPath
 [[nodiscard]] std::vector<Chart> relativeErrorCharts(
     const Trajectory& estimate, const RpeOptions& options, const RpeResult& result);
 
-/** How often errors of which size are, and the share of those that are smaller: translation and
- * rotation. \param result with listed pairs */
+/** Histogram of the errors with the share of smaller ones: translation and rotation.
+ * \param result with listed pairs */
 [[nodiscard]] std::vector<Chart> errorHistograms(
     const RpeOptions& options, const RpeResult& result);
 
-/** RMSE of the relative error over intervals from 0.1 s to 5 s, translation and rotation: those
- * that the estimate has. Empty if it has fewer than two of them. */
+/** RMSE of the relative error over intervals from 0.1 s to 5 s, as far as the estimate has them:
+ * translation and rotation. Empty if it has fewer than two. */
 [[nodiscard]] std::vector<Chart> errorOverInterval(
     const Trajectory& groundTruth, const Trajectory& estimate, const RpeOptions& options);
 
@@ -59,11 +59,11 @@ struct DrawnPath
 /** Position error over time. */
 [[nodiscard]] Chart positionErrorChart(const Trajectory& estimate, const AteResult& result);
 
-/** How often position errors of which size are, and the share of those that are smaller. */
+/** Histogram of the position errors, with the share of smaller ones. */
 [[nodiscard]] Chart positionErrorHistogram(const AteResult& result);
 
-/** NEES per degree of freedom of each increment over time, with the bounds that 95 % of them have
- * to lie in and those of their mean. */
+/** NEES per degree of freedom of each increment over time, with the 95 % bounds of single
+ * increments and of their mean. */
 [[nodiscard]] Chart neesChart(
     const Trajectory& estimate,
     const std::vector<NeesIncrement>& increments,

@@ -14,9 +14,9 @@ namespace pointplane
  * As the TUM scripts read it: commas and tabs count as spaces, lines that start with '#' (or MRPT's
  * '%') and empty lines are skipped, lines with NaN or a zero quaternion are left out (each kind
  * counted in the warnings, with its first line), quaternions are normalised, the last of equal
- * stamps wins. Of the comments, `# pointplane-status STAMP lost: ...` tells of a frame without a
- * pose,
- * `... predicted: ...` of one whose pose nobody measured.
- * Throws std::runtime_error naming the file, and the line where one is malformed. */
+ * stamps wins. Two comments count: `# pointplane-status STAMP lost: ...` is a frame without a pose,
+ * and
+ * `... predicted: ...` one whose pose nobody measured.
+ * \throws std::runtime_error naming the file and, if one is malformed, the line */
 [[nodiscard]] Trajectory readTrajectoryText(const std::string& path);
 }  // namespace pointplane

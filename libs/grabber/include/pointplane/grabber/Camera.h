@@ -40,7 +40,7 @@ enum class RegistrationChoice
     Off
 };
 
-/** What the user chooses a camera's mode by. */
+/** What the user wants of a camera. */
 struct CameraSettings
 {
     VideoMode mode;
@@ -49,7 +49,7 @@ struct CameraSettings
     bool depthOnly{false};
 };
 
-/** What is true of an opened camera. */
+/** Properties of an opened camera. */
 struct CameraFacts
 {
     DeviceInfo device;
@@ -99,7 +99,7 @@ class Camera
     virtual void stop() = 0;
 };
 
-/** One way to reach cameras. */
+/** A driver through which cameras are reached. */
 class CameraDriver
 {
  public:
@@ -116,11 +116,11 @@ class CameraDriver
     [[nodiscard]] virtual std::unique_ptr<Camera> open(
         const DeviceInfo& device, const CameraSettings& settings) = 0;
 
-    /** What it looked for and with what: for the message that there is no device. */
+    /** What it looks for, and with which library: for the message that there is no device. */
     [[nodiscard]] virtual std::string description() = 0;
 };
 
-/** The drivers built in, in the order in which they are asked. `which` is "auto" or a name.
+/** The built-in drivers, in the order in which they are asked. \param which "auto" or a name
  * \throws InputError for a driver that does not exist or was not built in */
 [[nodiscard]] std::vector<std::unique_ptr<CameraDriver>> makeCameraDrivers(
     const std::string& which);

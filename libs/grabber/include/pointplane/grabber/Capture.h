@@ -33,7 +33,7 @@ enum class CaptureEnd
     EndOfFile,  //!< of an .oni recording
     Unplugged,
     Stalled,   //!< the camera is there but sends nothing
-    SinkFull,  //!< a consumer cannot go on
+    SinkFull,  //!< the consumer returned false
     Error      //!< see Capture::problem()
 };
 
@@ -47,8 +47,8 @@ struct CaptureStats
     bool started{false};        //!< the warm-up is over
 };
 
-/** Takes images from a camera, pairs them, stamps the pairs, hands them on. Runs in a thread of its
- * own and does nothing that could wait but for the camera. */
+/** Takes images from a camera, pairs them, stamps the pairs, and hands them on. It runs in a thread
+ * of its own and waits for nothing but the camera. */
 class Capture
 {
  public:

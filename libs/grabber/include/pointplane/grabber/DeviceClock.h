@@ -14,20 +14,19 @@ struct ClockReading
     double arrival{0};  //!< [s] UTC on the host
 };
 
-/** Seconds per second of a camera's time stamps: 1 if they are right, 1/60 when a driver hands out
- * a 60 MHz counter as microseconds, 1000 for milliseconds; empty when they follow no clock
- * (constant, or none of these within a factor of two), so that only arrival times are left. \param
+/** Unit of a camera's time stamps [s]: 1 if they are right, 1/60 if a driver hands out a 60 MHz
+ * counter as microseconds, 1000 for milliseconds. Nothing if they follow no clock (they are
+ * constant, or none of these within a factor of two): then only arrival times are left. \param
  * readings at least a few tenths of a second of one stream, in order of arrival */
 [[nodiscard]] std::optional<double> deviceTimeScale(const std::vector<ClockReading>& readings);
 
 /** Maps a camera's clock to UTC and keeps the camera's spacing.
  *
- * An image arrives after its time stamp plus a delay that varies but is never less than the
- * transfer time, so the offset between the clocks is the smallest (arrival - device) seen lately.
- * Before lock() the offset follows it freely; afterwards it is only slewed, to follow the drift of
- * the quartz, so that jitter of the host never reaches the stamps: two stamps differ by the
- * device's interval times 1 +- maxSlew. The constant part of the delay cannot be observed and
- * remains. */
+ * An image arrives some delay after its time stamp. The delay varies, but is never less than the
+ * time of transfer. So the offset between the clocks is the smallest (arrival - device) seen
+ * lately. Before lock() the offset follows it freely. Afterwards it moves slowly, to follow the
+ * drift of the quartz: two stamps differ by the device's interval times 1 +- maxSlew, so jitter of
+ * the host never reaches them. The constant part of the delay cannot be observed and remains. */
 class DeviceClock
 {
  public:
@@ -44,7 +43,7 @@ class DeviceClock
     /** Call for every image of the stream that carries the stamps, in order. */
     void observe(const ClockReading& reading);
 
-    /** From now on slew only. */
+    /** From now on the offset moves slowly (maxSlew). */
     void lock() { locked_ = true; }
 
     /** [s] UTC of a device time near the latest observation. */

@@ -7,8 +7,8 @@
 
 namespace pointplane
 {
-/** A file that grows by whole records and never keeps a part of one: a record that does not fit on
- * the disk is taken back. After sync() what was appended survives a power failure. */
+/** A file that grows by whole records. A record that does not fit on the disk is removed again.
+ * After sync(), what was appended survives a power failure. */
 class DurableFile
 {
  public:

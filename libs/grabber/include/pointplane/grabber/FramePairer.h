@@ -23,10 +23,10 @@ struct PairingCounts
 
 /** Pairs the depth and colour images of one camera by their device time stamps.
  *
- * Each image is in at most one pair; the two are no more than maxSkew apart; an image whose partner
- * cannot come any more is counted and let go. With maxSkew up to half a frame period the pairing is
- * by nearest time stamp. Within a stream images must come in order of time. Pure: no clock, no
- * thread. */
+ * Each image is in at most one pair, and the two are at most maxSkew apart. With maxSkew up to half
+ * a frame period, each gets the partner with the nearest stamp. An image whose partner cannot come
+ * any more is counted and dropped. Within a stream images must come in order of time. It uses no
+ * clock and no thread. */
 class FramePairer
 {
  public:

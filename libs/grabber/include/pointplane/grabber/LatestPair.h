@@ -10,8 +10,8 @@
 
 namespace pointplane
 {
-/** A place for one pair between a producer that never waits and a consumer that may be slow: a
- * newer pair replaces one that was not taken. */
+/** Hands pairs from a producer that never waits to a consumer that may be slow. It holds one pair:
+ * a newer one replaces it if it was not taken. */
 class LatestPair
 {
  public:
@@ -25,7 +25,7 @@ class LatestPair
         changed_.notify_all();
     }
 
-    /** For sources that can wait: until the previous pair has been taken. */
+    /** Waits until the previous pair has been taken, for sources that can wait. */
     void putWhenTaken(const ImagePair& pair)
     {
         {

@@ -43,10 +43,9 @@ struct RecordingStats
 
 /** Records image pairs to a rawlog that is readable at any moment.
  *
- * Compression runs in parallel, one thread appends in order and syncs to the disk. Every record is
- * a complete gz member; a rawlog entry is only written after the external files that it names are
- * on the disk. A killed process, a power failure or a full disk therefore cost what came after the
- * last sync, and never what came before. */
+ * Several threads compress, one appends in order and syncs to the disk. Every record is a complete
+ * gz member. A rawlog entry is written only after the external files that it names are on the disk.
+ * So a killed process, a power failure or a full disk cost only what came after the last sync. */
 class RecordingWriter
 {
  public:
@@ -63,11 +62,11 @@ class RecordingWriter
     /** Waits for room in the queue: for sources that can wait. \return false after a failure */
     [[nodiscard]] bool push(const ImagePair& pair);
 
-    /** A disk error has ended the recording: call finish() to hear of it. */
+    /** Whether a disk error has ended the recording; finish() throws it. */
     [[nodiscard]] bool hasFailed() const { return failed_; }
 
-    /** Writes what is queued and closes the file. \throws EnvironmentError that ended the recording
-     * early; the frames before it are in the file */
+    /** Writes what is queued and closes the file.
+     * \throws EnvironmentError if the recording ended early; the frames before are in the file */
     void finish();
 
     [[nodiscard]] RecordingStats stats() const;

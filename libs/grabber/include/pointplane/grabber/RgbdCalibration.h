@@ -17,7 +17,7 @@ struct RgbdCalibration
     mrpt::poses::CPose3D colourWrtDepth;  //!< CObservation3DRangeScan's convention
     mrpt::poses::CPose3D sensorPose;      //!< of the depth camera on the robot
     std::string sensorLabel{"OPENNI2"};
-    bool isNominal{false};  //!< of the model of camera; nobody calibrated this one
+    bool isNominal{false};  //!< nobody calibrated this camera: intrinsics are those of its model
     std::string source;     //!< where the intrinsics come from, one clause for the summary
 };
 

@@ -12,9 +12,9 @@
 
 namespace pointplane
 {
-/** One parameter group as MRPT's CLoadableOptions, so that it loads, saves and prints like any
- * other of an MRPT program. Loading is as strict as loadIni(): an unknown key or a value that is
- * not what the key takes throws InputError. */
+/** A parameter group as MRPT's CLoadableOptions: it loads, saves and prints like any other of an
+ * MRPT program. Loading is as strict as loadIni(): it throws InputError for an unknown key, or for
+ * a value that the key does not take. */
 template <class Group>
 class LoadableParams : public mrpt::config::CLoadableOptions
 {

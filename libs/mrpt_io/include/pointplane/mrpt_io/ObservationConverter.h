@@ -12,7 +12,7 @@
 
 namespace pointplane
 {
-/** An observation as the odometry takes it, or why it cannot be taken. */
+/** An observation in the form that the odometry takes, or what is wrong with it. */
 struct ConvertedFrame
 {
     RgbdFrame frame;      //!< only the stamp is set when there is a problem
@@ -24,14 +24,14 @@ struct ConvertedFrame
 
 /** CObservation3DRangeScan -> RgbdFrame.
  *
- * Understands any rangeUnits and size, range_is_depth off, colour, monochrome and missing intensity
- * (the frame's `gray` is then empty and its camera the depth camera), external images and ranges,
- * lens distortion, negative fy. Depth that is not registered to the intensity image (different
- * intrinsics, size, or relativePoseIntensityWRTDepth) is rendered into the intensity camera.
- * maxRange is not applied: writers leave it at its default while measuring farther.
+ * It takes any rangeUnits and image size, range_is_depth off, external images and ranges, lens
+ * distortion, negative fy. Intensity may be in colour, monochrome or missing; if it is missing, the
+ * frame's `gray` is empty and its camera the depth camera. Depth that is not registered to the
+ * intensity image (other intrinsics, size, or relativePoseIntensityWRTDepth) is rendered into the
+ * intensity camera. maxRange is ignored: writers leave it at its default while measuring farther.
  *
- * Whether registered depth lies at distorted or ideal pixels follows from cameraParams: with the
- * distortion of cameraParamsIntensity it lies in the raw image, without at undistorted pixels. */
+ * Registered depth lies in the raw image if cameraParams has the distortion of
+ * cameraParamsIntensity, and at undistorted pixels if it has none. Docs: docs/rawlogs.md. */
 class ObservationConverter
 {
  public:
@@ -43,14 +43,15 @@ class ObservationConverter
     /** Where external images and ranges are (RawlogReader::externalsDirectory()). */
     void setExternalsDirectory(const std::string& directory);
 
-    /** Takes note of a shutter model in a comment of the form
+    /** Reads the shutter model of a comment of the form
      *     pointplane-camera label=L readoutColour=0.02 readoutDepth=0.02 depthDelay=-0.01
      * (seconds; see ShutterModel; absent = not known). Other comments are ignored.
      * \throws InputError naming the key if such a comment cannot be understood */
     void readComment(const mrpt::obs::CObservationComment& comment);
 
-    /** Never throws for what is in the observation. The observation stays as it is; external data
-     * are not kept in it. */
+    /** \param scan not changed; external data that were read are not kept in it
+     * \return the frame or, whatever is wrong with the observation, the problem; never throws for
+     * it */
     [[nodiscard]] ConvertedFrame convert(const mrpt::obs::CObservation3DRangeScan& scan) const;
 
  private:

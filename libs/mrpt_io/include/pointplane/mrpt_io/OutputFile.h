@@ -16,12 +16,12 @@ struct OutputTarget
     [[nodiscard]] std::string writtenPath() const { return isReplaced ? path + ".partial" : path; }
 };
 
-/** What a name given by the user stands for. Devices, pipes, and what the standard output is
- * redirected to are written directly; anything else is replaced when it is complete. */
+/** Where to write an output that the user names. Devices, pipes, and the file that the standard
+ * output goes to are written directly; anything else is replaced when it is complete. */
 [[nodiscard]] OutputTarget outputTarget(const std::string& path);
 
-/** A file that appears under its name when it is complete; until then it is `<target>.partial`, and
- * an earlier file with that name is untouched. Every write is checked and reaches the operating
+/** A file that appears under its name when it is complete. Until then it is `<target>.partial`, and
+ * an earlier file with its name is untouched. Every write is checked and reaches the operating
  * system at once. All members throw EnvironmentError naming the file. */
 class OutputFile
 {

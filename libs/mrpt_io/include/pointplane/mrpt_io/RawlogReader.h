@@ -24,8 +24,8 @@ enum class RawlogEnd
 /** Which objects a reader takes. */
 enum class RawlogClasses
 {
-    /** Also those that MRPT alone can read. It believes the lengths in them, so that a damaged one
-     * in a file without a checksum may take gigabytes of memory. */
+    /** Also those that only MRPT can read. It believes the lengths in them: a damaged one, in a
+     * file without a checksum, may take gigabytes of memory. */
     All,
     Known  //!< only those whose layout is known here: for files of strangers
 };
@@ -51,14 +51,17 @@ struct RawlogRecord
 /** Streams the objects of a rawlog, one at a time: observations (format 2), or CActionCollection
  * and CSensoryFrame in turns (format 1); plain or gz.
  *
- * Damage is never taken for the end of the file, as it is by MRPT's own reader: the checksum and
- * the length of gz data are verified, and sizes inside images, range images and strings are checked
- * against what the file holds before MRPT sees them, which would otherwise allocate without limit
- * or crash (in the current versions of the classes of RGB-D, wheels, IMU, 2D laser and single
- * cameras). An object of another class or version is left to MRPT, once the checksums of the whole
- * file are found right; where there are none (a plain file, a pipe, a truncated file), it is left
- * to MRPT, too; where one is wrong, the object counts as damaged. A plain file that stops exactly
- * between two objects cannot be told from a complete one. Not thread-safe. */
+ * MRPT's own reader takes damage for the end of the file, or crashes. This one
+ *
+ * - verifies the checksum and length of gz data;
+ * - checks sizes inside an object (images, range images, strings) against the bytes of the file
+ *   before MRPT sees them, for the current versions of the classes of RGB-D, wheels, IMU, 2D laser
+ *   and single cameras;
+ * - leaves objects of other classes and versions to MRPT, unless a checksum of the file is wrong:
+ *   then the object counts as damaged. A plain file, a pipe and a truncated file have no checksum.
+ *
+ * A plain file that stops exactly between two objects cannot be told from a complete one. Not
+ * thread-safe. */
 class RawlogReader
 {
  public:
@@ -72,7 +75,7 @@ class RawlogReader
      * what is in the file. External images are not loaded. */
     [[nodiscard]] mrpt::serialization::CSerializable::Ptr next();
 
-    /** The object that next() has returned last, once. */
+    /** The bytes of the object that next() returned last. Can be taken once. */
     [[nodiscard]] RawlogRecord takeRecord();
 
     [[nodiscard]] const RawlogEnding& ending() const;
@@ -80,7 +83,7 @@ class RawlogReader
     [[nodiscard]] double progress() const;         //!< fraction of the file consumed, 0 to 1
     [[nodiscard]] const std::string& path() const;
 
-    /** Folder of external images and ranges by MRPT's rule: NAME_Images and variants, else
+    /** Folder of external images and ranges, by MRPT's rule: NAME_Images or a variant of it, else
      * Images, beside the rawlog. */
     [[nodiscard]] const std::string& externalsDirectory() const;
 

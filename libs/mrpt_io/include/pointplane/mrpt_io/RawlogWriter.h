@@ -19,8 +19,8 @@ struct RawlogWriterOptions
 {
     int compressionLevel{1};  //!< 0 to 9; 0 keeps the gz frame and its checksum
     /** After so many objects or bytes, whichever comes first, everything so far is compressed and
-     * handed to the operating system; a killed process loses at most the rest. Counts, not time:
-     * the bytes written must not depend on the clock. */
+     * handed to the operating system. A killed process loses only what came after. Time does not
+     * count, because the bytes of a file must not depend on the clock. */
     std::size_t flushEveryObjects{30};
     std::size_t flushEveryBytes{1U << 20U};
 };
@@ -29,8 +29,8 @@ struct RawlogWriterOptions
  *
  * Objects go to `<path>.partial`, which close() renames to `path`. Without close() the partial file
  * stays, readable up to the last flush. Every write is checked (MRPT's own stream swallows a full
- * disk). The file is gz-compressed, as MRPT's are; a large object is a member by itself, so that a
- * later program can take it over as it is. Not thread-safe. */
+ * disk). The file is gz-compressed, as MRPT's are. A large object is a gz member by itself, so that
+ * a later program can copy it as it is. Not thread-safe. */
 class RawlogWriter
 {
  public:
@@ -48,8 +48,8 @@ class RawlogWriter
      * \throws EnvironmentError if the disk is full or the like */
     void write(const mrpt::serialization::CSerializable& object);
 
-    /** Appends an object as it was in a file (RawlogReader::takeRecord()): nothing is serialised,
-     * and nothing compressed that was. \throws EnvironmentError */
+    /** Appends an object as it was in another file (RawlogReader::takeRecord()), without
+     * serialising it or compressing it again. \throws EnvironmentError */
     void write(const RawlogRecord& record);
 
     /** Hands everything written so far to the operating system. \throws EnvironmentError */
@@ -57,7 +57,7 @@ class RawlogWriter
 
     /** Completes the file and renames it to path(). \throws EnvironmentError */
     void close();
-    /** Removes the partial file: for a run that came to nothing. */
+    /** Removes the partial file, after a run that failed. */
     void discard() noexcept;
 
     [[nodiscard]] const std::string& path() const;

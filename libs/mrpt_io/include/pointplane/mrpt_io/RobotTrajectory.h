@@ -23,12 +23,12 @@ struct RobotMotion
     FrameDiagnostics diagnostics;
 };
 
-/** Motions of the camera -> motions of the robot that carries it. The camera may move on the robot
- * (a pan-tilt head): its pose there is taken from each frame. */
+/** Turns motions of the camera into motions of the robot that carries it. The camera may move on
+ * the robot (a pan-tilt head), because each frame brings the camera's pose on it. */
 class RobotTrajectory
 {
  public:
-    /** \param result in the camera's optical frame
+    /** \param result motion of the camera, in its optical frame
      * \param T_robot_cam of this frame, optical axes; taken as exact */
     [[nodiscard]] RobotMotion add(
         const OdometryResult& result, const Eigen::Isometry3d& T_robot_cam);

@@ -14,14 +14,14 @@
 
 namespace pointplane
 {
-/** A depth camera of its own, beside that of colour. */
+/** A depth camera that is not registered to the colour camera. */
 struct DepthCamera
 {
     PinholeCamera camera;
     Eigen::Isometry3d T_depth_colour{Eigen::Isometry3d::Identity()};  //!< optical axes
 };
 
-/** A colour image and the depth image registered to it, or that of another camera. */
+/** A colour image with its depth image. */
 struct RegisteredScan
 {
     mrpt::Clock::time_point stamp;
@@ -34,8 +34,8 @@ struct RegisteredScan
 };
 
 /** Writes images to a rawlog as CObservation3DRangeScan, pixels and readings unchanged.
- * Axes are MRPT's, sensorPose is the identity. What RawlogWriter says of complete and partial files
- * holds here. All members throw EnvironmentError naming the file that cannot be written. */
+ * Axes are MRPT's, sensorPose is the identity. Complete and partial files are as RawlogWriter says.
+ * All members throw EnvironmentError naming the file that cannot be written. */
 class ScanWriter
 {
  public:
@@ -55,7 +55,7 @@ class ScanWriter
     std::string imagesFolder_;  //!< empty: embedded
 };
 
-/** 16 bit readings of a depth image in metres (CV_32FC1, NaN = none); what is farther than 16 bits
- * reach is no reading. */
+/** Depth as 16 bit readings (CV_16UC1, 0 = none). \param depth CV_32FC1 [m], NaN = none; what is
+ * farther than 16 bits reach becomes none */
 [[nodiscard]] cv::Mat depthInUnits(const cv::Mat& depth, double unitsPerMetre);
 }  // namespace pointplane

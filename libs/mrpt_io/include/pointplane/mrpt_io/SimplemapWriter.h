@@ -13,8 +13,8 @@ namespace pointplane
 /** Writes key frames as MRPT's CSimpleMap (pose PDF and sensory frame each), which observations2map
  * turns into maps. Each scan gets its point cloud, without which map builders skip it.
  *
- * Written in the class's first version, which every MRPT 2 reads. Key frames are kept until close()
- * without their clouds, as the file begins with their number. */
+ * The file has the class's first version, which every MRPT 2 reads. It begins with the number of
+ * key frames, so these are kept in memory, without their clouds, until close(). */
 class SimplemapWriter
 {
  public:
@@ -24,6 +24,7 @@ class SimplemapWriter
     SimplemapWriter(const SimplemapWriter&) = delete;
     SimplemapWriter& operator=(const SimplemapWriter&) = delete;
 
+    /** Adds a key frame. \param pose of the robot in the map */
     void add(
         const mrpt::poses::CPose3DPDFGaussian& pose,
         const mrpt::obs::CObservation3DRangeScan::Ptr& scan);
@@ -40,7 +41,7 @@ class SimplemapWriter
     std::unique_ptr<Impl> impl_;
 };
 
-/** A copy with its point cloud, sensor frame, and its ranges in memory if they were in a file.
+/** A copy of a scan with its point cloud (sensor frame). Ranges that were in a file are in memory.
  * \throws InputError if that file cannot be read, or the cloud cannot be computed */
 [[nodiscard]] mrpt::obs::CObservation3DRangeScan::Ptr withPoints(
     const mrpt::obs::CObservation3DRangeScan& scan);

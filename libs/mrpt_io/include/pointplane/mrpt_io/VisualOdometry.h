@@ -28,16 +28,18 @@ class VisualOdometry : public mrpt::system::COutputLogger
  public:
     using TParams = OdometryParams;
 
+    /** \throws std::invalid_argument naming the key when a parameter is out of range */
     explicit VisualOdometry(const TParams& params = {});
 
     /** Replaces all parameters and starts anew. \throws InputError naming file, line and key */
     void loadFromConfigFileName(const std::string& path);
 
-    /** \return increment and pose in the robot's frame: sensorPose is taken into account */
+    /** Estimates the motion since the previous observation.
+     * \return increment and pose of the robot, MRPT axes, by sensorPose */
     [[nodiscard]] RobotMotion process(const mrpt::obs::CObservation3DRangeScan& scan);
 
     /** The same for a frame that an ObservationConverter has made, in another thread for instance.
-     * One that has a problem (ConvertedFrame::problem) is Lost for that reason. */
+     * A frame with a problem (ConvertedFrame::problem) is Lost for that reason. */
     [[nodiscard]] RobotMotion process(const ConvertedFrame& converted);
 
     /** Points and planes of the latest frame, camera's optical frame. */

@@ -14,8 +14,8 @@ class InputError : public std::runtime_error
     using std::runtime_error::runtime_error;
 };
 
-/** The machine does not play along: disk full, unwritable output, no device. One line. Applications
- * exit with kExitEnvironment. */
+/** Something is wrong with the machine: disk full, unwritable output, no device. The message is one
+ * line. Applications exit with kExitEnvironment. */
 class EnvironmentError : public std::runtime_error
 {
  public:

@@ -9,13 +9,13 @@
 namespace pointplane
 {
 /** MRPT's external range file: gz or plain; uint32 rows, uint32 columns, uint16 readings. Its sizes
- * are checked against its contents first; MRPT's own loader leaves stale rows or crashes.
- * \throws InputError naming the file */
+ * are checked against its contents; MRPT's own loader leaves stale rows or crashes. \throws
+ * InputError naming the file */
 [[nodiscard]] mrpt::math::CMatrix_u16 readExternalRange(const std::string& path);
 
-/** Moves the range image to a file, as MRPT's rawlog-edit --externalize, and reads it back to be
- * sure that it is there (MRPT does not check). The observation's own copy is gone afterwards:
- * MRPT would write it into the rawlog as well.
+/** Moves the range image to a file, as MRPT's rawlog-edit --externalize, and reads it back, because
+ * MRPT does not check that it is there. The observation's own copy is removed, because MRPT would
+ * write it into the rawlog as well.
  * \param name of the file in the directory, which is the rawlog's
  * RawlogReader::externalsDirectory() \throws EnvironmentError naming the file */
 void moveRangeToFile(

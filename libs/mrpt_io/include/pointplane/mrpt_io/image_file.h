@@ -8,9 +8,9 @@
 
 namespace pointplane
 {
-/** An image file. A PNG's checksums and the end of a JPEG are verified first: decoders fill what is
- * missing with grey, or complain on the terminal.
- * \param flags of cv::imread \throws InputError naming the file, or the folder that is missing */
+/** Reads an image file. A PNG's checksums and the end of a JPEG are verified first, because
+ * decoders fill what is missing with grey, or complain on the terminal. \param flags of cv::imread
+ * \throws InputError naming the file, or the folder that is missing */
 [[nodiscard]] cv::Mat readImageFile(const std::string& path, int flags);
 
 /** Writes the whole file, or none. \param options of cv::imwrite

@@ -24,12 +24,11 @@ namespace pointplane
 [[nodiscard]] Eigen::Isometry3d fromMrpt(const mrpt::poses::CPose3D& pose);
 
 /** 6x6 Jacobian of (x, y, z, yaw, pitch, roll) with respect to the left tangent at T_a_b. Near
- * pitch = +-90 deg, where yaw and roll cannot be told apart, it is kept finite (cos(pitch) at least
- * 1e-4): variances of yaw and roll are huge there, and nothing is better in these coordinates. */
+ * pitch = +-90 deg yaw and roll cannot be told apart: there their variances are huge, but finite
+ * (cos(pitch) is at least 1e-4). */
 [[nodiscard]] Matrix6d jacobianYprOfTangent(const Eigen::Isometry3d& T_a_b);
 
-/** Covariance through the Jacobian above; the result is strictly positive definite, whatever
- * rounding did. */
+/** Pose and covariance, through the Jacobian above; strictly positive definite. */
 [[nodiscard]] mrpt::poses::CPose3DPDFGaussian toMrpt(const PoseGaussian& T_a_b);
 
 /** The inverse of toMrpt(). */
@@ -37,10 +36,10 @@ namespace pointplane
 
 /** Information matrix of an edge as mrpt::graphslam::optimize_graph_spa_levmarq() weights it.
  *
- * An edge's cov_inv is documented, saved and composed in (x, y, z, yaw, pitch, roll), but that
+ * An edge's cov_inv is documented, saved and composed in (x, y, z, yaw, pitch, roll). But that
  * optimiser (MRPT 2.5.8) multiplies it with the logarithm of the error, (x, y, z, rx, ry, rz) in
- * the frame of the edge's end: yaw's weight meets the rotation about x. Assign this to edge.cov_inv
- * before optimising. */
+ * the frame of the edge's end, so yaw's weight meets the rotation about x. Assign the result to
+ * edge.cov_inv before optimising. */
 [[nodiscard]] mrpt::math::CMatrixDouble66 optimizerInformation(
     const mrpt::poses::CPose3DPDFGaussian& edge);
 

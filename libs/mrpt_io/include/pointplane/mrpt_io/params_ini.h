@@ -56,14 +56,13 @@ template <class Params>
 
 /** @name Strict ini files
  *
- * `[Section]`, then `key = value // comment`. `#` and `;` start a comment on a line of its own
- * only;
- * `//` also after a value. Keys left out keep their defaults. MRPT's own reader takes "abc" for 0,
- * ignores unknown keys and finds missing files empty; here all of that is an error that names file,
- * line, section, key and the closest valid one.
+ * `[Section]`, then `key = value // comment`. `//` starts a comment anywhere, `#` and `;` only on a
+ * line of their own. Keys left out keep their defaults. MRPT's own reader takes "abc" for 0,
+ * ignores unknown keys and takes missing files for empty. Here all of that is an error that names
+ * file, line, section, key, and the closest valid key.
  * @{ */
 
-/** \throws InputError */
+/** Sets the values of the table from a file. \throws InputError */
 void loadIni(const std::string& path, const ParameterTable& table);
 
 /** As loadIni() from text; `name` stands for the file in messages. \throws InputError */
@@ -73,7 +72,7 @@ void parseIni(const std::string& text, const std::string& name, const ParameterT
 void applySetting(const std::string& setting, const ParameterTable& table);
 
 /** The complete file, every key with unit and help.
- * \param firstExpert section before which a line says that few will need what follows */
+ * \param firstExpert section before which a line says that the rest is for experts; empty = none */
 [[nodiscard]] std::string iniText(const ParameterTable& table, const std::string& firstExpert = "");
 
 /** The same as a Markdown table per section. */

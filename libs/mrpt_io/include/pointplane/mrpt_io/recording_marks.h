@@ -5,9 +5,9 @@ namespace pointplane
 {
 /** @name Texts of comments around a recording
  *
- * Records of a rawlog are complete each by itself, so a file that was cut between two of them looks
- * whole. A recording that begins with the one comment ends with the other, or was cut: RawlogReader
- * says so.
+ * Each record of a rawlog is complete by itself, so a file that was cut between two of them looks
+ * whole. A recording that begins with the first comment must end with the second; if it does not,
+ * RawlogReader says that it was cut.
  * @{ */
 constexpr const char* kRecordingBegins = "pointplane-recording begins";
 constexpr const char* kRecordingEnds = "pointplane-recording ends";

@@ -10,8 +10,7 @@
 
 namespace pointplane
 {
-/** What the current frame shows: all that is ever asked of its images, and nothing of other frames.
- */
+/** Everything that is taken from the images of one frame. It knows nothing of other frames. */
 struct Features
 {
     RgbdFrame frame;  //!< its pixels are shared, not copied

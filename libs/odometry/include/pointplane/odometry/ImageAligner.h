@@ -20,7 +20,7 @@ struct DescribedPoints
     cv::Mat descriptors;  //!< a row a point
 };
 
-/** Motion that images alone tell. */
+/** A motion that was found without a prediction. */
 struct ImageMotion
 {
     Eigen::Isometry3d T_cur_ref{Eigen::Isometry3d::Identity()};
@@ -28,19 +28,21 @@ struct ImageMotion
     int numMatches{0};
 };
 
-/** Motion between two frames without a prediction: key points matched by descriptor over the whole
- * image, motions from three of them each (Fischler and Bolles 1981; Horn 1987), judged by all.
- * Deterministic. */
+/** Finds the motion between two frames without a prediction. Key points are matched by descriptor
+ * over the whole image; three matches at a time give a motion, which all of them judge (Fischler
+ * and Bolles 1981; Horn 1987). The same frames give the same motion. */
 class ImageAligner
 {
  public:
     ImageAligner(const PointLifter::TParams& lifter, const DepthNoise& noise);
 
+    /** Sets the noise by which motions are judged from now on. */
     void setNoise(const DepthNoise& noise) { noise_ = noise; }
 
+    /** Key points of a frame that have depth. */
     [[nodiscard]] DescribedPoints describe(const RgbdFrame& frame) const;
 
-    /** \return nothing where fewer than kLeastInliers agree */
+    /** \param camera of both frames \return nothing if too few matches agree about a motion */
     [[nodiscard]] std::optional<ImageMotion> align(
         const DescribedPoints& reference,
         const DescribedPoints& current,

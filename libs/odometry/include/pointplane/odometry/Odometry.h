@@ -9,11 +9,11 @@
 
 namespace pointplane
 {
-/** RGB-D odometry from noisy points and planes [P17]. Feed frames in order of time; every frame
- * yields a result. Same frames and parameters give the same bits, whatever the thread count.
+/** RGB-D odometry from noisy points and planes [P17]. Give it frames in order of time; each yields
+ * a result. The same frames and parameters give the same bits, whatever the number of threads.
  *
- * A frame that cannot be used (no depth, unusable intrinsics, stamp not after the previous one) is
- * Lost, not an exception; the next good one recovers. */
+ * A frame that cannot be used (no depth, unusable intrinsics, a stamp not after the previous one)
+ * is Lost and never an exception; the next good frame recovers. */
 class Odometry
 {
  public:
@@ -23,7 +23,8 @@ class Odometry
     Odometry(Odometry&&) noexcept;
     Odometry& operator=(Odometry&&) noexcept;
 
-    /** \param frame images are not modified or kept */
+    /** Estimates the motion since the previous frame. \param frame images are neither modified nor
+     * kept \return status, increment and pose of the camera, with covariances */
     [[nodiscard]] OdometryResult process(const RgbdFrame& frame);
 
     /** Points and planes of the latest frame. */

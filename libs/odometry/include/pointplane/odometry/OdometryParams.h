@@ -69,8 +69,8 @@ struct PipelineParams
     }
     /** \throws std::invalid_argument naming the key */
     void check() const;
-    [[nodiscard]] bool fuses() const;          //!< or gates
-    [[nodiscard]] bool searchesAhead() const;  //!< or where features were
+    [[nodiscard]] bool fuses() const;          //!< degeneracy is fuse, not gate
+    [[nodiscard]] bool searchesAhead() const;  //!< searchAround is prediction, not previous
 };
 
 /** All parameters of the odometry, one ini section a group. */
@@ -92,8 +92,8 @@ struct OdometryParams
     ReferenceWindow::TParams reference;
     JointCovariance::TParams covariance;
 
-    /** From here on, sections are about the insides of a stage; those before, about what is to be
-     * done, with which camera. */
+    /** The first section that only experts need: from here on, keys are about the insides of a
+     * stage. */
     static constexpr const char* kFirstExpertSection = "PointTracker";
 
     /** Calls f(sectionName, group) for each group. */

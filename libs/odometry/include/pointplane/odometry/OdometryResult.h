@@ -15,7 +15,7 @@ namespace pointplane
 enum class TrackingStatus
 {
     First,      //!< start of a trajectory: increment is identity with a negligible covariance
-    Tracked,    //!< measured; directions left open carry the motion model's uncertainty
+    Tracked,    //!< measured; directions that it does not tell are predicted, as uncertain as that
     Predicted,  //!< not measurable from this frame: motion model only
     Lost        //!< the frame could not be used at all: motion model only
 };
@@ -38,15 +38,15 @@ struct FrameDiagnostics
     int observableDirections{0};    //!< of 6, measured better than the motion model predicts
     double pointChi2PerDof{0};      //!< reduced chi-square of point residuals
     double planeChi2PerDof{0};      //!< reduced chi-square of plane residuals
-    double surfaceAgreement{0};     //!< part of the surfaces in view that depth shows; 0 of none
-    double movingShare{0};          //!< part of the surfaces in view that have moved there
+    double surfaceAgreement{0};     //!< fraction of surfaces in view that depth shows
+    double movingShare{0};          //!< fraction of surfaces in view that moved there
     double maxSigmaTranslation{0};  //!< largest standard deviation of the increment [m]
     double maxSigmaRotation{0};     //!< [rad]
-    DepthNoise depthNoise;          //!< of the camera, as far as its images have told by then
+    DepthNoise depthNoise;          //!< of the camera, as learnt so far
     double msPoints{0}, msPlanes{0}, msMatching{0}, msPose{0}, msTotal{0};  //!< wall time [ms]
 };
 
-/** One per frame, always. */
+/** The result of one frame. */
 struct OdometryResult
 {
     TrackingStatus status{TrackingStatus::Lost};
@@ -54,10 +54,10 @@ struct OdometryResult
     double stamp{0};         //!< of the frame [s]
     PoseGaussian increment;  //!< T_prev_cur, camera optical frames; strictly positive definite
     PoseGaussian pose;       //!< T_world_cur, accumulated
-    /** T_past_cur since 1, 2, ... frames ago, whatever became of these, back to
-     * OdometryParams::covariance.history or the first frame. Composed increments have the same mean
-     * but not this covariance: errors of frames that were compared with the same references do not
-     * add up. */
+    /** T_past_cur since 1, 2, ... frames ago, whatever their status, back to
+     * OdometryParams::covariance.history frames or the first one. Composed increments have the same
+     * mean but too large a covariance: frames that were compared with the same references err
+     * together. */
     std::vector<PoseGaussian> since;
     FrameDiagnostics diagnostics;
 };

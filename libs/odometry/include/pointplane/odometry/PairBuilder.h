@@ -11,9 +11,9 @@ namespace pointplane
 {
 class ShutterCalibrator;
 
-/** Turns associations into pairs in the frame of the camera at the previous measured frame.
- * References are freed from the rolling shutter; how the current frame depends on its velocity is
- * told. */
+/** Turns associations into pairs for the solver. References are moved into the camera of the
+ * previous measured frame and freed from the rolling shutter. Of the current frame, pairs say how
+ * they depend on its velocity. */
 class PairBuilder
 {
  public:
@@ -23,14 +23,15 @@ class PairBuilder
     {
     }
 
+    /** Replaces points and planes by the pairs of all associations. */
     void build(
         const std::vector<Association>& associations,
         const ShutterCalibrator& shutter,
         std::vector<PointPair>& points,
         std::vector<PlanePair>& planes) const;
 
-    /** Fills in how the pairs err with the shutter, now that the current frame's velocity is known.
-     * \param points, planes of the same associations */
+    /** Adds how the pairs change with errors of the shutter's times, once the current frame's
+     * velocity is known. \param points, planes that build() has made of the same associations */
     void addShutterErrors(
         const std::vector<Association>& associations,
         const ShutterCalibrator& shutter,

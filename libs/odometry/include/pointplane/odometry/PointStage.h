@@ -12,16 +12,16 @@
 
 namespace pointplane
 {
-/** A frame in which points can be found. */
+/** What has to be made of an image before points can be found in it. */
 struct PreparedPoints
 {
     std::vector<cv::Mat> pyramid;  //!< tracking: of the image
     PointReference described;      //!< matching: key points with descriptors
 };
 
-/** Points of a frame and their correspondences, by one of two methods behind one interface: `track`
- * (corners of the reference are searched for in the current image) or `match` (key points of both
- * images are matched by descriptor, as in [P17]). */
+/** Finds points of a reference again in the current frame, by one of two methods: `track` searches
+ * for the reference's corners in the current image, `match` compares descriptors of key points of
+ * both images, as in [P17]. */
 class PointStage
 {
  public:
@@ -38,6 +38,7 @@ class PointStage
               "track (corners, searched for around the predicted position) or match (key "
               "points, by their descriptors)");
         }
+        /** \throws std::invalid_argument naming the key */
         void check() const;
         [[nodiscard]] bool tracks() const;  //!< or matches
     };
@@ -50,12 +51,13 @@ class PointStage
         const PointLifter::TParams& lifter,
         const DepthNoise& noise);
 
-    /** For points that are lifted from now on. */
+    /** Sets the noise of points that are lifted from now on. */
     void setNoise(const DepthNoise& noise);
 
     [[nodiscard]] PreparedPoints prepare(const RgbdFrame& frame) const;
 
-    /** \param prepared of the same frame */
+    /** The points of a frame that later ones are compared with. \param prepared of the same frame
+     */
     [[nodiscard]] PointReference makeReference(
         const RgbdFrame& frame, const PreparedPoints& prepared) const;
 

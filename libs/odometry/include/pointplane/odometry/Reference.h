@@ -19,7 +19,7 @@ namespace pointplane
 struct KeyframeImages
 {
     RgbdFrame frame;                           //!< shares the images
-    SurfaceSamples surface;                    //!< by which a motion is judged
+    SurfaceSamples surface;                    //!< later depth images should show these points
     std::optional<DescribedPoints> described;  //!< made when they are needed first
 };
 

@@ -10,7 +10,7 @@
 
 namespace pointplane
 {
-/** Which frames the current one is aligned with, and when to make a key frame. */
+/** Keeps the frames that the current one is compared with, and decides which become key frames. */
 class ReferenceWindow
 {
  public:
@@ -49,6 +49,7 @@ class ReferenceWindow
               "number of older key frames, apart from each other, in which a lost camera can "
               "find itself again; about 2 MB each at 640 x 480");
         }
+        /** \throws std::invalid_argument naming the key */
         void check() const;
         [[nodiscard]] bool isFrameToFrame() const;  //!< or against key frames
         [[nodiscard]] bool isAdjacent() const;      //!< to the frame before, whatever became of it
@@ -62,11 +63,11 @@ class ReferenceWindow
     /** The previous frame first, then the key frames, newest first. */
     [[nodiscard]] std::vector<const Reference*> active() const;
 
-    /** Frame whose points tell the overlap: the newest with points. */
+    /** Whether this is the newest frame with points, which overlap() is about. */
     [[nodiscard]] bool isNewest(const Reference& reference) const;
 
-    /** The fraction of the newest key frame's points or planes that was found again, the smaller;
-     * 0 without associations. */
+    /** Fraction of the newest key frame's points, or of its planes, that was found again: the
+     * smaller of the two, in [0, 1]; 0 without associations. */
     [[nodiscard]] double overlap(const std::vector<Association>& associations) const;
 
     /** \param overlap of the frame with the newest key frame, in [0, 1] */
@@ -75,21 +76,22 @@ class ReferenceWindow
     /** Corrects the velocity of the previous frame, now that the next one is known. */
     void refinePreviousVelocity(const Vector6d& velocity);
 
-    /** Takes in which points of a frame in the window have been found again. */
+    /** Counts which points of a frame in the window were found again. */
     void notePoints(int id, const std::vector<PointTrack>& tracks);
 
+    /** Makes a frame the previous one and, if wanted, the newest key frame. */
     void add(Reference frame, bool isKeyframe);
 
-    /** Older key frames, oldest first, that are not compared with unless they are recalled. */
+    /** Older key frames, oldest first. Frames are not compared with them until recall(). */
     [[nodiscard]] const std::deque<Reference>& places() const { return places_; }
 
-    /** Makes a place the newest key frame. */
+    /** Makes a place the newest key frame. \throws std::invalid_argument if `id` is not a place */
     void recall(int id);
 
-    /** The next frame starts a new window; the key frames become places. */
+    /** Ends the window: the key frames become places, and the next frame starts a new one. */
     void leave();
 
-    /** Forgets all, places, too. */
+    /** Forgets everything, also the places. */
     void clear();
 
  private:

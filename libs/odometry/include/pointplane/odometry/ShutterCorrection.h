@@ -19,18 +19,19 @@ class ShutterCorrection
     /** Unknown times count as zero. */
     ShutterCorrection(const ShutterModel& shutter, int imageHeight);
 
-    /** dP / dV of a point whose pixel is from the colour image and whose depth is from the depth
-     * image, which saw another part of its surface there: what was at P when it was seen is at
-     * P + (dP / dV) V at the frame's instant, to first order
-     * P + (s_c - s_d) theta_m^T (rho + omega x P) P + s_c (rho + omega x P). */
+    /** dP / dV [s, m s] of a point P as it was measured: at the frame's instant it is at
+     * P + (dP / dV) V. Its pixel is from the colour image, exposed at s_c. Its depth is from the
+     * depth image, exposed at s_d, which saw another part of the surface. To first order (dP / dV)
+     * V = (s_c - s_d) theta_m^T (rho + omega x P) P + s_c (rho + omega x P). */
     [[nodiscard]] Matrix36d pointJacobian(const PointFeature& point) const;
 
-    /** dtheta_m / dV of a plane: theta_m - (delay I + readout L) g with g = theta x omega - theta
-     * theta^T rho and L the plane's rowLever; derivation in docs/theory.md. */
+    /** dtheta_m / dV of a plane as it was measured: at the frame's instant it is at
+     * theta_m - (delay I + readout L) g with g = theta x omega - theta theta^T rho and L the
+     * plane's rowLever. Derivation: docs/theory.md, Rolling shutter. */
     [[nodiscard]] Matrix36d planeJacobian(const PlaneFeature& plane) const;
 
-    /** How these two times V change with readoutColour, readoutDepth, depthDelay [1/s], whatever
-     * they are. */
+    /** How the two corrections (Jacobian times V) change with readoutColour, readoutDepth and
+     * depthDelay, per second. The values of these times do not matter: corrections are linear. */
     [[nodiscard]] Eigen::Matrix3d pointByShutter(
         const PointFeature& point, const Vector6d& velocity) const;
     [[nodiscard]] Eigen::Matrix3d planeByShutter(

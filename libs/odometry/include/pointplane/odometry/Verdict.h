@@ -21,7 +21,7 @@ struct SurfaceSamples
     std::vector<Eigen::Vector3f> points_cam;  //!< camera frame, optical axes [m]
 };
 
-/** How the surfaces that one frame saw stand to what another frame sees. */
+/** How many surface points of one frame another frame sees where they should be. */
 struct Agreement
 {
     int agrees{0};    //!< the other frame sees a surface there
@@ -30,7 +30,7 @@ struct Agreement
 
     [[nodiscard]] int seen() const { return agrees + hidden + vanished; }
 
-    /** Part of the samples that agrees, of those that can be compared; 0 of none: nothing speaks
+    /** Fraction of the compared samples that agrees; 0 if none can be compared, as nothing speaks
      * for the motion then. */
     [[nodiscard]] double fraction() const
     {
@@ -40,12 +40,13 @@ struct Agreement
     Agreement& operator+=(const Agreement& other);
 };
 
-/** Whether two depth images agree about a motion. The features that made an estimate agree with it
- * even when they are wrong; the rest of the depth image does not: a motion that is wrong by 5 cm or
- * 5 deg leaves about a third of the surfaces where it says.
+/** Compares two depth images under a motion. The features that made an estimate agree with it even
+ * if they are wrong; the rest of the depth image does not. A motion that is wrong by 5 cm or 5 deg
+ * leaves about a third of the surfaces in agreement (docs/theory.md, Verdict).
  * \param T_cur_ref from the camera when the reference's depth image was exposed to the camera when
  * the current one was
- * \param slack_m what depths may differ by beside the sensor's noise and distortion [m] */
+ * \param noise of the depth camera
+ * \param slack_m allowed difference of depths beyond the sensor's noise and distortion [m] */
 [[nodiscard]] Agreement compareSurfaces(
     const SurfaceSamples& reference,
     const Eigen::Isometry3d& T_cur_ref,

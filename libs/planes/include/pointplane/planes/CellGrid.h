@@ -11,20 +11,21 @@
 
 namespace pointplane
 {
-/** The depth image cut into square cells, each with its moments. Pixels beyond the last full cell
- * are left out. Depth pixels are those of an ideal (undistorted) pinhole camera. */
+/** A depth image cut into square cells, each with its moments. Pixels beyond the last full cell are
+ * left out. The depth image is that of an ideal (undistorted) pinhole camera. */
 struct CellGrid
 {
     int cellSizePx{10};
     int cols{0}, rows{0};               //!< cells
     std::vector<PlaneMoments> moments;  //!< rows x cols, row-major
 
-    /** Recomputes from a depth image, reusing the memory.
-     * \param depth CV_32FC1 [m], NaN = no reading */
+    /** Computes all cells of a depth image; the memory is used again.
+     * \param depth CV_32FC1 [m], NaN = no reading \param cellSize side of a cell [px], at least 2
+     * \throws std::invalid_argument on another image type or cell size */
     void compute(const cv::Mat& depth, const PinholeCamera& camera, int cellSize);
 
-    /** Weighs each cell by its noise, so that every weighted pixel's inverse depth has the variance
-     * noise.sigmaInverseDepth^2; nothing to do where that is so at every depth. */
+    /** Weighs each cell such that the inverse depth of a pixel has the variance
+     * noise.sigmaInverseDepth^2 at every depth (DepthNoise::weight()). */
     void weigh(const DepthNoise& noise);
 };
 }  // namespace pointplane

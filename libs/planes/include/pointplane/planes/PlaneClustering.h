@@ -7,34 +7,35 @@
 
 namespace pointplane
 {
-/** When do pixels belong to one plane? In inverse depth, where the noise is constant; the lateral
- * noise adds with the slope: tolerance^2 = sigma_q^2 + (slopePx |theta_xy| / f)^2. Where a camera's
- * noise is not constant, pixels are weighted (CellGrid::weigh()) such that it becomes so. */
+/** Decides whether pixels belong to one plane: by their residuals in inverse depth, where the noise
+ * is constant or made so by weights (CellGrid::weigh()). On slanted planes lateral noise adds:
+ * tolerance^2 = sigma_q^2 + (slopePx |theta_xy| / f)^2 [1/m^2]. */
 struct PlanarityTest
 {
     DepthNoise noise;
     double slopePx{1};     //!< lateral uncertainty of a depth reading [px]
-    double bentPixels{1};  //!< what bends surfaces bends this many pixels like one piece
+    double bentPixels{1};  //!< so many pixels share one bending error (sigmaRelative)
     double focalLengthPx{525};
     double cellSigmas{2.5};  //!< rms residual of one cell, in tolerances
     double mergeSigmas{2};   //!< rms residual of merged cells, in tolerances
     double stepSigmas{2};    //!< rms offset of the smaller part from the joint plane, in tolerances
 
-    /** What lateral noise adds to the variance of a pixel's inverse depth [1/m^2]. */
+    /** Variance that lateral noise adds to a pixel's inverse depth [1/m^2]. */
     [[nodiscard]] double slopeSquared(const Eigen::Vector3d& theta_m) const;
 
-    /** Sum over weighted pixels of the squared residuals that one sigma of noise makes [1/m^2].
-     * \param bend how much of what bends surfaces is in them, in [0, 1] of the variance */
+    /** Sum of squared residuals that one sigma of noise makes in weighted pixels [1/m^2].
+     * \param bend share of the bending error's variance that shows in them, in [0, 1] */
     [[nodiscard]] double tolerated(
         const Eigen::Vector3d& theta_m, const PlaneMoments& m, double bend) const;
 
-    /** Of what bends surfaces, the part of the variance that a plane fitted to so many pixels
-     * leaves: a smooth error looks plane where little of it is seen. */
+    /** Share of the bending error's variance that shows in the residuals of a plane of so many
+     * pixels, in [0, 1]. A smooth error looks plane where little of it is seen. */
     [[nodiscard]] double bendWithin(double numPixels) const;
 
     [[nodiscard]] bool isPlanarCell(const PlaneMoments& cell) const;
 
-    /** The joint fit when the two parts are one plane. */
+    /** The joint fit if two parts are one plane, else nothing.
+     * \param sseA, sseB of their own fits [1/m^2] */
     [[nodiscard]] std::optional<MomentsFit> merged(
         const PlaneMoments& a, double sseA, const PlaneMoments& b, double sseB) const;
 };
@@ -47,10 +48,12 @@ struct CellCluster
     std::vector<int> cells;  //!< indices into the grid
 };
 
-/** Agglomerative hierarchical clustering on the cell graph (Feng, Taguchi & Kamat 2014): the node
- * of least mean squared error is merged with the neighbour that keeps the error least, until no
- * merge passes the test. Differs from the publication: errors are in inverse depth, and uniform
- * quads are merged first, which leaves the result on flat walls unchanged and the queue short.
+/** Agglomerative hierarchical clustering on the graph of cells (Feng, Taguchi & Kamat 2014): the
+ * cluster with the least mean squared error is merged with the neighbour that keeps the error
+ * least, until no merge passes the test. Two things differ from the publication: errors are in
+ * inverse depth, and uniform quads of cells are merged first. The latter keeps the queue short and
+ * changes nothing on flat walls.
+ *
  * \param minValidFraction of a cell's pixels that must have depth
  * \return clusters of at least minPixels, largest first; ties by cell index. */
 [[nodiscard]] std::vector<CellCluster> clusterCells(

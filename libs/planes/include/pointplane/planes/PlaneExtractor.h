@@ -13,8 +13,8 @@
 
 namespace pointplane
 {
-/** Depth image -> planes with covariance: clustering of cells, merging of coplanar parts, pixel
- * labels, RANSAC filter (optional), weighted least squares. */
+/** Finds the planes of a depth image, with covariances. Cells are clustered, coplanar parts merged,
+ * pixels labelled, filtered by RANSAC (optional), and fitted by weighted least squares. */
 class PlaneExtractor
 {
  public:
@@ -75,16 +75,17 @@ class PlaneExtractor
               "px",
               "number of pixels that err as one: factor on a plane's covariance");
         }
+        /** \throws std::invalid_argument naming the key */
         void check() const;
     };
 
     PlaneExtractor(const TParams& params, const DepthNoise& noise);
 
-    /** \param depth CV_32FC1 [m], NaN = no reading; an ideal pinhole's \return planes, largest
-     * first */
+    /** \param depth CV_32FC1 [m], NaN = no reading; of an ideal pinhole
+     * \return planes in the camera frame, largest first */
     [[nodiscard]] PlaneSet extract(const cv::Mat& depth, const PinholeCamera& camera);
 
-    /** For images from now on. */
+    /** Sets the noise of images from now on. */
     void setNoise(const DepthNoise& noise) { noise_ = noise; }
 
  private:

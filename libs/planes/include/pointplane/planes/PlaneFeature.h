@@ -14,8 +14,9 @@ struct PlaneFeature
 {
     PlaneGaussian plane_cam;  //!< camera frame, optical axes
     int numPixels{0};         //!< inliers that the fit used [px]
-    /** A^-1 sum_i f_i r_i r_i^T with A = sum_i r_i r_i^T over the pixels' rays and f = v / height -
-     * 1/2: how an inverse-depth error that grows linearly with the row enters theta_m. */
+    /** How an error of the inverse depth that grows linearly with the row enters theta_m, as with a
+     * rolling shutter: A^-1 sum_i f_i r_i r_i^T with A = sum_i r_i r_i^T over the pixels' rays r
+     * and f = v / height - 1/2. */
     Eigen::Matrix3d rowLever{Eigen::Matrix3d::Zero()};
 };
 

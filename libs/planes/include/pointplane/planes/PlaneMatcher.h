@@ -16,10 +16,11 @@ struct PlaneMatch
     int cur{0};
 };
 
-/** Which plane is which [P17, section Matching]: planes whose image segments overlap by at least
- * half of the smaller one, with normals and distances alike; of several, the one at the smallest
- * plane-to-plane distance |d'N' - dN| [P17 Eq. 7]. The reference is first moved by the predicted
- * motion; with the identity this is the paper's test between adjacent frames. */
+/** Matches planes of two frames [P17, section Matching]. Their segments must overlap by at least
+ * half of the smaller one, and their normals and distances must be alike. Of several candidates,
+ * the one at the smallest plane-to-plane distance |d'N' - dN| wins [P17 Eq. 7]. The reference is
+ * first moved by the predicted motion; with the identity this is the paper's test between adjacent
+ * frames. */
 class PlaneMatcher
 {
  public:
@@ -42,13 +43,15 @@ class PlaneMatcher
               "m",
               "largest difference of the planes' distances d from the camera");
         }
+        /** \throws std::invalid_argument naming the key */
         void check() const;
     };
 
     explicit PlaneMatcher(const TParams& params);
 
-    /** \param T_cur_ref predicted motion \return at most one match per reference plane and per
-     * current plane, sorted by reference index */
+    /** \param T_cur_ref predicted motion
+     * \return at most one match per reference plane and per current plane, sorted by reference
+     * index */
     [[nodiscard]] std::vector<PlaneMatch> match(
         const PlaneSet& ref,
         const PlaneSet& cur,

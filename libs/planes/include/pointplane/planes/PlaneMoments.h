@@ -7,18 +7,18 @@
 
 namespace pointplane
 {
-/** Additive sums over pixels from which a plane is fitted in inverse depth.
+/** Sums over pixels from which a plane is fitted in inverse depth. Those of a union of pixel sets
+ * are the sums of theirs, and so is the fit exact.
  *
- * On a plane theta_m . P + 1 = 0; divided by Z, with the ray r = (x, y, 1) and q = 1/Z, the
- * residual theta_m . r + q is linear in theta_m and its noise is that of the inverse depth, which
- * for a structured-light camera is the same at every depth. Least squares over any union of pixel
- * sets is therefore exact from the sum of their moments. */
+ * On a plane theta_m . P + 1 = 0. Divided by Z, with the ray r = (x, y, 1) and q = 1/Z, the
+ * residual theta_m . r + q is linear in theta_m. Its noise is that of the inverse depth, which is
+ * the same at every depth for structured light. */
 struct PlaneMoments
 {
     double n{0}, x{0}, y{0}, xx{0}, xy{0}, yy{0}, q{0}, xq{0}, yq{0}, qq{0};
-    double numPixels{0};  //!< n is the sum of their weights
+    double numPixels{0};  //!< how many; n is the sum of their weights
 
-    /** Weighs all pixels anew. */
+    /** Multiplies the weight of all pixels. */
     PlaneMoments& operator*=(double weight);
 
     /** Adds one pixel. \param ray_x, ray_y normalised coordinates \param inverseDepth [1/m] */
@@ -27,7 +27,7 @@ struct PlaneMoments
     PlaneMoments& operator+=(const PlaneMoments& other);
     friend PlaneMoments operator+(PlaneMoments a, const PlaneMoments& b) { return a += b; }
 
-    /** sum r r^T, the Gauss-Newton Hessian of theta_m up to 1 / sigma^2. */
+    /** sum r r^T: the information about theta_m, times sigma^2. */
     [[nodiscard]] Eigen::Matrix3d rayMatrix() const;
 
     /** Sum of squared residuals of a plane over these pixels [1/m^2]. */

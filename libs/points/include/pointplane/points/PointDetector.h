@@ -19,8 +19,8 @@ struct DetectedPoints
     cv::Mat descriptors;                 //!< CV_32FC1 (compare by L2) or CV_8UC1 (by Hamming)
 };
 
-/** Key points with descriptors, spread evenly over the image. The same image gives the same points,
- * whatever the number of threads. */
+/** Finds key points with descriptors, spread evenly over the image. The same image gives the same
+ * points, whatever the number of threads. */
 class PointDetector
 {
  public:
@@ -67,8 +67,9 @@ class PointDetector
     PointDetector(PointDetector&&) noexcept;
     PointDetector& operator=(PointDetector&&) noexcept;
 
-    /** \param gray CV_8UC1 \param mask empty, or CV_8UC1 of the same size: only points on non-zero
-     * pixels count (e.g. those with depth)
+    /** \param gray CV_8UC1
+     * \param mask empty, or CV_8UC1 of the same size: only points on non-zero pixels count (e.g.
+     * those with depth)
      * \return no points for an empty image
      * \throws std::invalid_argument on another image type or mask size */
     [[nodiscard]] DetectedPoints detect(const cv::Mat& gray, const cv::Mat& mask = {}) const;

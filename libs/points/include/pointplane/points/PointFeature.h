@@ -5,15 +5,15 @@
 
 namespace pointplane
 {
-/** A key point with depth. */
+/** A point of an image with depth. */
 struct PointFeature
 {
     Eigen::Vector2d uv_px{0, 0};  //!< raw pixel, sub-pixel accurate
     PointGaussian p_cam;          //!< camera frame, optical axes [m]
     /** The surface around it as a plane through it: theta_m . P + 1 = 0 [1/m]. */
     Eigen::Vector3d theta_m{0, 0, 0};
-    /** Of a track: how far vignetting displaces it, which makes the image's corners darker than its
-     * centre by this part, d p_cam / d vignetting [m]. */
+    /** Of a track: d p_cam / d vignetting [m], how far it is displaced by vignetting (the fraction
+     * by which the image's corners are darker than its centre). */
     Eigen::Vector3d ofVignetting_m{0, 0, 0};
 };
 }  // namespace pointplane

@@ -15,7 +15,7 @@ namespace pointplane
 struct LiftedPoints
 {
     std::vector<PointFeature> points;
-    std::vector<int> index;  //!< of each in the list that was lifted (row of its descriptor)
+    std::vector<int> index;  //!< of each point in the list that was given (row of its descriptor)
 };
 
 /** Key point + depth image -> 3-D point with covariance, in the camera frame [P17 Eq. 1, 2].
@@ -60,13 +60,15 @@ class PointLifter
     explicit PointLifter(const DepthNoise& noise) : PointLifter(TParams{}, noise) {}
     PointLifter(const TParams& params, const DepthNoise& noise);
 
-    /** For points that are lifted from now on. */
+    /** Sets the noise of points that are lifted from now on. */
     void setNoise(const DepthNoise& noise) { noise_ = noise; }
 
-    /** \param uv_px raw pixel \return nothing without usable depth there */
+    /** \param uv_px raw pixel of the colour image
+     * \return point in the camera frame [m]; nothing if there is no usable depth */
     [[nodiscard]] std::optional<PointFeature> lift(
         const RgbdFrame& frame, const Eigen::Vector2d& uv_px) const;
 
+    /** The points that have usable depth. \param uv_px raw pixels of the colour image */
     [[nodiscard]] LiftedPoints liftAll(
         const RgbdFrame& frame, const std::vector<Eigen::Vector2d>& uv_px) const;
 

@@ -17,10 +17,10 @@ struct PointMatch
     float distance{0};  //!< of the descriptors: bits (binary) or L2 norm (float)
 };
 
-/** Which point is which [P17, section Matching]: the nearest descriptor among the current points
- * inside a circle around the expected position. Only points of that circle are compared, found
- * through a grid; or, with `neighbours`, the k current points with the nearest descriptors anywhere
- * in the image are found first, of which those outside of the circle are left out. */
+/** Matches points by descriptor [P17, section Matching]: a reference point belongs to the current
+ * point with the nearest descriptor inside a circle around its expected position. Candidates are
+ * all points in the circle or, with `neighbours` = k, those of the k nearest descriptors of the
+ * whole image that lie in it. */
 class PointMatcher
 {
  public:
@@ -60,11 +60,12 @@ class PointMatcher
     PointMatcher() : PointMatcher(TParams{}) {}
     explicit PointMatcher(const TParams& params);
 
-    /** \param predicted_px where the reference points are expected in the current image; points
-     * with a position that is not finite are left out \param refDescriptors, curDescriptors a row a
-     * point: CV_8UC1 (Hamming) or CV_32FC1 (L2) \return at most one match per reference and per
-     * current point, sorted by reference index \throws std::invalid_argument when counts, sizes or
-     * types disagree */
+    /** \param predicted_px where each reference point is expected in the current image; a point
+     * whose position is not finite is left out
+     * \param refDescriptors, curDescriptors one row per point: CV_8UC1 (Hamming) or CV_32FC1 (L2)
+     * \param cur_px the current points
+     * \return at most one match per reference and per current point, sorted by reference index
+     * \throws std::invalid_argument when counts, sizes or types disagree */
     [[nodiscard]] std::vector<PointMatch> match(
         const std::vector<Eigen::Vector2d>& predicted_px,
         const cv::Mat& refDescriptors,

@@ -24,30 +24,32 @@ struct PointTrack
     PointFeature cur;  //!< where it is in the current frame
 };
 
-/** The points of a reference frame, ready to be found again. */
+/** The points of a reference frame, ready to be found again. All lists have one entry per point. */
 struct PointReference
 {
     std::vector<PointFeature> points;
     std::shared_ptr<const ReferencePatches> patches;  //!< tracking: what each looks like
     cv::Mat descriptors;                              //!< matching: a row a point
-    std::vector<Eigen::Matrix2d> cov_px;  //!< tracking: image noise of where each is found [px^2]
-    /** Tracking: how far each is found beside its place when the image is brighter, per relative
-     * change [px]. */
+    std::vector<Eigen::Matrix2d> cov_px;  //!< tracking: noise of where each is found [px^2]
+    /** Tracking: how far beside its place each is found in a brighter image, per relative change of
+     * the brightness [px]. */
     std::vector<Eigen::Vector2d> ofBrightness_px;
     std::vector<int> misses;  //!< tracking: frames in a row without each point
 
-    /** Takes in which points a frame has found again. */
+    /** Counts misses: which points were found again in a frame. */
     void note(const std::vector<PointTrack>& tracks);
 
-    /** Points that have been missing for some frames are searched only now and then, in turns: a
-     * search in vain takes longest. */
+    /** Whether to search for a point now. One that has been missing for some frames is searched for
+     * only now and then, in turns with others, because a search in vain takes longest. */
     [[nodiscard]] bool isDue(size_t point) const;
 };
 
-/** Corners of a reference image and their sub-pixel positions in later images: pyramidal
- * Lucas-Kanade (Bouguet 2001) from the predicted position, always against the reference itself, so
- * that positions do not drift. A track is accepted for what it looks like at the place where the
- * search ended (correlation), inside a circular neighbourhood of the prediction. */
+/** Finds corners of a reference image again in later images, to a fraction of a pixel.
+ *
+ * Pyramidal Lucas-Kanade (Bouguet 2001) searches from the predicted position. Each image is
+ * compared with the reference itself, so that positions do not drift. A track is accepted if the
+ * search ended inside a circle around the prediction, at a place that looks like the reference
+ * (correlation). */
 class PointTracker
 {
  public:
@@ -104,25 +106,29 @@ class PointTracker
               "-",
               "factor on the variance of a corner's inverse depth: depth is worse at texture");
         }
+        /** \throws std::invalid_argument naming the key */
         void check() const;
     };
 
     PointTracker(
         const TParams& params, const PointLifter::TParams& lifter, const DepthNoise& noise);
 
-    /** For points that are lifted from now on. */
+    /** Sets the noise of points that are lifted from now on. */
     void setNoise(const DepthNoise& noise);
 
-    /** The image pyramid that track needs. */
+    /** The image pyramid that track() needs. \param gray CV_8UC1 */
     [[nodiscard]] std::vector<cv::Mat> pyramid(const cv::Mat& gray) const;
 
-    /** Corners (Shi & Tomasi 1994) of the image at half its size, with depth; where there are few,
-     * points on edges, too. */
+    /** Takes the corners of a frame (Shi & Tomasi 1994, in the image at half its size) that have
+     * depth; where there are few, points on edges, too. */
     [[nodiscard]] PointReference makeReference(const RgbdFrame& frame) const;
 
-    /** \param T_cur_ref predicted motion \param radiusFactor above 1 widens the search for a bad
-     * prediction; only some of the points, spread over the list, are then looked for, less exactly;
-     * else those that are due \return in the reference's order */
+    /** Finds the points of a reference in a frame.
+     * \param pyramid of the frame's image
+     * \param T_cur_ref predicted motion
+     * \param radiusFactor of the search radius. 1: points that are due are searched for. Above 1,
+     * for a bad prediction: only some points, spread over the list, and less exactly
+     * \return the tracks, in the reference's order; points in the camera frame [m] */
     [[nodiscard]] std::vector<PointTrack> track(
         const PointReference& reference,
         const RgbdFrame& frame,

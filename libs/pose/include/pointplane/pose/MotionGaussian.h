@@ -12,8 +12,8 @@ struct Motion
     Vector6d velocity{Vector6d::Zero()};  //!< body velocity [m/s, rad/s]
 };
 
-/** A motion with uncertainty: pose (left perturbation) and velocity are jointly Gaussian, in this
- * order. */
+/** A motion with uncertainty. cov is that of [left perturbation of the pose; velocity], in m, rad,
+ * m/s, rad/s. */
 struct MotionGaussian
 {
     Motion mean;
@@ -22,22 +22,25 @@ struct MotionGaussian
     [[nodiscard]] PoseGaussian pose() const { return {mean.T_prev_cur, cov.topLeftCorner<6, 6>()}; }
 };
 
-/** What is known of a motion without the current frame, with e = [log(T_mean T^-1); V_mean - V] and
- * its first half e_T: how good a pose is, and which velocity goes with it. The information is that
- * of the joint Gaussian, split because either may be doubted alone. Positive semidefinite: a
- * direction without information is free. */
+/** What is known of a motion without the current frame.
+ *
+ * Its error is e = [log(T_mean T^-1); V_mean - V], with first half e_T. The information of the
+ * joint Gaussian is split in two, because either may be doubted alone: how good the pose is, and
+ * which velocity goes with it. Both are positive semidefinite: a direction without information is
+ * free. */
 struct MotionPrior
 {
     Motion mean;
     Matrix6d pose{Matrix6d::Zero()};                 //!< information of e_T
     Matrix12d velocityGivenPose{Matrix12d::Zero()};  //!< information of e beyond that
 
-    /** All that the prediction says. */
+    /** A prior with all that a prediction says. */
     [[nodiscard]] static MotionPrior from(const MotionGaussian& predicted);
 
-    /** The velocity is given, of the pose nothing is known. */
+    /** A prior that fixes the velocity and says nothing of the pose. */
     [[nodiscard]] static MotionPrior fixedVelocity(const Motion& motion);
 
+    /** e of a motion. */
     [[nodiscard]] Vector12d residual(const Motion& motion) const;
 };
 }  // namespace pointplane

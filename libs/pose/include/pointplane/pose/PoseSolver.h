@@ -11,7 +11,7 @@
 
 namespace pointplane
 {
-/** True variance of the features over the propagated one. */
+/** Variance of points and planes over the propagated one. */
 struct NoiseFactors
 {
     double points{1};
@@ -42,9 +42,9 @@ struct PoseEstimate
     bool converged{false};
 };
 
-/** Motion from pairs of uncertain points and planes: Levenberg-Marquardt on SE(3) over
- * E = sum_i rho(|P_i|^2) + alpha sum_j |C_j|^2 + |prior|^2 [P17 Eq. 10], the weights recomputed
- * from the propagated covariances at each iteration. */
+/** Estimates a motion from pairs of uncertain points and planes. Levenberg-Marquardt on SE(3)
+ * minimises E = sum_i rho(|P_i|^2) + alpha sum_j |C_j|^2 + |prior|^2 [P17 Eq. 10]. Each iteration
+ * propagates the covariances anew to weigh the residuals. */
 class PoseSolver
 {
  public:
@@ -111,21 +111,23 @@ class PoseSolver
               "a jerk, 0 = Gaussian");
             v("maxIterations", maxIterations, "-", "most iterations of Levenberg-Marquardt");
         }
+        /** \throws std::invalid_argument naming the key */
         void check() const;
     };
 
+    /** \throws std::invalid_argument naming the key */
     explicit PoseSolver(const TParams& params);
 
-    /** Residuals are in units of their covariances. */
+    /** Whether residuals are in units of their covariances (else in m and 1/m). */
     [[nodiscard]] bool isWeighted() const { return settings_.weighting != Weighting::None; }
 
-    /** Pose and velocity. \param start initial motion
-     * \pre prior and pairs must fix all directions or the covariance is that of a minimally damped
-     * system */
+    /** Pose and velocity of the current camera, with their joint covariance.
+     * \param start initial motion
+     * \pre prior and pairs fix all directions; the variance of one that nothing fixes is huge but
+     * finite */
     [[nodiscard]] PoseEstimate solve(const PoseProblem& problem, const Motion& start) const;
 
-    /** What a solution depends on and what it leaves unexplained.
-     * \param solution of the same problem */
+    /** What a solution depends on, and what it leaves unexplained. \param solution of solve() */
     [[nodiscard]] PoseAnalysis analyse(
         const PoseProblem& problem, const PoseEstimate& solution) const;
 

@@ -5,8 +5,9 @@
 
 namespace pointplane
 {
-/** Variance of 3-vectors over their covariances, whatever a few wrong ones are: the median of their
- * squared Mahalanobis norms over that of chi-square with 3 degrees of freedom.
- * \param squaredNorms are put in another order \return 0 of none */
+/** Variance of 3-vectors over their covariances, robust against wrong ones: the median of their
+ * squared Mahalanobis norms, over that of chi-square with 3 degrees of freedom.
+ * \param squaredNorms of the vectors; their order changes
+ * \return 0 if there are none */
 [[nodiscard]] double medianVariance(std::vector<double>& squaredNorms);
 }  // namespace pointplane

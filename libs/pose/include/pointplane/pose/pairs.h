@@ -6,9 +6,9 @@
 
 namespace pointplane
 {
-/** Errors of the camera, the same in all frames: its vignetting [-], the principal point's x and y
- * [px], the focal length [relative], the scale of depth [relative], and the shutter: readout of
- * colour, readout of depth, delay of depth [s]. */
+/** Errors of the camera, the same in all frames, in this order: vignetting [-]; principal point x,
+ * y [px]; focal length, scale of depth [relative]; readout of colour, readout of depth, delay of
+ * depth [s]. */
 constexpr int kNumCameraErrors = 8;
 constexpr int kFirstShutterError = 5;
 using CameraVector = Eigen::Matrix<double, kNumCameraErrors, 1>;
@@ -18,8 +18,8 @@ using MotionByCamera = Eigen::Matrix<double, 12, kNumCameraErrors>;  //!< pose a
 
 /** The same point seen twice.
  *
- * Rows of a rolling shutter are exposed one after the other: what the current frame shows depends
- * on its body velocity V [m/s, rad/s], to first order by dCur_dV. */
+ * Rows of a rolling shutter are exposed one after the other. So what the current frame shows
+ * depends on its body velocity V [m/s, rad/s]; to first order, by dCur_dV. */
 struct PointPair
 {
     PointGaussian ref;                        //!< from a reference frame, in the previous frame [m]

@@ -24,11 +24,11 @@ struct Residual
 /** r = P' - (R P + t) [P17 Eq. 8]: P' in the previous frame, P in the current camera [m]. */
 [[nodiscard]] Residual pointResidual(const PointPair& pair, const Motion& motion);
 
-/** Transforms the minimal form: theta_a = R theta_b / (1 - (R theta_b) . t), and its covariance. */
+/** The plane in frame a, with its covariance: theta_a = R theta_b / (1 - (R theta_b) . t). */
 [[nodiscard]] PlaneGaussian transformed(
     const Eigen::Isometry3d& T_a_b, const PlaneGaussian& plane_b);
 
-/** d theta_a / d theta_b of that. */
+/** d theta_a / d theta_b of transformed(). */
 [[nodiscard]] Eigen::Matrix3d transformJacobian(
     const Eigen::Isometry3d& T_a_b, const Eigen::Vector3d& theta_b);
 

@@ -12,11 +12,12 @@ namespace pointplane
 /** Noise of a depth camera, sigma_Z^2 = sigmaDepth^2 + (sigmaRelative Z)^2 + (sigmaInverseDepth
  * Z^2)^2.
  *
- * Triangulation (structured light, active stereo) errs by a constant in inverse depth. Khoshelham &
- * Elberink 2012, quoted by [P17, after Eq. 2]: sigma_Z = 1.425e-6 Z^2 in mm, that is sigma_Z =
- * 1.425e-3 Z^2 in metres, hence sigma of 1/Z is 1.425e-3 per metre at every depth of a Kinect. Time
- * of flight errs by a constant. sigmaRelative is what surfaces are bent by, smoothly over many
- * pixels: what is left of calibration, several paths of light, upsampling. */
+ * - sigmaInverseDepth: triangulation (structured light, active stereo) has constant noise in
+ *   inverse depth. Of a Kinect, Khoshelham & Elberink 2012 say sigma_Z = 1.425e-6 Z^2 in mm
+ *   [P17, after Eq. 2]. In metres this is 1.425e-3 Z^2: 1/Z has 1.425e-3 per metre at every depth.
+ * - sigmaDepth: time of flight has constant noise in depth.
+ * - sigmaRelative: what bends surfaces, smoothly over many pixels: calibration, several paths of
+ *   light, upsampling. */
 struct DepthNoise
 {
     double sigmaInverseDepth{1.425e-3};  //!< [1/m]
@@ -39,7 +40,8 @@ struct DepthNoise
         return sigmaInverseDepth * sigmaInverseDepth + relative * relative + constant * constant;
     }
 
-    /** That makes the variance of a weighted inverse depth sigmaInverseDepth^2. */
+    /** Weight of an inverse depth, with which its variance is sigmaInverseDepth^2 at every depth.
+     * \param q [1/m] */
     [[nodiscard]] double weight(double q) const
     {
         return isConstantInInverseDepth()
@@ -47,7 +49,7 @@ struct DepthNoise
                    : sigmaInverseDepth * sigmaInverseDepth / inverseDepthVariance(q);
     }
 
-    /** Part of that which bends surfaces, in [0, 1]. */
+    /** Share of sigmaRelative in inverseDepthVariance(), in [0, 1]. \param q [1/m] */
     [[nodiscard]] double relativeShare(double q) const
     {
         const double relative = sigmaRelative * q;
@@ -93,7 +95,7 @@ struct DepthNoise
     void check() const;
 };
 
-/** For people: kind, and noise at 1 m and at 3 m. */
+/** One line for users: kind, and noise at 1 m and at 3 m. */
 [[nodiscard]] std::string describe(const DepthNoise& noise);
 
 /** Point at depth z behind a raw pixel, P = z (x, y, 1) [P17 Eq. 1], with its first-order
@@ -102,7 +104,8 @@ struct DepthNoise
 [[nodiscard]] PointGaussian backProject(
     const PinholeCamera& camera, const DepthNoise& noise, const Eigen::Vector2d& uv_px, double z);
 
-/** The same for a depth whose standard deviation is known otherwise. \param sigmaZ [m] */
+/** The same for a depth whose standard deviation sigmaZ [m] is known from elsewhere.
+ * \param sigmaPixelPx of the pixel's position [px] */
 [[nodiscard]] PointGaussian backProject(
     const PinholeCamera& camera,
     double sigmaPixelPx,

@@ -10,27 +10,28 @@
 
 namespace pointplane
 {
-/** What kind of depth camera made a sequence of images, and how it errs.
+/** Learns from depth images what kind of camera made them, and its noise.
  *
- * Small cells of the image are fitted by planes in inverse depth; the least of their residuals tell
- * the noise at each depth. Structured light is known by its levels of disparity, or by a noise of
- * its size: it keeps the noise that is given, which is known best (Khoshelham & Elberink 2012). Any
- * other camera has the noise of the residuals, and bends surfaces in proportion to their distance
- * (kBend). Cells too small to show that are all that is used: large ones cannot tell a bent depth
- * image from a bent surface.
+ * Planes in inverse depth are fitted to small cells of the image. The smallest residuals tell the
+ * noise at each depth; the others are of surfaces that are not plane.
  *
- * Where noise is of that size but without the levels, it is learnt if it is more, and time of
- * flight is known by noise that does not grow with the distance.
+ * - Structured light is known by the levels of its disparity, or by noise of its size. With levels
+ *   it keeps the given noise (Khoshelham & Elberink 2012); without them, noise is learnt if it is
+ *   more than given.
+ * - Time of flight is known by small noise, or by noise that does not grow with the distance;
+ *   active stereo by large noise. Their noise is that of the residuals. Besides, they bend
+ *   surfaces in proportion to the distance, by a constant that is not learnt: a bent depth image
+ *   looks like a bent surface.
  *
- * The same images give the same noise. Images are looked at rarely once there have been some. */
+ * The same images give the same noise. After the first few, only one image in ten is looked at. */
 class DepthNoiseLearner
 {
  public:
-    /** \param given [DepthNoise] of the configuration; where it says its kind, only levels are
-     * learnt */
+    /** \param given [DepthNoise] of the configuration; its kind says what is learnt
+     * \throws std::invalid_argument naming the key that is out of range */
     explicit DepthNoiseLearner(const DepthNoise& given);
 
-    /** Takes in the next image. \param depth CV_32FC1 [m], NaN = no reading */
+    /** Learns from the next image. \param depth CV_32FC1 [m], NaN = no reading */
     void update(const cv::Mat& depth);
 
     /** Another camera: forgets the images so far. */

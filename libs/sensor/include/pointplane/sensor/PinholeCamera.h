@@ -13,8 +13,9 @@ namespace pointplane
 /** Pinhole camera with the five-parameter Brown distortion of OpenCV and MRPT.
  *
  * Pixel (0, 0) is the centre of the top-left pixel. Optical axes: x right, y down, z forward. A
- * negative fy is legal (image y axis up, as in ICL-NUIM). The colour and the registered depth image
- * share fx, fy, cx, cy; only the colour image is distorted unless depthAtUndistortedPixel is off.
+ * negative fy is legal (image y axis up, as in ICL-NUIM). The colour image and the depth image that
+ * is registered to it share fx, fy, cx, cy. Lens distortion is in the colour image; in the depth
+ * image only if depthAtUndistortedPixel is false.
  */
 struct PinholeCamera
 {
@@ -22,15 +23,16 @@ struct PinholeCamera
     double fx{525}, fy{525}, cx{319.5}, cy{239.5};      //!< [px]
     std::array<double, 5> distortion{{0, 0, 0, 0, 0}};  //!< k1 k2 p1 p2 k3
 
-    /** Where registered depth lies. A Kinect's registration knows the ideal pinhole only, so its
-     * depth belongs to undistorted pixels (true; measured on TUM fr1). False: depth was rendered
-     * into the raw, distorted colour image. No effect without distortion. */
+    /** True: the depth image is an ideal pinhole's, as a Kinect's registration makes it (measured
+     * on TUM fr1). False: depth was rendered into the raw, distorted colour image. No effect
+     * without distortion. */
     bool depthAtUndistortedPixel{true};
 
-    /** The intrinsics are those of the model of camera, or a guess; nobody calibrated this one. */
+    /** Nobody calibrated this camera: its intrinsics are those of its model, or a guess. */
     bool isNominal{false};
 
-    /** Empty when usable, otherwise what is wrong (NaN, zero focal length, empty image...). */
+    /** \return what is wrong (NaN, zero focal length, empty image...); empty if the camera is
+     * usable */
     [[nodiscard]] std::string problem() const;
 
     [[nodiscard]] bool isDistorted() const;

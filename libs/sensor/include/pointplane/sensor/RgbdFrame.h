@@ -9,8 +9,8 @@
 
 namespace pointplane
 {
-/** How the shutters of the two cameras sample time; NaN = not known. Row v of a picture is exposed
- * at  stamp + delay + (v / height - 1/2) * readout,  with delay = 0 for colour. */
+/** When the rows of both images are exposed: row v at stamp + delay + (v / height - 1/2) * readout,
+ * with delay = 0 for colour. NaN = not known. */
 struct ShutterModel
 {
     static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();

@@ -8,19 +8,20 @@
 
 namespace pointplane
 {
-/** A depth camera: what it makes of the true inverse depth.
+/** A depth camera: makes readings of the true inverse depth.
  *
- * Structured light and stereo match windows of a projected pattern, so their noise lives in
- * disparity = f b / Z: constant in inverse depth, correlated over the window, and quantised
- * (Khoshelham & Elberink 2012; Konolige & Mihelich 2010). Edges are ragged because a window may
- * match either side (Nguyen, Izadi & Lovell 2012, lateral noise). Time of flight errs by lengths: a
- * constant, interpolated between pixels where the image was enlarged, and in proportion, smoothly.
- * No reading: in the projector's shadow, at depth edges, on surfaces seen too flat, out of range.
- */
+ * - Structured light and stereo match windows of a projected pattern. So their noise is one of
+ *   disparity = f b / Z: constant in inverse depth, correlated over the window, and quantised
+ *   (Khoshelham & Elberink 2012; Konolige & Mihelich 2010). Edges are ragged, because a window may
+ *   match either side (lateral noise, Nguyen, Izadi & Lovell 2012).
+ * - Time of flight has constant noise in depth, interpolated where the image was enlarged, and a
+ *   smooth error in proportion to the depth.
+ * - There is no reading in the projector's shadow, at depth edges, on surfaces seen too flat, and
+ *   out of range. */
 class DepthSensor
 {
  public:
-    /** \param cameraKey seed of what is peculiar to this camera: its calibration error */
+    /** \param cameraKey seed of this camera's calibration error */
     DepthSensor(const SimulationParams& params, const Scene& scene, std::uint64_t cameraKey = 0);
 
     /** \param cast true picture \param frameKey seed of this frame's noise

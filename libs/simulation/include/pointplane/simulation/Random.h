@@ -6,9 +6,9 @@
 
 namespace pointplane
 {
-/** Random numbers that are the same on every platform (the standard distributions are not), as a
- * counter run through the finaliser of SplitMix64 (Steele, Lea & Flood 2014): streams of any two
- * keys are independent, and none has to be advanced to reach a frame or row. */
+/** Random numbers that are the same on every platform, unlike those of the standard distributions.
+ * A counter runs through the finaliser of SplitMix64 (Steele, Lea & Flood 2014). Streams of any two
+ * keys are independent, so any frame or row can be made without those before it. */
 class Random
 {
  public:

@@ -17,7 +17,7 @@ struct RowPose
     double t{0};  //!< [s] since the beginning: where the movers are
 };
 
-/** Those of a picture, top row first. */
+/** The poses of a picture's rows, top row first. */
 using RowPoses = std::vector<RowPose>;
 
 /** What the rays of a picture hit. */
@@ -27,6 +27,8 @@ struct CastImage
     cv::Mat ids;           //!< CV_32SC1, index of the surface, -1 = nothing
 };
 
+/** Casts the rays of a picture. \param poses one per row of the camera
+ * \throws std::invalid_argument if the camera is distorted or the number of poses is wrong */
 [[nodiscard]] CastImage castImage(
     const Scene& scene, const PinholeCamera& camera, const RowPoses& poses);
 

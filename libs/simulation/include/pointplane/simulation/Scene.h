@@ -10,15 +10,15 @@
 
 namespace pointplane
 {
-/** Something rigid that moves. It carries the light that falls on it at rest along. */
+/** Something rigid that moves. It keeps the light that falls on it at rest. */
 struct Mover
 {
     std::string name;
-    /** Where what is at p at rest is at t [s] since the beginning: T_world_rest(t) p. */
+    /** A point at p at rest is at T_world_rest(t) p at time t [s] since the beginning. */
     std::function<Eigen::Isometry3d(double t)> T_world_rest;
 };
 
-/** A world, what moves in it, and how a camera is carried through it. World: z up, metres. */
+/** A world, what moves in it, and how a camera moves through it. World: z up, metres. */
 struct Scene
 {
     std::string name;

@@ -26,8 +26,8 @@ struct TruePlanes
 struct TrueMovers
 {
     cv::Mat labels;  //!< CV_8UC1, of the colour image: 0 = the still world, i + 1 = mover i
-    /** How each mover has moved in the world since it was at rest; what is on mover i at p in frame
-     * a is at T_world_rest_b T_world_rest_a^-1 p in frame b. */
+    /** How each mover has moved in the world since it was at rest. A point of a mover that is at p
+     * (world) in frame a is at T_world_rest_b T_world_rest_a^-1 p in frame b. */
     std::vector<Eigen::Isometry3d> T_world_rest;
 };
 
@@ -52,11 +52,12 @@ class SimulatedSequence
     SimulatedSequence& operator=(SimulatedSequence&&) noexcept;
 
     [[nodiscard]] int numFrames() const;
-    [[nodiscard]] double stamp(int frame) const;
+    [[nodiscard]] double stamp(int frame) const;  //!< [s] UTC
     [[nodiscard]] const TParams& params() const;
     [[nodiscard]] const std::shared_ptr<const Scene>& scene() const;
 
-    /** \param colour out, CV_8UC3 BGR \throws std::invalid_argument when out of range */
+    /** Renders a frame. \param colour out, if given: CV_8UC3 BGR
+     * \throws std::invalid_argument when there is no such frame */
     [[nodiscard]] RgbdFrame frame(int frame, cv::Mat* colour = nullptr) const;
 
     /** T_world_cam, optical axes. \param stamp [s] UTC, as in RgbdFrame */
@@ -68,8 +69,8 @@ class SimulatedSequence
     /** Planes and their pixels, as in the depth image but without its gaps. */
     [[nodiscard]] TruePlanes truePlanes(int frame) const;
 
-    /** Movers and their pixels in the middle of the colour exposure. A mover has its label while it
-     * stands, too. */
+    /** Movers and their pixels in the middle of the colour exposure, also of movers that stand
+     * still. */
     [[nodiscard]] TrueMovers trueMovers(int frame) const;
 
  private:

@@ -40,8 +40,8 @@ class Texture
         return ((fine * (256 - blend.coarse) + coarse * blend.coarse + kHalf) >> 8) & kLanes;
     }
 
-    /** Asks for the memory that sample() with the same arguments will read: a slanted walk over a
-     * picture of many megabytes otherwise waits at every step. */
+    /** Fetches the memory that sample() with the same arguments will read. Without it, a slanted
+     * walk over a picture of many megabytes waits at every step. */
     void prefetch(float x, float y, float lod) const
     {
         const Blend blend = blendOf(lod);

@@ -11,13 +11,15 @@
 
 namespace pointplane
 {
-/** Errors of the latest poses, of the velocity, and of what the reference frames say about a pose,
- * as one Gaussian (stochastic cloning of Roumeliotis and Burdick 2002, with what the features of a
- * reference have in common in place of the features).
+/** One Gaussian of all errors that go on from frame to frame: those of the latest poses, of the
+ * velocity, of the camera, and of what each reference frame says about a pose.
  *
- * Frames are compared with the same references again and again: their errors do not grow from frame
- * to frame as those of independent increments would. All errors are left perturbations in the world
- * frame [m, rad], the velocity's in the body frame [m/s, rad/s]. Derivation in docs/theory.md. */
+ * Frames are compared with the same references again and again. So their errors do not add up as
+ * those of independent increments would. The method is stochastic cloning (Roumeliotis and Burdick
+ * 2002), with one common error per reference instead of one per feature.
+ *
+ * Errors of poses are left perturbations in the world frame [m, rad]; that of the velocity is in
+ * the body frame [m/s, rad/s]. Derivation: docs/theory.md, Window. */
 class JointCovariance
 {
  public:
@@ -81,25 +83,24 @@ class JointCovariance
         }
         /** \throws std::invalid_argument naming the key */
         void check() const;
-        [[nodiscard]] bool isJoint() const;  //!< or of independent increments
+        [[nodiscard]] bool isJoint() const;  //!< model is joint, not independent
     };
 
-    /** How what a reference says changes from the view of the previous frame to that of this one:
-     * its error is `kept` times the one before plus noise (ReferenceErrors). Variances are over
-     * that of one view. */
+    /** How the error of what a reference says goes on from the previous frame's view to this one's:
+     * it is `kept` times the one before, plus noise (driftStep()). Variances are in units of
+     * Measurement::drift. */
     struct DriftStep
     {
         double kept{1};
         double gained{0};  //!< variance of the noise
-        double whole{
-            1};  //!< variance of the error seen from this frame, if nothing is known before
+        double whole{1};   //!< variance of the error, if nothing is known before
     };
 
-    /** On what pose (left perturbation in the previous measured frame) and
-     * velocity of a measured frame depend. */
+    /** What pose (left perturbation in the previous measured frame) and velocity of a measured
+     * frame depend on. */
     struct Measurement
     {
-        std::map<int, Matrix126d> references;     //!< change with the pose of each reference
+        std::map<int, Matrix126d> references;     //!< by id: change with a reference's pose
         Matrix12d prior{Matrix12d::Zero()};       //!< change with that of the predicted motion
         Matrix12d noise{Matrix12d::Zero()};       //!< of the frame's own features
         Matrix12d priorNoise{Matrix12d::Zero()};  //!< of the predicted motion, without the velocity
@@ -112,22 +113,22 @@ class JointCovariance
 
     explicit JointCovariance(const TParams& params);
 
-    /** The first frame, a reference. \param cov of its pose */
+    /** Starts with the first frame, a reference. \param cov of its pose (left, world) */
     void start(int frame, const Matrix6d& cov);
 
-    /** From here on, frames are those of another camera. \param cov of its errors; at first, it has
-     * none */
+    /** From here on, frames are those of another camera. \param cov of its errors; zero before the
+     * first call */
     void changeCamera(const CameraMatrix& cov);
 
-    /** A frame that was not measured. \param T_world_latest pose of the frame before
+    /** Adds a frame that was not measured. \param T_world_latest pose of the frame before
      * \param cov of the motion from there (left perturbation in its frame) */
     void predict(int frame, const Eigen::Isometry3d& T_world_latest, const Matrix6d& cov);
 
-    /** A frame whose pose is known becomes the previous one and the only reference.
-     * \param poses that stay known, too */
+    /** Makes a known frame the previous one and the only reference.
+     * \param poses frames whose poses stay known, too */
     void restart(int frame, const std::vector<int>& poses = {});
 
-    /** A measured frame: the next previous one, and a reference.
+    /** Adds a measured frame, which becomes the previous one and a reference.
      * \param T_world_prev pose of the previous measured frame \param dt [s] since that */
     void measure(
         int frame,
@@ -135,18 +136,19 @@ class JointCovariance
         double dt,
         const Measurement& measurement);
 
-    /** Forgets what other references err by, and poses beyond the history but theirs, the previous
-     * frame's and these. */
+    /** Forgets errors of other references than these, and poses older than the history. Kept are
+     * the poses of the references, of the previous frame, and of `poses`. */
     void keep(const std::vector<int>& references, const std::vector<int>& poses = {});
 
-    /** Of the latest pose; positive semidefinite. */
+    /** Covariance of the latest pose (left, world); positive semidefinite. */
     [[nodiscard]] Matrix6d latest() const;
 
     /** Whether relative() knows the frame. */
     [[nodiscard]] bool knows(int frame) const;
 
-    /** Of the motion from a frame in the history to the latest (left perturbation in its frame);
-     * positive semidefinite. \param T_world_from its pose */
+    /** Covariance of the motion from a frame in the history to the latest one (left perturbation in
+     * frame `from`); positive semidefinite. \param T_world_from pose of that frame
+     * \throws std::invalid_argument if the frame is not known */
     [[nodiscard]] Matrix6d relative(int from, const Eigen::Isometry3d& T_world_from) const;
 
  private:

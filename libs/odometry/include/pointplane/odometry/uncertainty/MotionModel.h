@@ -8,10 +8,10 @@
 
 namespace pointplane
 {
-/** What is known of the next frame's motion: constant velocity with white acceleration (the Wiener
- * velocity model of Anderson and Barfoot 2015), whose density follows the motion, and without
- * measurements the decaying velocity of Klein & Murray 2007, quoted in [P17, section Pose
- * estimation]. Derivation in docs/theory.md. */
+/** Predicts the next frame's motion: constant velocity with white acceleration (the Wiener velocity
+ * model of Anderson and Barfoot 2015). The density of the acceleration is learnt. Without
+ * measurements the velocity decays (Klein & Murray 2007, quoted in [P17, section Pose estimation]).
+ * Derivation: docs/theory.md, Motion. */
 class MotionModel
 {
  public:
@@ -54,33 +54,34 @@ class MotionModel
 
     explicit MotionModel(const TParams& params);
 
-    /** Motion over `dt` [s] from the latest measured frame: T_prev_cur and the velocity after it.
-     * \pre dt > 0 */
+    /** Predicted motion over `dt` [s] from the latest measured frame: T_prev_cur and the velocity
+     * at its end. \pre dt > 0 */
     [[nodiscard]] MotionGaussian predict(double dt) const;
 
-    /** Covariance of predict() that does not come from that of the velocity as it was measured. */
+    /** Covariance of predict() without the part that the measured velocity's own covariance makes.
+     */
     [[nodiscard]] Matrix12d processNoise(double dt) const;
 
-    /** Covariance of the pose by a jerk that the velocities so far do not show. */
+    /** Covariance of the pose by a jerk that was not foreseen, over `dt` [s]. */
     [[nodiscard]] Matrix6d jerk(double dt) const;
 
-    /** A measured increment whose mean velocity is taken for the velocity at its end, as in the
+    /** Takes the mean velocity of a measured increment for the velocity at its end, as in the
      * paper. */
     void follow(const Eigen::Isometry3d& T_prev_cur, double dt);
 
-    /** A measured motion over `dt`. \return the velocity at its start, now that its end is known:
-     * two estimates that err for different reasons, weighed by variance. The smoother's
-     * (Rauch-Tung-Striebel) goes by the shutter's rows, which tell only how velocities differ from
-     * those of the references, and wanders with these; that of the increments before and after
-     * misses jerks. */
+    /** Learns from a measured motion over `dt` [s].
+     * \return the velocity at its start, now that its end is known. Two estimates are weighed by
+     * their variances, because they err for different reasons. The smoother's (Rauch-Tung-Striebel)
+     * goes by the rows of the shutter, which tell only how velocities differ from those of the
+     * references, and wanders with these. That of the increments before and after misses jerks. */
     Vector6d update(const MotionGaussian& measured, double dt);
 
-    /** Takes half of what the latest two increments say the velocity is at their end, by constant
-     * acceleration. For motion from frame to frame: the next frame's velocity is told by rows of
-     * the shutter against this one's, which no later increment can correct before. */
+    /** Moves the velocity half way to what the latest two increments say of it, by constant
+     * acceleration. For odometry from frame to frame: the next frame measures its velocity against
+     * this one, before a later increment can correct it. */
     void followIncrements();
 
-    /** No measurement over `dt`: the velocity decays, its uncertainty grows. */
+    /** Passes `dt` [s] without a measurement: the velocity decays, its uncertainty grows. */
     void coast(double dt);
 
     /** Body velocity at the latest measured frame, decayed since [m/s, rad/s]. */
@@ -89,6 +90,7 @@ class MotionModel
     /** Variance that the velocity gains per second, as adapted [m^2/s^3, rad^2/s^3]. */
     [[nodiscard]] const Vector6d& density() const { return density_; }
 
+    /** Forgets the motion: the velocity is unknown again. */
     void reset();
 
  private:

@@ -6,14 +6,15 @@
 
 namespace pointplane
 {
-/** The variance of a camera's points and planes over the propagated one.
+/** Learns the variance of points and planes, over the propagated one.
  *
- * Residuals of the frames so far tell how large errors are that differ between features; sensors
- * differ by more than a factor of ten here. Errors that the features of a frame have in common show
- * where reference frames contradict each other about the pose (docs/theory.md).
+ * Residuals tell how large errors are that differ between features; sensors differ by more than a
+ * factor of ten in this. Errors that the features of a frame have in common do not show in
+ * residuals. They show where reference frames contradict each other about the pose (docs/theory.md,
+ * Noise of features).
  *
- * It follows slowly: a depth image that bends for a second makes points look worse and planes
- * better, and a pose that believed this at once would follow the bent image. */
+ * It learns slowly. A depth image that bends for a second makes points look worse and planes
+ * better; a pose that believed this at once would follow the bent image. */
 class NoiseScale
 {
  public:
@@ -45,20 +46,21 @@ class NoiseScale
 
     explicit NoiseScale(const TParams& params);
 
-    /** Takes in a measured frame, `dt` [s] after the one before. */
+    /** Learns from a measured frame, `dt` [s] after the one before. */
     void update(const PoseAnalysis& analysis, double dt);
 
-    /** For the solver, whose features have to stand beside a predicted motion. */
+    /** For the solver: with the constant factors, by which features are weighed against a predicted
+     * motion. */
     [[nodiscard]] NoiseFactors factors() const;
 
-    /** By residuals and disagreement, without the constant factors. */
+    /** Learnt from residuals and disagreement, without the constant factors. */
     [[nodiscard]] NoiseFactors levels() const;
 
-    /** How much the variance of residuals so far exceeds that which factors() cautiously goes by at
-     * the start: that of points, or of planes where there are no points. */
+    /** Variance of the residuals so far over the one that factors() starts with, out of caution:
+     * that of points, or of planes if there are no points. */
     [[nodiscard]] double overCautious() const;
 
-    /** By the residuals alone. */
+    /** Learnt from the residuals alone. */
     [[nodiscard]] NoiseFactors residuals() const
     {
         return {pointResiduals_.quick, planeResiduals_.quick};

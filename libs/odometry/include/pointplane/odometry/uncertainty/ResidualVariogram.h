@@ -11,13 +11,13 @@
 
 namespace pointplane
 {
-/** What the residuals of the same features say when they are compared from frame to frame: what
- * changes at once is noise, what changes as the view does is drift.
+/** Tells noise from drift, by comparing the residuals of the same features from frame to frame:
+ * what changes at once is noise, what changes with the view is drift. Residuals of single frames
+ * cannot tell these two apart, and cameras and scenes differ in each by more than a factor of ten.
  *
- * Half of the mean squared difference of two residuals over their distance is their variogram
- * (Matheron 1963); it is a line, w + g times the views between them, for white noise of variance w
- * beside a random walk. Both are over the propagated variance. Residuals alone cannot tell these
- * two apart, and cameras and scenes differ in each by more than a factor of ten. */
+ * The variogram (Matheron 1963) is half of the mean squared difference of two residuals, by the
+ * distance between them. White noise of variance w beside a random walk makes it a line: w + g
+ * times the views between the frames. Both w and g are over the propagated variance. */
 class ResidualVariogram
 {
  public:
@@ -27,10 +27,10 @@ class ResidualVariogram
         NoiseFactors drift;  //!< g, per view (numViews())
     };
 
-    /** Takes in a measured frame.
-     * \param R_world_prev orientation of the previous frame, that of its residuals
+    /** Learns from a measured frame.
+     * \param R_world_prev orientation of the previous frame, in which its residuals are
      * \param views since the measured frame before, `dt` [s] earlier
-     * \param residuals variance of all residuals; the levels are guessed from it at first */
+     * \param residuals variance of all residuals, from which the levels are guessed at first */
     void update(
         const PoseAnalysis& analysis,
         const Eigen::Matrix3d& R_world_prev,

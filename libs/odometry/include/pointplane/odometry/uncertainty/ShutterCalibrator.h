@@ -7,11 +7,11 @@
 
 namespace pointplane
 {
-/** The shutter of a camera that nobody has calibrated, from its own motion.
+/** Learns the shutter of a camera that nobody has calibrated, from its own motion.
  *
- * Residuals that remain at the estimated pose depend on the readout times and on the delay of the
- * depth image through the velocity, which differs between frames. What they say of these times once
- * the motion is eliminated (CameraInformation) is summed over frames. */
+ * The residuals at the estimated pose depend on the readout times and on the delay of the depth
+ * image, the more the faster the camera moves. What they say of these times, once the motion is
+ * eliminated (CameraInformation), is summed over frames. */
 class ShutterCalibrator
 {
  public:
@@ -63,22 +63,23 @@ class ShutterCalibrator
 
     explicit ShutterCalibrator(const TParams& params);
 
-    /** The source's values, completed by the present estimate; to its delay, which comes from time
-     * stamps, the estimate is added. An instant when nothing is corrected. */
+    /** The source's values where it knows them, else the estimate. A delay that comes from time
+     * stamps is a part of the true one: the estimate is added. All zero if `correct` is off. */
     [[nodiscard]] ShutterModel complete(const ShutterModel& source) const;
 
-    /** 1 for each of the three times that is estimated, 0 for those that the source knows. */
+    /** 1 for each of the three times that is estimated, 0 for each that the source knows. */
     [[nodiscard]] Eigen::Vector3d estimated(const ShutterModel& source) const;
 
-    /** How the error of the estimate changes: it is gain times the one before, plus noise. */
+    /** How the error of the estimate changes with a frame: it is gain times the one before, plus
+     * noise. */
     struct Change
     {
         Eigen::Matrix3d gain{Eigen::Matrix3d::Identity()};
         Eigen::Matrix3d noise{Eigen::Matrix3d::Zero()};  //!< its covariance [s^2]
     };
 
-    /** Takes in what a measured frame says. \param variance of its features over the one that the
-     * solver weighed them by */
+    /** Learns from a measured frame.
+     * \param variance of its features, over the one by which the solver weighed them */
     Change update(const CameraInformation& camera, double variance = 1);
 
     /** readoutColour, readoutDepth, depthDelay [s]. */
