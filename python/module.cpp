@@ -188,7 +188,7 @@ void addCamera(py::module_& m)
     py::class_<PinholeCamera>(
         m,
         "Camera",
-        "Pinhole camera; pixels count from the centre of the top left one, distortion is k1 k2 p1 "
+        "Pinhole camera. Pixel (0, 0) is the centre of the top left one; distortion is k1 k2 p1 "
         "p2 "
         "k3 of OpenCV.")
         .def(
@@ -248,13 +248,16 @@ void addResult(py::module_& m)
             "pose",
             [](const OdometryResult& r) { return r.pose.mean.matrix(); },
             "4x4, this frame in the first one")
-        .def_property_readonly("covariance", [](const OdometryResult& r) { return r.pose.cov; })
+        .def_property_readonly(
+            "covariance", [](const OdometryResult& r) { return r.pose.cov; }, "6x6, of the pose")
         .def_property_readonly(
             "increment",
             [](const OdometryResult& r) { return r.increment.mean.matrix(); },
             "4x4, this frame in the one before")
         .def_property_readonly(
-            "increment_covariance", [](const OdometryResult& r) { return r.increment.cov; })
+            "increment_covariance",
+            [](const OdometryResult& r) { return r.increment.cov; },
+            "6x6, of this increment alone")
         .def(
             "__repr__",
             [](const OdometryResult& r)

@@ -43,6 +43,7 @@ class PointStage
         [[nodiscard]] bool tracks() const;  //!< or matches
     };
 
+    /** \throws std::invalid_argument naming the key */
     PointStage(
         const TParams& params,
         const PointTracker::TParams& tracker,

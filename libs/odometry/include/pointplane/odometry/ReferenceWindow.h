@@ -55,6 +55,7 @@ class ReferenceWindow
         [[nodiscard]] bool isAdjacent() const;      //!< to the frame before, whatever became of it
     };
 
+    /** \throws std::invalid_argument naming the key */
     explicit ReferenceWindow(const TParams& params);
 
     [[nodiscard]] bool empty() const { return !hasPrevious_; }

@@ -79,6 +79,7 @@ class PlaneExtractor
         void check() const;
     };
 
+    /** \throws std::invalid_argument naming the key */
     PlaneExtractor(const TParams& params, const DepthNoise& noise);
 
     /** \param depth CV_32FC1 [m], NaN = no reading; of an ideal pinhole

@@ -47,6 +47,7 @@ class PlaneMatcher
         void check() const;
     };
 
+    /** \throws std::invalid_argument naming the key */
     explicit PlaneMatcher(const TParams& params);
 
     /** \param T_cur_ref predicted motion

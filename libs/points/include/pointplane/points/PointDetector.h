@@ -62,6 +62,7 @@ class PointDetector
     };
 
     PointDetector() : PointDetector(TParams{}) {}
+    /** \throws std::invalid_argument naming the key */
     explicit PointDetector(const TParams& params);
     ~PointDetector();
     PointDetector(PointDetector&&) noexcept;

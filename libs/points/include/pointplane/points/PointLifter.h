@@ -58,6 +58,7 @@ class PointLifter
     };
 
     explicit PointLifter(const DepthNoise& noise) : PointLifter(TParams{}, noise) {}
+    /** \throws std::invalid_argument naming the key */
     PointLifter(const TParams& params, const DepthNoise& noise);
 
     /** Sets the noise of points that are lifted from now on. */

@@ -58,6 +58,7 @@ class PointMatcher
     };
 
     PointMatcher() : PointMatcher(TParams{}) {}
+    /** \throws std::invalid_argument naming the key */
     explicit PointMatcher(const TParams& params);
 
     /** \param predicted_px where each reference point is expected in the current image; a point

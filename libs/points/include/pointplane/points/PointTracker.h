@@ -110,6 +110,7 @@ class PointTracker
         void check() const;
     };
 
+    /** \throws std::invalid_argument naming the key */
     PointTracker(
         const TParams& params, const PointLifter::TParams& lifter, const DepthNoise& noise);
 

@@ -92,6 +92,7 @@ struct DepthNoise
           "if given: smooth error that bends surfaces, as a fraction of the depth");
         v("sigmaPixelPx", sigmaPixelPx, "px", "noise of a key point's position");
     }
+    /** \throws std::invalid_argument naming the key */
     void check() const;
 };
 

@@ -111,6 +111,7 @@ class JointCovariance
         CameraMatrix cameraNoise{CameraMatrix::Zero()};     //!< are gain * before + noise
     };
 
+    /** \throws std::invalid_argument naming the key */
     explicit JointCovariance(const TParams& params);
 
     /** Starts with the first frame, a reference. \param cov of its pose (left, world) */

@@ -49,9 +49,11 @@ class MotionModel
               "rad/s^2",
               "the same of the rotation");
         }
+        /** \throws std::invalid_argument naming the key */
         void check() const;
     };
 
+    /** \throws std::invalid_argument naming the key */
     explicit MotionModel(const TParams& params);
 
     /** Predicted motion over `dt` [s] from the latest measured frame: T_prev_cur and the velocity

@@ -44,6 +44,7 @@ class NoiseScale
         void check() const;
     };
 
+    /** \throws std::invalid_argument naming the key */
     explicit NoiseScale(const TParams& params);
 
     /** Learns from a measured frame, `dt` [s] after the one before. */

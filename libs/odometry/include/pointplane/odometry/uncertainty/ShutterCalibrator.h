@@ -61,6 +61,7 @@ class ShutterCalibrator
         void check() const;
     };
 
+    /** \throws std::invalid_argument naming the key */
     explicit ShutterCalibrator(const TParams& params);
 
     /** The source's values where it knows them, else the estimate. A delay that comes from time
