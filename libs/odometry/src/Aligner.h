@@ -19,7 +19,7 @@
 
 namespace pointplane
 {
-/** A frame laid over its references. */
+/** A frame compared with its references: matches, motion, and whether it is to be believed. */
 struct Alignment
 {
     Prediction predicted;
@@ -31,21 +31,21 @@ struct Alignment
     int numSought{0};             //!< points of the references that should be in view
     bool holds{false};            //!< the estimate is to be believed
     double msPose{0};             //!< time that solving took [ms]
-    std::string reason;           //!< why not, or what of it is predicted
+    std::string reason;           //!< why it does not hold, or how much of it is predicted
 
     [[nodiscard]] size_t numMatches() const
     {
         return problem.points.size() + problem.planes.size();
     }
 
-    /** Part of the points in view that agrees with the estimate; of a handful, less. */
+    /** Fraction of the points in view that agrees with the estimate; smaller if there are few. */
     [[nodiscard]] double pointShare() const;
 };
 
-/** Matching and pose estimation with its validation [P17, section Pose estimation]. Points and
- * planes are looked for where the predicted motion puts them; where that leads nowhere, farther
- * off, and then where the images alone put them. The depth image, which took no part, has the last
- * word. */
+/** Matches a frame, estimates its pose and judges the estimate [P17, section Pose estimation].
+ * Points and planes are searched for where the predicted motion puts them. If that fails, they are
+ * searched for farther away, then where a motion puts them that the images alone tell. The depth
+ * image, which took no part, has the last word. */
 class Aligner
 {
  public:
@@ -59,7 +59,7 @@ class Aligner
         const ErrorModel& errors,
         FrameDiagnostics& diagnostics) const;
 
-    /** The place in which the camera is again, or nothing. */
+    /** The older key frame (Track::places()) that the camera sees again, or nothing. */
     [[nodiscard]] std::optional<int> recognise(
         const FrontEnd& frontEnd, const Features& current, const Track& track) const;
 
@@ -82,7 +82,7 @@ class Aligner
     enum class Search
     {
         Close,  //!< around where a motion puts the features
-        Wide    //!< farther, for a first guess, and then closely
+        Wide    //!< farther away for a first guess, then closely around that
     };
 
     [[nodiscard]] Alignment attempt(const Scene& scene, const Motion& start, Search search) const;

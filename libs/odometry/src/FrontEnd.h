@@ -13,8 +13,8 @@
 
 namespace pointplane
 {
-/** From images to points and planes, and to what two frames have in common. Knows no history but
- * what the depth images have told of the camera's noise. */
+/** Takes points and planes from images, and finds what two frames have in common. Of the past it
+ * knows only the camera's noise, which it learns from the depth images. */
 class FrontEnd
 {
  public:
@@ -22,10 +22,10 @@ class FrontEnd
 
     [[nodiscard]] Features extract(const RgbdFrame& frame, FrameDiagnostics& diagnostics);
 
-    /** The points by which later frames can be compared with this one. Takes time. */
+    /** The points by which later frames are compared with this one. Takes time. */
     [[nodiscard]] PointReference pointReference(const Features& features) const;
 
-    /** What the frame's images are needed for when it has become a key frame. */
+    /** What is kept of the frame's images when it becomes a key frame. */
     [[nodiscard]] std::shared_ptr<KeyframeImages> keyframeImages(const Features& features) const;
 
     /** How well the depth images agree about a motion; see compareSurfaces(). */
@@ -42,11 +42,11 @@ class FrontEnd
         return findMovingRegions(current.frame, earlier, depthNoise_.noise());
     }
 
-    /** Motion by the images alone, where enough points tell one. */
+    /** Motion without a prediction (ImageAligner); nothing if too few points tell one. */
     [[nodiscard]] std::optional<ImageMotion> alignImages(
         const Reference& reference, const Features& current) const;
 
-    /** What of the reference is found again.
+    /** Finds points and planes of a reference again.
      * \param T_cur_ref where to look \param radiusFactor above 1 looks farther, less thoroughly */
     [[nodiscard]] Association associate(
         const Reference& reference,

@@ -5,9 +5,9 @@
 
 namespace pointplane
 {
-/** Copies of the latest frame's images: the caller may reuse its buffers. Who keeps a frame for
- * longer, as key frames do, shares them and copies nothing. They also tell images that come twice:
- * their noise makes any two others differ. */
+/** Keeps copies of the latest frame's images, so that the caller may reuse its buffers. Key frames
+ * share these copies. It also tells whether images came twice: noise makes any two others differ.
+ */
 class LatestImages
 {
  public:

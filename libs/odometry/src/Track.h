@@ -21,9 +21,9 @@ namespace pointplane
 struct Prediction
 {
     double dt{0};           //!< [s] since the previous frame
-    MotionGaussian motion;  //!< by velocities as they have been changing
+    MotionGaussian motion;  //!< if velocities change as they did so far
     PoseGaussian pose;      //!< the same, with the chance of a jerk
-    MotionPrior prior;      //!< what of both the solver is told
+    MotionPrior prior;      //!< of both, what the solver uses
 };
 
 /** Where the camera has been so far: poses with their joint covariance, its velocity, and the
@@ -47,8 +47,7 @@ class Track
     /** Older key frames, which may be recalled. */
     [[nodiscard]] const std::deque<Reference>& places() const { return window_.places(); }
 
-    /** The fraction of the newest key frame's points or planes that was found again, the smaller.
-     */
+    /** ReferenceWindow::overlap(). */
     [[nodiscard]] double overlap(const std::vector<Association>& associations) const
     {
         return window_.overlap(associations);
@@ -56,7 +55,7 @@ class Track
 
     [[nodiscard]] bool needsKeyframe(const Eigen::Isometry3d& T_prev_cur, double overlap) const;
 
-    /** Pose in the world of the latest frame, whatever became of it. */
+    /** Pose in the world of the latest frame, measured or not. */
     [[nodiscard]] PoseGaussian pose() const { return history_.pose(); }
 
     /** Motions to the latest frame (OdometryResult::since). */
@@ -65,25 +64,25 @@ class Track
     /** Why a frame cannot be compared with the past, or empty. */
     [[nodiscard]] std::string interruption(double stamp, const PinholeCamera& camera) const;
 
-    /** One frame may come late. A second one in order after it means that the clock has been set,
-     * or that the stamps before were wrong; it is not late then. */
+    /** Whether a frame's stamp is not after the latest one. One frame may be late. If a second one
+     * follows it in order, the clock has been set, or the stamps before were wrong: it is not late.
+     */
     [[nodiscard]] bool isLate(double stamp);
 
-    /** Of the motion from the previous frame. After more than maxGap nothing is known of the
-     * velocity any more. */
+    /** Predicts the motion from the previous frame. After more than maxGap the velocity is unknown.
+     */
     [[nodiscard]] Prediction prediction(double stamp);
 
-    /** Covariance of a prediction that does not come from that of the velocity as it was measured.
-     */
+    /** MotionModel::processNoise(). */
     [[nodiscard]] Matrix12d motionNoise(double dt) const { return motion_.processNoise(dt); }
 
     // Transitions
 
-    /** Begins with this frame, or goes on from where it is predicted to be; what was seen before is
-     * forgotten. \param frame without id and pose \return the increment */
+    /** Begins with this frame or, later, goes on from its predicted pose. Earlier frames are not
+     * compared with any more. \param frame without id and pose \return the increment */
     PoseGaussian restart(Reference frame, const PinholeCamera& camera);
 
-    /** What a measured frame says. */
+    /** A measured frame. */
     struct Measured
     {
         Reference frame;  //!< without id, pose and velocity
@@ -95,14 +94,13 @@ class Track
     };
     void measure(Measured measured);
 
-    /** Goes on by the motion model alone. The previous frame stays: the next good one is aligned
-     * with it over the whole gap. \param unmatched the frame itself, when it has features, without
-     * id and pose: if the next one does not match the references either, restartAtUnmatched() goes
-     * on from here
-     * \return the increment */
+    /** Goes on by the motion model alone. The previous frame stays, so the next good frame is
+     * aligned with it over the whole gap. \param unmatched the frame itself, if it has features,
+     * without id and pose. If the next frame does not match the references either,
+     * restartAtUnmatched() goes on from this one \return the increment */
     PoseGaussian predict(double stamp, std::optional<Reference> unmatched = {});
 
-    /** The camera is in this place again: the next alignment compares with it, too. */
+    /** Makes a place a key frame again, with which the next frame is compared. */
     void recall(int id) { window_.recall(id); }
 
     /** Makes the latest frame that matched no reference the only reference.

@@ -21,18 +21,18 @@ struct PatchSearch
 
 /** Patches of a reference image at all levels of its pyramid, and pyramidal Lucas-Kanade (Bouguet
  * 2001) that finds them in other images. With constant brightness, positions are those of
- * cv::calcOpticalFlowPyrLK to the bit. It takes in the patches anew for each image, though, and the
- * columns beyond the last whole eight one by one.
+ * cv::calcOpticalFlowPyrLK to the bit. That function samples the patches again for each image; here
+ * they are sampled once.
  *
  * A shift of brightness is solved for with the position. Eliminated from the normal equations, it
- * takes the mean from the patch's gradients: nothing else changes. */
+ * removes the mean of the patch's gradients; nothing else changes. */
 class PatchTemplates
 {
  public:
     /** \param windowPx side of the patches, below 64 */
     explicit PatchTemplates(int windowPx);
 
-    /** Makes room: memory that grows is copied, and new to the process again and again. */
+    /** Reserves memory for so many patches. */
     void reserve(std::size_t patches, std::size_t levels);
 
     /** \param pyramid by cv::buildOpticalFlowPyramid with this window, with derivatives

@@ -14,10 +14,10 @@ namespace pointplane
 /** Columns: orthogonal directions in the image, none to two. */
 using Directions = Eigen::Matrix<double, 2, Eigen::Dynamic, Eigen::ColMajor, 2, 2>;
 
-/** Patches of a reference image and where they are in an image that shows them turned, larger or
- * slanted: Gauss-Newton over the position, the image sampled through a map that is known [Lucas &
- * Kanade 1981]. A search that only shifts a patch ends beside its place, by as much as the map
- * moves the structure around the centre: half a pixel for a turn of six degrees. */
+/** Finds patches of a reference image in an image that shows them turned, larger or slanted. A
+ * search that only shifts a patch ends beside its place: by half a pixel for a turn of six degrees.
+ * Here the image is sampled through the known map of pixels, in Gauss-Newton over the position
+ * [Lucas & Kanade 1981]. */
 class WarpedPatches
 {
  public:
