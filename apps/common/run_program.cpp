@@ -9,6 +9,7 @@
 #include <csignal>
 #include <cstring>
 #include <iostream>
+#include <memory>
 #include <new>
 #include <system_error>
 
@@ -59,6 +60,18 @@ void runOnOwnStack(Call& call)
     ::pthread_join(thread, nullptr);
 }
 
+/** Help without the values that CLI11 puts behind the names of flags: --wait{1e9}. */
+class HelpFormatter : public CLI::Formatter
+{
+ public:
+    [[nodiscard]] std::string make_option_name(
+        const CLI::Option* option, bool isPositional) const override
+    {
+        const std::string name = CLI::Formatter::make_option_name(option, isPositional);
+        return name.substr(0, name.find('{'));
+    }
+};
+
 /** Of the current exception. \return the exit code */
 int report(const std::string& program, std::ostream& err)
 {
@@ -104,6 +117,12 @@ int runCommand(
 {
     app.failure_message([](const CLI::App* a, const CLI::Error& e)
                         { return a->get_name() + ": " + e.what() + " (see --help)\n"; });
+    const auto formatter = std::make_shared<HelpFormatter>();
+    app.formatter(formatter);
+    for (CLI::App* command : app.get_subcommands({}))
+    {
+        command->formatter(formatter);
+    }
     try
     {
         app.parse(std::vector<std::string>(args.rbegin(), args.rend()));  // CLI11: last first

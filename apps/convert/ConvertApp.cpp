@@ -56,7 +56,7 @@ void addTumCommand(CLI::App& app, TumOptions& options, RecordingOutput& output)
     tum->add_option(
         "--camera",
         options.camera,
-        "Calibration: fr1, fr2, fr3, or a file: MRPT's camera ini or one line `fx fy cx cy k1 k2 "
+        "Calibration: fr1, fr2, fr3, or a file: MRPT's camera ini, or one line `fx fy cx cy k1 k2 "
         "p1 p2 k3 width "
         "height unitsPerMetre` (default: camera.txt in the folder, or by the folder's name)");
     tum->add_option(
@@ -73,7 +73,8 @@ void addTumCommand(CLI::App& app, TumOptions& options, RecordingOutput& output)
 }
 
 constexpr const char* kCameraHelp =
-    "a file: MRPT's camera ini or one line `fx fy cx cy k1 k2 p1 p2 k3 width height unitsPerMetre`";
+    "Calibration, a file: MRPT's camera ini, or one line `fx fy cx cy k1 k2 p1 p2 k3 width height "
+    "unitsPerMetre`";
 
 CLI::App* addFolderCommand(CLI::App& app, FolderOptions& options, RecordingOutput& output)
 {
@@ -138,8 +139,7 @@ CLI::App* addBagCommand(CLI::App& app, BagOptions& options, RecordingOutput& out
     bag->add_option(
         "--camera",
         options.camera,
-        "Calibration of colour: " + std::string(kCameraHelp) +
-            " (default: camera_info of the bag)");
+        std::string(kCameraHelp) + " (default: camera_info of the bag)");
     bag->add_option(
            "--depth-scale", options.depthScale, "Units per metre of 16 bit depth (default: 1000)")
         ->check(isScale());

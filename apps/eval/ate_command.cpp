@@ -54,7 +54,7 @@ void AteCommand::addTo(CLI::App& command)
         .add_option(
             "--align",
             options.alignment,
-            "How trajectories are aligned: se3 (as the script), first or none [se3]")
+            "How trajectories are aligned: se3 (as the script, default), first or none")
         ->transform(CLI::CheckedTransformer(alignments).description(""))
         ->type_name("NAME")
         ->group(group);

@@ -24,7 +24,9 @@ void InputOptions::addTo(CLI::App& command)
         ->group("Input");
     command
         .add_option(
-            "--sensor-label", sensorLabel, "Which CObservationRobotPose of a rawlog [the only one]")
+            "--sensor-label",
+            sensorLabel,
+            "Which CObservationRobotPose of a rawlog (default: the only one)")
         ->group("Input");
 }
 

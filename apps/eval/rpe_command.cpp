@@ -176,7 +176,8 @@ void RpeCommandOptions::addTo(CLI::App& command)
         .add_option(
             "--max-pairs",
             maxPairs,
-            "At most so many pairs, drawn at random; 0 = all [10000, with --fixed-delta 0]")
+            "At most so many pairs, drawn at random; 0 = all (default: 10000, with --fixed-delta "
+            "all)")
         ->check(CLI::NonNegativeNumber)
         ->group(group);
     command.add_option("--seed", rpe.seed, "Seed of the random draw")

@@ -38,16 +38,21 @@ struct Words
 void addCameraOptions(CLI::App& app, GrabberOptions& o, Words& words)
 {
     const std::string group = "Camera";
-    app.add_option("--driver", o.driver, "Driver: auto, openni2 or freenect")->group(group);
+    app.add_option("--driver", o.driver, "Driver: auto, openni2 or freenect")
+        ->capture_default_str()
+        ->group(group);
     app.add_option(
            "-d,--device", o.device, "Camera: URI, serial number, index in --list, or an .oni file")
         ->group(group);
-    app.add_option("--mode", words.mode, "Size and rate of both images")->group(group);
+    app.add_option("--mode", words.mode, "Size and rate of both images")
+        ->capture_default_str()
+        ->group(group);
     app.add_option(
            "--registration",
            words.registration,
            "Let the camera register depth to colour: auto, on or off")
         ->check(CLI::IsMember({"auto", "on", "off"}))
+        ->capture_default_str()
         ->group(group);
     app.add_flag("!--no-sync", o.camera.frameSync, "Do not synchronise depth and colour")
         ->group(group);
@@ -64,10 +69,12 @@ void addCameraOptions(CLI::App& app, GrabberOptions& o, Words& words)
         ->group(group);
     app.add_option("--timeout", o.capture.stallTimeout, "Give up a silent camera after [s]")
         ->check(CLI::PositiveNumber)
+        ->capture_default_str()
         ->group(group);
     app.add_option("--calibration", o.calibration, "Calibration file: ini of rawlog-grabber")
         ->group(group);
     app.add_option("--section", o.section, "S of its sections S_LEFT, S_RIGHT, S_LEFT2RIGHT_POSE")
+        ->capture_default_str()
         ->group(group);
     app.add_option("--label", o.label, "Sensor label (default: the ini file's, or OPENNI2)")
         ->group(group);
@@ -86,6 +93,7 @@ void addRecordingOptions(CLI::App& app, GrabberOptions& o, Words& words)
         ->group(group);
     app.add_option("--warm-up", o.capture.warmUp, "Seconds before recording begins")
         ->check(CLI::Range(0.2, 60.0))
+        ->capture_default_str()
         ->group(group);
     app.add_option(
            "--max-skew",
@@ -101,12 +109,14 @@ void addRecordingOptions(CLI::App& app, GrabberOptions& o, Words& words)
            words.images,
            "Where images go: embedded, or external (files beside the rawlog)")
         ->check(CLI::IsMember({"embedded", "external"}))
+        ->capture_default_str()
         ->group(group);
     app.add_option(
            "--compression",
            o.recording.encoding.compression,
            "Lossless compression: 0 = none, 1 = fast ... 9 = small")
         ->check(CLI::Range(0, 9))
+        ->capture_default_str()
         ->group(group);
     app.add_option(
            "--jpeg",
@@ -116,12 +126,15 @@ void addRecordingOptions(CLI::App& app, GrabberOptions& o, Words& words)
         ->group(group);
     app.add_option("--queue", o.recording.queueFrames, "Frames that may wait for the disk")
         ->check(CLI::Range(2, 100000))
+        ->capture_default_str()
         ->group(group);
     app.add_option("--threads", o.recording.numThreads, "Threads that compress")
         ->check(CLI::Range(1, 64))
+        ->capture_default_str()
         ->group(group);
     app.add_option("--min-free-mb", o.minFreeMb, "Stop when the disk has less left [MB]")
         ->check(CLI::NonNegativeNumber)
+        ->capture_default_str()
         ->group(group);
 }
 

@@ -162,7 +162,8 @@ std::string scoreText(const LabScore& score)
 void LabRunner::addTo(CLI::App& command)
 {
     command
-        .add_option("--odometry", odometry, "The pointplane-odometry to run [beside this program]")
+        .add_option(
+            "--odometry", odometry, "The pointplane-odometry to run (default: beside this program)")
         ->type_name("PROGRAM")
         ->group("Runs");
     command.add_option("--jobs", jobs, "Runs at a time; 0: one per core")

@@ -47,7 +47,10 @@ void ReproduceCommand::addTo(CLI::App& command)
     command.add_option("directories", directories, "Folders of TUM sequences, or single sequences")
         ->required();
     command
-        .add_option("--paper-config", paperConfig, "config-paper.ini [here or with the program]")
+        .add_option(
+            "--paper-config",
+            paperConfig,
+            "The paper's configuration (default: config-paper.ini here or with the program)")
         ->group("Runs");
     command.add_option("--alphas", alphas, "Weights of the planes, for Fig. 3")
         ->delimiter(',')
@@ -58,7 +61,8 @@ void ReproduceCommand::addTo(CLI::App& command)
             "--only",
             parts,
             "tables (1 and 2, the quickest), tukey (Table 1 by the M-estimator's constant), alpha "
-            "(Fig. 3), corner (Fig. 5), paper (ablations of its configuration), detectors [all]")
+            "(Fig. 3), corner (Fig. 5), paper (ablations of its configuration), detectors "
+            "(default: all)")
         ->delimiter(',')
         ->check(CLI::IsMember(parts))
         ->group("Runs");
@@ -68,11 +72,14 @@ void ReproduceCommand::addTo(CLI::App& command)
         ->capture_default_str()
         ->check(CLI::PositiveNumber)
         ->group("Runs");
-    command.add_option("--convert", convert, "The pointplane-convert to run [beside this program]")
+    command
+        .add_option(
+            "--convert", convert, "The pointplane-convert to run (default: beside this program)")
         ->type_name("PROGRAM")
         ->group("Runs");
     command
-        .add_option("--simulate", simulate, "The pointplane-simulate to run [beside this program]")
+        .add_option(
+            "--simulate", simulate, "The pointplane-simulate to run (default: beside this program)")
         ->type_name("PROGRAM")
         ->group("Runs");
     runner.addTo(command);

@@ -67,7 +67,9 @@ void SweepCommand::addTo(CLI::App& command)
         ->group("Runs");
     command
         .add_option(
-            "--gt", groundTruths, "Ground truth of each rawlog [NAME.groundtruth.txt beside it]")
+            "--gt",
+            groundTruths,
+            "Ground truth of each rawlog (default: NAME.groundtruth.txt beside it)")
         ->delimiter(',')
         ->group("Runs");
     command.add_option("-c,--config", config, "Configuration of all runs")->group("Runs");

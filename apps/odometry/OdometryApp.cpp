@@ -39,23 +39,21 @@ void addOutputOptions(CLI::App& app, OdometryOptions& o)
     auto* output =
         app.add_option("-o,--output", o.output, "Write a rawlog with a pose PDF per frame");
     auto* onlyPoses =
-        app.add_flag("--only-poses", o.onlyPoses, "With -o: leave the observations out")
+        app.add_flag("--only-poses", o.onlyPoses, "Leave the observations out of the rawlog")
             ->needs(output);
     app.add_flag(
            "--format1",
            o.format1,
-           "With -o: write actions (CActionRobotMovement3D) and sensory frames")
+           "Write the rawlog as actions (CActionRobotMovement3D) and sensory frames")
         ->needs(output);
     app.add_option(
-           "--since",
-           o.since,
-           "With -o: also write the motions since 1 ... N frames before (for nees)")
+           "--since", o.since, "Write the motions since 1 ... N frames before, too (for nees)")
         ->check(CLI::Range(1, 300))
         ->needs(output);
     app.add_flag(
            "--with-points",
            o.withPoints,
-           "With -o: put point clouds into the scans (rbpf-slam, maps)")
+           "Put point clouds into the scans of the rawlog (rbpf-slam, maps)")
         ->needs(output)
         ->excludes(onlyPoses);
     auto* simplemap = app.add_option(
@@ -63,14 +61,11 @@ void addOutputOptions(CLI::App& app, OdometryOptions& o)
     app.add_option(
            "--keyframe-distance",
            o.keyframeDistance,
-           "With --simplemap: least distance between key frames [m]")
+           "Least distance between key frames of the map [m]")
         ->check(CLI::PositiveNumber)
         ->capture_default_str()
         ->needs(simplemap);
-    app.add_option(
-           "--keyframe-angle",
-           o.keyframeAngleDeg,
-           "With --simplemap: or least rotation between them [deg]")
+    app.add_option("--keyframe-angle", o.keyframeAngleDeg, "Or least rotation between them [deg]")
         ->check(CLI::PositiveNumber)
         ->capture_default_str()
         ->needs(simplemap);
@@ -78,16 +73,14 @@ void addOutputOptions(CLI::App& app, OdometryOptions& o)
         "--graph", o.graph, "Write a pose graph with information matrices, for graph-slam");
     auto* trajectory = app.add_option("--trajectory", o.trajectory, "Write the poses as TUM text");
     app.add_option(
-           "--trajectory-frame",
-           o.trajectoryFrame,
-           "With --trajectory: whose poses, optical (the camera's) or robot")
+           "--trajectory-frame", o.trajectoryFrame, "Whose poses: optical (the camera's) or robot")
         ->check(CLI::IsMember({"optical", "robot"}))
         ->capture_default_str()
         ->needs(trajectory);
     app.add_option("--diagnostics", o.diagnostics, "Write a table with a line per frame (CSV)");
     auto* overlay = app.add_option(
         "--overlay", o.overlay, "Draw points and planes of each frame into this folder (JPEG)");
-    app.add_option("--overlay-every", o.overlayEvery, "With --overlay: draw every N-th frame only")
+    app.add_option("--overlay-every", o.overlayEvery, "Draw every N-th frame only")
         ->check(CLI::Range(1, 1000000))
         ->capture_default_str()
         ->needs(overlay);

@@ -256,8 +256,10 @@ void applySetting(const std::string& setting, const ParameterTable& table)
 std::string iniText(const ParameterTable& table, const std::string& firstExpert)
 {
     std::ostringstream out;
-    out << "# Complete configuration of pointplane-odometry, written by --dump-config.\n"
-           "# A comment after a value starts with //.\n";
+    const bool isWhole = !firstExpert.empty();
+    out << (isWhole ? "# Complete configuration of pointplane-odometry, written by --dump-config.\n"
+                    : "")
+        << "# A comment after a value starts with //.\n";
     std::string section;
     for (const auto& p : table)
     {

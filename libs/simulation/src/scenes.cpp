@@ -19,16 +19,16 @@ struct Entry
 const std::vector<Entry>& entries()
 {
     static const std::vector<Entry> all{
-        {{"corner", "three planes of a room corner, moderate texture"}, makeCorner},
+        {{"corner", "a room corner, three planes with some texture"}, makeCorner},
         {{"desk", "objects on a desk, posters on the walls"}, makeDesk},
-        {{"room", "a full turn in a furnished room: ends where it began"}, makeRoom},
+        {{"room", "a full turn in a furnished room, ends where it began"}, makeRoom},
         {{"notexture", "blank zigzag walls"}, makeNoTexture},
-        {{"cabinet", "around a cabinet, little texture"}, makeCabinet},
-        {{"corridor", "along two parallel blank walls, nothing else has depth"}, makeCorridor},
-        {{"corridor_floor", "along a blank corridor with floor and ceiling"},
+        {{"cabinet", "a walk around a cabinet, little texture"}, makeCabinet},
+        {{"corridor", "a way along two blank walls, nothing else has depth"}, makeCorridor},
+        {{"corridor_floor", "a way along a blank corridor with floor and ceiling"},
          makeCorridorWithFloor},
         {{"person", "a furnished room, a person walks across"}, makePerson},
-        {{"push", "objects on a desk, one is pushed about"}, makePush},
+        {{"push", "objects on a desk, a box is pushed over it"}, makePush},
         {{"door", "a furnished room, a cupboard's door opens and closes"}, makeDoor},
         {{"half", "a furnished room, half of the view is a printed screen that moves"}, makeHalf}};
     return all;

@@ -71,7 +71,7 @@ void parseIni(const std::string& text, const std::string& name, const ParameterT
 /** Applies "Section.key=value". \throws InputError */
 void applySetting(const std::string& setting, const ParameterTable& table);
 
-/** The complete file, every key with unit and help.
+/** An ini file of all keys, with units and help.
  * \param firstExpert section before which a line says that the rest is for experts; empty = none */
 [[nodiscard]] std::string iniText(const ParameterTable& table, const std::string& firstExpert = "");
 
