@@ -323,7 +323,7 @@ TEST(ObservationConverter, everyBadFrameHasItsText)
         HasSubstr("fisheye"));
     EXPECT_EQ(
         with([](Scan& s) { s.sensorPose.x(1e200); }),
-        "sensorPose is farther than any robot is large");
+        "sensorPose is longer than 10 km");
     EXPECT_EQ(
         with(
             [](Scan& s)

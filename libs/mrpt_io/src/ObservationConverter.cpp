@@ -75,7 +75,7 @@ void requirePose(const Eigen::Isometry3d& T, const std::string& name)
     constexpr double kLongestArm = 1e4;  // [m]; covariances lose their last digits beyond
     require(T.matrix().allFinite(), name + " is not finite");
     require(T.linear().isUnitary(1e-4), name + " has no rotation matrix");
-    require(T.translation().norm() < kLongestArm, name + " is farther than any robot is large");
+    require(T.translation().norm() < kLongestArm, name + " is longer than 10 km");
 }
 
 [[nodiscard]] bool sameProjection(const PinholeCamera& a, const PinholeCamera& b)
@@ -105,7 +105,7 @@ void requirePose(const Eigen::Isometry3d& T, const std::string& name)
             cv::cvtColor(bytes, gray, cv::COLOR_BGRA2GRAY);
             return gray;
         default:
-            throw FrameProblem("intensity image has neither 1 nor 3 channels");
+            throw FrameProblem("intensity image has neither 1 nor 3 nor 4 channels");
     }
 }
 
@@ -183,7 +183,7 @@ cv::Mat ObservationConverter::Impl::depthOf(
 {
     require(
         std::isfinite(scan.rangeUnits) && scan.rangeUnits > 0,
-        "rangeUnits is " + std::to_string(scan.rangeUnits));
+        "rangeUnits is " + std::to_string(scan.rangeUnits) + ", not a positive number");
     cv::Mat depth;
     if (scan.rangeImage_isExternallyStored() && scan.rangeImage.size() == 0)
     {

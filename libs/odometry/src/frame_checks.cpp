@@ -27,12 +27,24 @@ std::string problemOf(const RgbdFrame& frame)
     {
         out << "the time stamp is not finite";
     }
-    else if (frame.depth.type() != CV_32FC1 || frame.depth.size() != size)
+    else if (frame.depth.empty())
+    {
+        out << "there is no depth image";
+    }
+    else if (frame.depth.type() != CV_32FC1)
+    {
+        out << "the depth image is not CV_32FC1";
+    }
+    else if (!frame.gray.empty() && frame.gray.type() != CV_8UC1)
+    {
+        out << "the intensity image is not CV_8UC1";
+    }
+    else if (frame.depth.size() != size)
     {
         out << "the depth image (" << frame.depth.cols << "x" << frame.depth.rows
             << ") does not fit the camera (" << size.width << "x" << size.height << ")";
     }
-    else if (!frame.gray.empty() && (frame.gray.type() != CV_8UC1 || frame.gray.size() != size))
+    else if (!frame.gray.empty() && frame.gray.size() != size)
     {
         out << "the intensity image (" << frame.gray.cols << "x" << frame.gray.rows
             << ") does not fit the camera (" << size.width << "x" << size.height << ")";
