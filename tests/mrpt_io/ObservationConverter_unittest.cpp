@@ -321,9 +321,7 @@ TEST(ObservationConverter, everyBadFrameHasItsText)
         with([](Scan& s)
              { s.cameraParams.distortion = mrpt::img::DistortionModel::kannala_brandt; }),
         HasSubstr("fisheye"));
-    EXPECT_EQ(
-        with([](Scan& s) { s.sensorPose.x(1e200); }),
-        "sensorPose is longer than 10 km");
+    EXPECT_EQ(with([](Scan& s) { s.sensorPose.x(1e200); }), "sensorPose is longer than 10 km");
     EXPECT_EQ(
         with(
             [](Scan& s)

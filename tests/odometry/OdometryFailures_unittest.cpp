@@ -155,10 +155,10 @@ TEST(OdometryFailures, imagesThatDoNotFitTheCamera)
     frame.depth = frame.depth.colRange(0, 100).clone();
     expectLost(frame, "depth image (100x240)");
     frame.depth = cv::Mat();
-    expectLost(frame, "depth image");
+    expectLost(frame, "there is no depth image");
     frame = good(kBad);
     frame.depth.convertTo(frame.depth, CV_64FC1);
-    expectLost(frame, "depth image");
+    expectLost(frame, "depth image is not CV_32FC1");
     frame = good(kBad);
     frame.gray = frame.gray.rowRange(0, 100).clone();
     expectLost(frame, "intensity image (320x100)");
