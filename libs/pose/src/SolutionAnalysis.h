@@ -10,7 +10,7 @@
 
 namespace pointplane
 {
-/** What the residuals at a solution say beside the motion. Derivations in docs/theory.md. */
+/** What the residuals at a solution say besides the motion. Derivations: docs/theory.md, Pose. */
 class SolutionAnalysis
 {
  public:
