@@ -9,21 +9,21 @@
 
 namespace pointplane
 {
-/** Poses T_world_k of the latest frames, measured or predicted, and their joint covariance. Every
- * frame is told once, by its number: 1, 2, 3, ... */
+/** Poses T_world_k of the latest frames, measured or predicted, with their joint covariance. Frames
+ * are numbered 1, 2, 3, ... in the order in which they are added. */
 class PoseHistory
 {
  public:
     explicit PoseHistory(const JointCovariance::TParams& params);
 
-    /** The next frames are those of another camera. \param cov of its errors; at first, it has none
-     */
+    /** The next frames are those of another camera. \param cov of its errors; zero before the first
+     * call */
     void changeCamera(const CameraMatrix& cov) { joint_.changeCamera(cov); }
 
-    /** The next frame was not measured: it is where the increment leads to. */
+    /** Adds a frame that was not measured: its pose is where the increment leads to. */
     void predict(const PoseGaussian& increment);
 
-    /** The next frame was measured.
+    /** Adds a measured frame.
      * \param T_world_prev pose of the latest measured frame \param dt [s] since that */
     void measure(
         const Eigen::Isometry3d& T_world_prev,
@@ -31,12 +31,11 @@ class PoseHistory
         double dt,
         const JointCovariance::Measurement& errors);
 
-    /** The next frames are compared with this one and with later ones.
-     * \param poses that stay known, too */
+    /** From here on, frames are compared with this one and later ones.
+     * \param poses frames whose poses stay known, too */
     void restart(int frame, const std::vector<int>& poses = {}) { joint_.restart(frame, poses); }
 
-    /** Forgets what neither the history nor comparison with these references needs.
-     * \param poses that stay known, too */
+    /** Forgets all poses but those of the history, of the references and of `poses`. */
     void keep(const std::vector<int>& references, const std::vector<int>& poses);
 
     [[nodiscard]] const Eigen::Isometry3d& latest() const { return poses_.front(); }
