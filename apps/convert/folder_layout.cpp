@@ -419,7 +419,7 @@ FolderLayout readFolderLayout(const std::string& folder)
     }
     throw InputError(
         folder +
-        ": no layout that is known: two folders like rgb and depth with numbered or stamped "
+        ": not a known layout. Known are two folders like rgb and depth with numbered or stamped "
         "images, ScanNet, 7-Scenes, Redwood, Replica, Bonn, Record3D or StrayScanner");
 }
 }  // namespace pointplane

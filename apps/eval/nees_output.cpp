@@ -59,7 +59,7 @@ nlohmann::ordered_json testJson(const ConsistencyTest& test)
 void printInterval(const NeesResult& r, std::ostream& out)
 {
     out << format(
-        "\n%s: %zu, of which %zu one after the other\n%-14s%12s%12s%12s%10s   %s\n",
+        "\n%s: %zu, %zu without overlap\n%-14s%12s%12s%12s%10s   %s\n",
         (r.interval.sinceStart ? "poses since the first one"
                                : "increments of " + nameOf(r.interval))
             .c_str(),

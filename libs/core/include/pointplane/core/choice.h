@@ -26,6 +26,6 @@ template <class Enum>
         }
         words += (words.empty() ? "" : ", ") + std::string(name);
     }
-    throw std::invalid_argument(key + " = " + word + " is none of " + words);
+    throw std::invalid_argument(key + " = " + word + " is not one of " + words);
 }
 }  // namespace pointplane
