@@ -14,11 +14,11 @@ namespace pointplane
 /** Copies one serialised MRPT object from a file into memory, checking every length field on the
  * way.
  *
- * MRPT allocates what a length field says before it reads, unchecked: a flipped bit means gigabytes
- * or a crash. The scanner knows the layout of the classes of RGB-D rawlogs (observations, poses,
- * images, frames and actions, in the versions listed in the source) and of the sensors that robots
- * commonly log beside, and grows its buffer only as bytes arrive. Objects of other classes and
- * versions are Unknown. */
+ * MRPT allocates what a length field says, unchecked: a flipped bit means gigabytes or a crash. The
+ * scanner's buffer grows only as bytes arrive. It knows the layout of the classes of RGB-D rawlogs
+ * (observations, poses, images, frames and actions, in the versions listed in the source) and of
+ * the sensors that robots commonly log beside. Objects of other classes and versions are Unknown.
+ */
 class ObjectScanner
 {
  public:
@@ -50,11 +50,11 @@ class ObjectScanner
      * \throws Problem, Unknown; the bytes so far are in `bytes` then */
     bool scan(std::vector<std::uint8_t>& bytes);
 
-    /** Makes the bytes of the latest object those of the file again. */
+    /** Puts the file's own bytes back into the latest object. */
     void restore(std::vector<std::uint8_t>& bytes) const;
 
-    /** Of the depth camera of each range scan in the object, in order, as it was in the file; in
-     * the copied bytes the size of the range image stands in its place. */
+    /** Resolutions of the depth cameras in the file, one per range scan in the object, in order. In
+     * the copied bytes, the size of the range image stands in their place. */
     [[nodiscard]] const std::vector<Resolution>& cameraResolutions() const { return resolutions_; }
 
  private:
