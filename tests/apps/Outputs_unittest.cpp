@@ -222,7 +222,7 @@ TEST_F(Outputs, pipesAreWrittenThrough)
     }
 }
 
-/** A device that any user may make: what is written to it is read until it is destroyed. */
+/** A device that any user may make: what is written to it is read until close(). */
 class Terminal
 {
  public:
@@ -240,23 +240,32 @@ class Terminal
                 char buffer[4096];
                 for (ssize_t n = 0; (n = ::read(master_, buffer, sizeof(buffer))) > 0;)
                 {
-                    numBytes += static_cast<std::size_t>(n);
+                    numBytes_ += static_cast<std::size_t>(n);
                 }
             });
     }
     ~Terminal()
     {
-        ::close(slave_);  // which ends the reader
-        reader_.join();
+        (void)close();
         ::close(master_);
+    }
+    /** \return how many bytes have been written to it in all */
+    std::size_t close()
+    {
+        if (reader_.joinable())
+        {
+            ::close(slave_);  // which ends the reader, once it has read everything
+            reader_.join();
+        }
+        return numBytes_;
     }
     Terminal(const Terminal&) = delete;
     Terminal& operator=(const Terminal&) = delete;
 
     std::string path;
-    std::atomic<std::size_t> numBytes{0};
 
  private:
+    std::atomic<std::size_t> numBytes_{0};
     int master_, slave_{-1};
     std::thread reader_;
 };
@@ -276,7 +285,7 @@ TEST_F(Outputs, devicesStayDevices)
     EXPECT_EQ(outcome.code, kExitOk) << outcome.err;
     EXPECT_TRUE(fs::is_character_file(device.path));
     EXPECT_TRUE(fs::is_symlink(dir_ / "link"));
-    EXPECT_GT(device.numBytes, 1000U);
+    EXPECT_GT(device.close(), 1000U);
 }
 
 TEST_F(Outputs, aReplacedFileKeepsItsPermissions)
