@@ -105,7 +105,8 @@ done | xargs -P "$(nproc)" -L 1 bash -c '
     echo
     echo "| sequence | ground truth [deg] | config.ini | plain H⁻¹ | config-paper.ini |"
     echo "|---|---|---|---|---|"
-    for folder in tum_fr1_xyz_part tum_fr3_structure_notexture_far_part icl_living_room_kt0_part; do
+    for folder in tum_fr1_xyz_part tum_fr1_rpy_part tum_fr3_structure_notexture_far_part \
+        icl_living_room_kt0_part kinect1_fixed_person_part; do
         real "$folder"
     done
     echo

@@ -7,7 +7,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 # What the parameters were chosen on; docs/experiments.md says what took part in what.
-readonly chosen_on='^(tum_fr1_xyz|tum_fr1_rpy|tum_fr3_structure_notexture_far|icl_living_room_kt0|iphone|azure)'
+readonly chosen_on='^(tum_fr1_xyz|tum_fr1_rpy|tum_fr3_structure_notexture_far|icl_living_room_kt0|iphone|azure|kinect1_fixed)'
 
 # One line per sequence: NAME|chosen, seeds or held|ours mm|ours deg|fast mm|fast deg|peer mm|peer deg|its name|NEES 1|NEES 1 s
 awk -F ' *[|] *' -v chosen_on="$chosen_on" '
