@@ -480,9 +480,21 @@ TEST(PoseSolver, refusesParametersOutOfRange)
     refused([](auto& p) { p.weighting = "some"; });
     refused([](auto& p) { p.planeResidual = "some"; });
     refused([](auto& p) { p.alpha = -1; });
+    refused([](auto& p) { p.alpha = 1e4; });
+    refused(
+        [](auto& p)
+        {
+            p.planeResidual = "closestPoint";
+            p.alpha = 1e9;
+        });
     refused([](auto& p) { p.tukeySigmas = -1; });
     refused([](auto& p) { p.planeStudentDof = -1; });
     refused([](auto& p) { p.priorStudentDof = -1; });
     refused([](auto& p) { p.maxIterations = 0; });
+
+    PoseSolver::TParams inMetres;
+    inMetres.planeResidual = "closestPoint";
+    inMetres.alpha = 1e7;  // docs/paper_figures.md, Fig. 3
+    EXPECT_NO_THROW(PoseSolver{inMetres});
 }
 }  // namespace pointplane

@@ -172,7 +172,10 @@ void PoseSolver::TParams::check() const
     (void)weightingOf(*this);
     (void)planeResidualOf(*this);
     (void)covarianceFormOf(*this);
-    checkRange("alpha", alpha, 0, 1000);
+    // The paper's residual is a length: in millimetres it weighs 10, in metres a million times
+    // that.
+    checkRange(
+        "alpha", alpha, 0, planeResidualOf(*this) == PlaneResidual::ClosestPoint ? 1e8 : 1e3);
     checkRange("tukeySigmas", tukeySigmas, 0, 1000);
     checkRange("planeStudentDof", planeStudentDof, 0, 1e4);
     checkRange("priorStudentDof", priorStudentDof, 0, 1e4);
