@@ -80,7 +80,7 @@ class CameraCommentWriter
             ++out.numBad;
             if (out.problems.size() < kShown)
             {
-                out.problems.emplace_back(bad.what());
+                out.problems.push_back(oneLine(bad));
             }
         }
         if (bar)

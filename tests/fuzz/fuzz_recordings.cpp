@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Any bytes as a recording of another program: the first byte says which, the rest is its file.
+// Messages are told through oneLine(), as the programs do: names in a bag may hold any character.
 #include <pointplane/mrpt_io/errors.h>
 
 #include <cstring>
@@ -56,7 +57,7 @@ bool readFrame(Recording& recording)
     }
     catch (const BadFrame& error)
     {
-        fuzzing::requireOneLine(error.what());
+        fuzzing::requireOneLine(oneLine(error));
         return true;
     }
 }
@@ -81,11 +82,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     catch (const InputError& error)
     {
-        fuzzing::requireOneLine(error.what());
+        fuzzing::requireOneLine(oneLine(error));
     }
     catch (const EnvironmentError& error)
     {
-        fuzzing::requireOneLine(error.what());  // built without bags
+        fuzzing::requireOneLine(oneLine(error));  // built without bags
     }
     return 0;
 }
