@@ -12,17 +12,11 @@
 #include <fstream>
 #include <functional>
 #include <iostream>
-#include <sstream>
 #include <string>
 
 #include "frame_records.h"
 #include "rawlog_samples.h"
 #include <zlib.h>
-#ifdef POINTPLANE_HAS_ROSBAG
-#include <rosbag/bag.h>
-#include <sensor_msgs/CameraInfo.h>
-#include <sensor_msgs/Image.h>
-#endif
 
 namespace
 {
@@ -218,7 +212,7 @@ void writeTexts(const fs::path& folder)
     save(folder / "listing", "# stamp file\n1305031102.175304 rgb/1.png\n1305031102.2 rgb/2.png\n");
 }
 
-/** Two frames of 8 x 6 pixels, plain and with zlib; the letter says that it is a klg log. */
+/** Two frames of 8 x 6 pixels, plain and with zlib. */
 void writeKlgLogs(const fs::path& folder)
 {
     const std::string depth(8 * 6 * 2, '\x05'), colour(8 * 6 * 3, '\x40');
@@ -232,7 +226,7 @@ void writeKlgLogs(const fs::path& folder)
     compressed.resize(length);
     for (const std::string& block : {depth, compressed})
     {
-        std::string log = "k";
+        std::string log;
         append(log, std::int32_t{2});
         for (std::int64_t microseconds : {5000000, 5033333})
         {
@@ -241,44 +235,9 @@ void writeKlgLogs(const fs::path& folder)
             append(log, static_cast<std::int32_t>(colour.size()));
             log += block + colour;
         }
-        save(folder / ("klg" + std::to_string(block.size())), log);
+        save(folder / (std::to_string(block.size())), log);
     }
 }
-
-#ifdef POINTPLANE_HAS_ROSBAG
-/** Colour, depth and calibration of one frame. */
-void writeBag(const fs::path& folder)
-{
-    const fs::path path = folder / "bag.tmp";
-    {
-        rosbag::Bag bag(path, rosbag::bagmode::Write);
-        const ros::Time stamp(1000);
-        sensor_msgs::CameraInfo info;
-        info.width = 8;
-        info.height = 6;
-        info.K = {8, 0, 3.5, 0, 8, 2.5, 0, 0, 1};
-        bag.write("/camera/rgb/camera_info", stamp, info);
-        bag.write("/camera/depth/camera_info", stamp, info);
-        sensor_msgs::Image image;
-        image.header.stamp = stamp;
-        image.width = 8;
-        image.height = 6;
-        image.encoding = "bgr8";
-        image.step = 24;
-        image.data.assign(8 * 6 * 3, 64);
-        bag.write("/camera/rgb/image_color", stamp, image);
-        image.encoding = "16UC1";
-        image.step = 16;
-        image.data.assign(8 * 6 * 2, 5);
-        bag.write("/camera/depth/image", stamp, image);
-    }
-    std::ifstream file(path, std::ios::binary);
-    std::ostringstream bytes;
-    bytes << 'b' << file.rdbuf();
-    save(folder / "bag", bytes.str());
-    fs::remove(path);
-}
-#endif
 
 fs::path newFolder(const fs::path& parent, const char* name)
 {
@@ -299,10 +258,7 @@ int main(int argc, char** argv)
         const fs::path root = argv[2];
         writeRawlogs(newFolder(root, "rawlog"));
         writeTexts(newFolder(root, "text"));
-        writeKlgLogs(newFolder(root, "recordings"));
-#ifdef POINTPLANE_HAS_ROSBAG
-        writeBag(newFolder(root, "recordings"));
-#endif
+        writeKlgLogs(newFolder(root, "klg"));
         fs::copy_file(
             argv[1], newFolder(root, "ini") / "config", fs::copy_options::overwrite_existing);
         save(root / "ini" / "short", "[DepthNoise]\nsigmaPixelPx = 0.7 // px\n");
