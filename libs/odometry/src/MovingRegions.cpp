@@ -55,12 +55,6 @@ bool hasMovingNeighbours(const cv::Mat_<std::uint8_t>& cells, int column, int ro
 }
 }  // namespace
 
-bool MovingRegions::contains(const cv::Point& pixel) const
-{
-    return std::any_of(
-        cells.begin(), cells.end(), [&](const cv::Rect& cell) { return cell.contains(pixel); });
-}
-
 MovingRegions findMovingRegions(
     const RgbdFrame& current, const std::vector<EarlierView>& earlier, const DepthNoise& noise)
 {

@@ -25,9 +25,6 @@ struct MovingRegions
     {
         return numCompared > 0 ? static_cast<double>(cells.size()) / numCompared : 0;
     }
-
-    /** Whether a pixel is in one of the cells. */
-    [[nodiscard]] bool contains(const cv::Point& pixel) const;
 };
 
 /** An earlier frame, and from where it saw the current one's surfaces. */
