@@ -204,4 +204,16 @@ TEST(Movers, aCameraThatIsFasterGoesAlongTheSamePath)
     EXPECT_THAT(
         still.trueMotion(0, 90), test::IsNearPose(Eigen::Isometry3d::Identity(), 1e-12, 1e-12));
 }
+
+TEST(Movers, aCameraThatOnlyTurnsStaysInPlace)
+{
+    SimulationParams params = small();
+    const SimulatedSequence moves("desk", params, 2);
+    params.motionTurnsOnly = true;
+    const SimulatedSequence turns(moves.scene(), params, 2);
+    const double t = params.startStamp + 0.7;
+    EXPECT_EQ(turns.truth(t).linear(), moves.truth(t).linear());
+    EXPECT_EQ(turns.truth(t).translation(), turns.truth(params.startStamp).translation());
+    EXPECT_GT((moves.truth(t).translation() - turns.truth(t).translation()).norm(), 0.01);
+}
 }  // namespace pointplane

@@ -35,7 +35,12 @@ struct SimulatedSequence::Impl
     /** T_world_cam. */
     [[nodiscard]] Eigen::Isometry3d pose(double t) const
     {
-        return path.pose(params.motionSpeed * t);
+        Eigen::Isometry3d out = path.pose(params.motionSpeed * t);
+        if (params.motionTurnsOnly)
+        {
+            out.translation() = path.pose(0).translation();
+        }
+        return out;
     }
 
     [[nodiscard]] RowPoses rowPoses(double middle, double readout) const

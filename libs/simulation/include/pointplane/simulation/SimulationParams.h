@@ -21,6 +21,7 @@ struct SimulationParams
     double startStamp{1500000000};
     double motionScale{1};
     double motionSpeed{1};
+    bool motionTurnsOnly{false};
     bool movers{true};
     int sceneSeed{1};
 
@@ -74,6 +75,10 @@ struct SimulationParams
           motionSpeed,
           "-",
           "factor on the speed along the same path; 0 = the camera stands still");
+        v("motionTurnsOnly",
+          motionTurnsOnly,
+          "-",
+          "true: the camera turns as it would, but stays where it began");
         v("movers", movers, "-", "false: the same scene without what moves in it");
         v("sceneSeed", sceneSeed, "-", "chooses textures and small objects");
 
