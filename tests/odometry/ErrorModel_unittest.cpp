@@ -77,6 +77,26 @@ TEST_F(ErrorModelTest, onlyTheKindsThatAFrameHasCount)
     EXPECT_NEAR(both, std::sqrt(points * planes), 1e-15);
 }
 
+TEST_F(ErrorModelTest, aFrameErrsByAccelerationWhileItIsExposed)
+{
+    analysis.sensitivity.planesMoved.topRows<6>().setIdentity();
+    const auto noise = [&](double depthDelay)
+    {
+        ErrorModel model(params);
+        return model
+            .learn(
+                {{&reference},
+                 estimate,
+                 analysis,
+                 1e-9,
+                 Matrix12d::Zero(),
+                 4 * Vector6d::Ones(),
+                 {0, 0, depthDelay}})
+            .noise(0, 0);
+    };
+    EXPECT_NEAR(noise(0.02) - noise(0), 0.0004 * 0.0004, 1e-13);
+}
+
 TEST_F(ErrorModelTest, independentIncrementsErrAsTheSolverSays)
 {
     params.covariance.model = "independent";

@@ -186,6 +186,26 @@ TEST(MotionModel, followsHowTheCameraMoves)
     EXPECT_NEAR(std::sqrt(model.density()[3]), 2.0, 0.5);
 }
 
+TEST(MotionModel, accelerationIsLearnt)
+{
+    // A camera that swings: x = A sin(w t), of mean square acceleration (A w^2)^2 / 2, on one axis.
+    const double A = 0.05, w = 6;
+    MotionModel model({});
+    EXPECT_TRUE(model.acceleration2().isZero(0));
+    for (int i = 0; i < 300; ++i)
+    {
+        MotionGaussian measured;
+        measured.mean.T_prev_cur.translation().x() =
+            A * (std::sin(w * (i + 1) * kFrame) - std::sin(w * i * kFrame));
+        measured.mean.velocity[0] = A * w * std::cos(w * (i + 1) * kFrame);
+        measured.cov.diagonal().setConstant(1e-10);
+        model.update(measured, kFrame);
+    }
+    const double expected = std::pow(A * w * w, 2) / 2 / 3;
+    EXPECT_NEAR(model.acceleration2()[0], expected, 0.35 * expected);
+    EXPECT_NEAR(model.acceleration2()[4], 0, 1e-9);
+}
+
 TEST(MotionModel, leastRandomWalkIsKept)
 {
     MotionModel model({});

@@ -122,6 +122,35 @@ TEST(Sensitivity, toTheReferences)
     }
 }
 
+TEST(Sensitivity, toWherePointsAndPlanesAre)
+{
+    const PoseProblem problem = makeProblem(81);
+    const Solved solved = solve(problem);
+    const Eigen::Isometry3d& T_prev_cur = solved.estimate.motion.mean.T_prev_cur;
+    for (int axis = 0; axis < 6; ++axis)
+    {
+        const Vector6d xi = 1e-3 * Vector6d::Unit(axis);
+        const Eigen::Isometry3d moved = T_prev_cur.inverse() * se3Exp(xi) * T_prev_cur;
+        PoseProblem points = problem, planes = problem;
+        for (PointPair& pair : points.points)
+        {
+            pair.cur.mean = moved * pair.cur.mean;
+        }
+        for (PlanePair& pair : planes.planes)
+        {
+            pair.cur.theta_m = transformed(moved, pair.cur).theta_m;
+        }
+        const Sensitivity& of = solved.analysis.sensitivity;
+        EXPECT_THAT(
+            change(solved.estimate, solve(points).estimate),
+            test::IsMatrixNear(Vector12d(of.pointsMoved * xi), 4e-5));
+        EXPECT_THAT(
+            change(solved.estimate, solve(planes).estimate),
+            test::IsMatrixNear(Vector12d(of.planesMoved * xi), 4e-5));
+        EXPECT_GT((of.pointsMoved * xi).norm() + (of.planesMoved * xi).norm(), 2e-4);
+    }
+}
+
 TEST(Sensitivity, toThePrior)
 {
     const PoseProblem problem = makeProblem(82);

@@ -172,8 +172,14 @@ void Odometry::Impl::measure(const Features& current, Alignment& alignment, Odom
             alignment.problem.points,
             alignment.problem.planes);
     const PoseAnalysis analysis = aligner.analyse(alignment);
-    const JointCovariance::Measurement measurement =
-        errors.learn({track.references(), alignment.estimate, analysis, dt, track.motionNoise(dt)});
+    const JointCovariance::Measurement measurement = errors.learn(
+        {track.references(),
+         alignment.estimate,
+         analysis,
+         dt,
+         track.motionNoise(dt),
+         track.acceleration2(),
+         errors.shutter().complete(current.frame.shutter)});
     showPairs(alignment.associations, &analysis, shown);
     shown.moving = Aligner::findMoving(frontEnd, current, track, errors, alignment);
     const bool isKeyframe =

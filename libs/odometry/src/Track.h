@@ -76,6 +76,9 @@ class Track
     /** MotionModel::processNoise(). */
     [[nodiscard]] Matrix12d motionNoise(double dt) const { return motion_.processNoise(dt); }
 
+    /** MotionModel::acceleration2(). */
+    [[nodiscard]] const Vector6d& acceleration2() const { return motion_.acceleration2(); }
+
     // Transitions
 
     /** Begins with this frame or, later, goes on from its predicted pose. Earlier frames are not

@@ -61,12 +61,15 @@ SolutionAnalysis::Groups SolutionAnalysis::byReference(const Pairs& pairs, size_
 Sensitivity SolutionAnalysis::sensitivity() const
 {
     Sensitivity out;
-    for (const auto* groups : {&pointGroups_, &planeGroups_})
+    for (const auto& [groups, all] :
+         {std::pair(&pointGroups_, &out.pointsMoved), std::pair(&planeGroups_, &out.planesMoved)})
     {
         for (const auto& [reference, group] : *groups)
         {
-            const auto it = out.references.emplace(reference, Matrix126d::Zero()).first;
-            it->second += (H_inverse_ * group.H).leftCols<6>();
+            // Moving a reference one way, or the frame the other way, is the same.
+            const Matrix126d change = (H_inverse_ * group.H).leftCols<6>();
+            out.references.emplace(reference, Matrix126d::Zero()).first->second += change;
+            *all -= change;
         }
     }
     out.points = propagate(H_inverse_, currentNoise(problem_.points, 0));

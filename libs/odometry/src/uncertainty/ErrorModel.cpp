@@ -3,6 +3,7 @@
 
 #include <pointplane/core/covariance.h>
 #include <pointplane/odometry/uncertainty/ReferenceErrors.h>
+#include <pointplane/odometry/uncertainty/exposure_errors.h>
 
 #include <algorithm>
 #include <cmath>
@@ -76,8 +77,9 @@ JointCovariance::Measurement ErrorModel::errorsOf(
     const double ofPlanes = std::max(1.0, frame.analysis.planeVariance / usual.planes);
     out.references = of.references;
     out.camera = of.camera;
-    out.noise =
-        params_.noise * (ofPoints * white.points * of.points + ofPlanes * white.planes * of.planes);
+    out.noise = params_.noise *
+                    (ofPoints * white.points * of.points + ofPlanes * white.planes * of.planes) +
+                accelerationWhileExposed(of, frame.shutter, frame.acceleration2);
     out.prior = of.prior;
     if (!fuses_)
     {

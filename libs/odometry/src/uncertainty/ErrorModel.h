@@ -30,7 +30,7 @@ namespace pointplane
  *   scale of depth, and the shutter. All are considered, the shutter's are learnt: camera_errors,
  *   ShutterCalibrator.
  * - e: noise of the frame's own points and planes, learnt from how residuals change from frame to
- *   frame: ResidualVariogram.
+ *   frame: ResidualVariogram. And acceleration while the images are exposed: exposure_errors.
  *
  * JointCovariance keeps account of how the errors of all poses depend on these. Derivations are in
  * docs/theory.md, section Window; how to calibrate it is in docs/consistency.md. */
@@ -55,6 +55,8 @@ class ErrorModel
         const PoseAnalysis& analysis;
         double dt;              //!< [s] since the previous one
         Matrix12d motionNoise;  //!< of its prediction, by what the motion model adds in dt
+        Vector6d acceleration2{Vector6d::Zero()};  //!< MotionModel::acceleration2()
+        ShutterModel shutter{0, 0, 0};             //!< ShutterCalibrator::complete()
     };
 
     /** Learns from the frame. \return what its estimate's errors come from */

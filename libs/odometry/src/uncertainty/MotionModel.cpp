@@ -126,6 +126,7 @@ Vector6d MotionModel::update(const MotionGaussian& measured, double dt)
     coasting_ = 0;
     const Increment increment{
         se3Log(measured.mean.T_prev_cur) / t, t, measured.cov.diagonal().head<6>()};
+    learnAcceleration(increment);
     const Vector6d out = betweenIncrements(increment, smoothed);
     atIncrementsEnd_.reset();
     if (increment_ && increment_->dt + t < kLongestIncrements)
@@ -135,6 +136,20 @@ Vector6d MotionModel::update(const MotionGaussian& measured, double dt)
     }
     increment_ = increment;
     return out;
+}
+
+void MotionModel::learnAcceleration(const Increment& next)
+{
+    if (!increment_)
+    {
+        return;
+    }
+    const Vector6d a = 2 * (next.velocity - increment_->velocity) / (next.dt + increment_->dt);
+    ++numAccelerations_;
+    const double rate =
+        std::max(1.0 / numAccelerations_, 1 - std::exp(-next.dt / params_.timeConstant));
+    const Vector6d a2 = perAxis(a.head<3>().squaredNorm() / 3, a.tail<3>().squaredNorm() / 3);
+    acceleration2_ += rate * (a2 - acceleration2_);
 }
 
 void MotionModel::followIncrements()

@@ -24,6 +24,9 @@ struct Sensitivity
 {
     /** Change with the pose of each reference frame (left perturbation in the previous frame). */
     std::map<int, Matrix126d> references;
+    /** Change if all points, or all planes, of the current frame moved (left perturbation in the
+     * previous frame). */
+    Matrix126d pointsMoved{Matrix126d::Zero()}, planesMoved{Matrix126d::Zero()};
     /** Change with the prior's mean, in the order of MotionPrior::residual(). */
     Matrix12d prior{Matrix12d::Zero()};
     /** Covariance by the noise of the current frame's points and planes, as propagated: without the

@@ -92,6 +92,10 @@ class MotionModel
     /** Variance that the velocity gains per second, as adapted [m^2/s^3, rad^2/s^3]. */
     [[nodiscard]] const Vector6d& density() const { return density_; }
 
+    /** Mean square of the acceleration, per axis, from how increments' velocities differ [m^2/s^4,
+     * rad^2/s^4]; zero before there are two. */
+    [[nodiscard]] const Vector6d& acceleration2() const { return acceleration2_; }
+
     /** Forgets the motion: the velocity is unknown again. */
     void reset();
 
@@ -106,6 +110,7 @@ class MotionModel
         double dt;          //!< [s]
         Vector6d variance;  //!< of the pose at its end
     };
+    void learnAcceleration(const Increment& next);
     [[nodiscard]] Vector6d betweenIncrements(const Increment& next, const Vector6d& smoothed) const;
 
     TParams params_;
@@ -113,7 +118,9 @@ class MotionModel
     Matrix6d cov_;          //!< of velocity_
     Matrix6d measuredCov_;  //!< of the velocity at the latest measured frame
     Vector6d density_;
-    double coasting_;  //!< time since the latest measurement, counted up to a limit [s]
+    Vector6d acceleration2_{Vector6d::Zero()};
+    int numAccelerations_{0};  //!< that acceleration2_ was learnt from
+    double coasting_;          //!< time since the latest measurement, counted up to a limit [s]
     std::optional<Increment> increment_;       //!< the latest
     std::optional<Vector6d> atIncrementsEnd_;  //!< velocity, by the latest two of them
 };
