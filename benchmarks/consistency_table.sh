@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Writes the tables of docs/consistency.md: are the covariances true? Joint NEES per degree of
-# freedom (1 = true, above = optimistic) of config.ini, of the plain H^-1 of the propagated noise, and
-# on the real sequences of config-paper.ini, which claims that.
+# freedom (1 = true, above = optimistic) of config.ini, also with points or planes alone and for cameras
+# that move otherwise; of the plain H^-1 of the propagated noise; and on the real sequences of
+# config-paper.ini, which claims that.
 # usage: POINTPLANE_DATA=DIR benchmarks/consistency_table.sh BUILD [RUNS_PER_SCENE]
 set -euo pipefail
 shopt -s inherit_errexit
@@ -22,14 +23,28 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 source benchmarks/quietly.sh
 
-# estimate RAWLOG PREFIX: the poses of both variants, PREFIX.config.rawlog and PREFIX.plain.rawlog.
+# options_of VARIANT: what it sets.
+options_of() {
+    case $1 in
+    plain)
+        printf '%s\n' --set Covariance.model=independent --set NoiseScale.adaptive=false \
+            --set NoiseScale.pointFactor=1 --set NoiseScale.planeFactor=1 \
+            --set Shutter.varianceFactor=1
+        ;;
+    points) printf '%s\n' --set Pipeline.usePlanes=false ;;
+    planes) printf '%s\n' --set Pipeline.usePoints=false ;;
+    esac
+}
+
+# estimate RAWLOG PREFIX VARIANT...: the poses of each variant, PREFIX.VARIANT.rawlog.
 estimate() {
-    local odometry=("$bin/pointplane-odometry" -c config.ini "$1" --quiet --jobs 1 --only-poses
-        --since 31)
-    quietly "${odometry[@]}" -o "$2.config.rawlog"
-    quietly "${odometry[@]}" -o "$2.plain.rawlog" --set Covariance.model=independent \
-        --set NoiseScale.adaptive=false --set NoiseScale.pointFactor=1 \
-        --set NoiseScale.planeFactor=1 --set Shutter.varianceFactor=1
+    local rawlog=$1 prefix=$2 variant options
+    shift 2
+    for variant; do
+        mapfile -t options < <(options_of "$variant")
+        quietly "$bin/pointplane-odometry" -c config.ini "$rawlog" --quiet --jobs 1 --only-poses \
+            --since 31 -o "$prefix.$variant.rawlog" "${options[@]}"
+    done
 }
 
 # nees GT EST [GT EST]... [OPTION]...: "1 frame / 10 frames / 1 s" of all runs together.
@@ -38,22 +53,29 @@ nees() {
         awk -F, '$4 == "joint" {printf "%s%.2f", sep, $5; sep = " / "}'
 }
 
-# simulated_run SCENE SEED: leaves the poses of both variants and the ground truth in $work.
+# simulated_run SCENE SEED MOTION: leaves the poses of all variants and the ground truth in $work.
 simulated_run() {
-    local prefix=$work/$1.$2
+    local prefix=$work/$1.$3.$2 motion=() variants=(config)
+    case $3 in
+    hand) variants=(config plain points planes) ;;
+    fast) motion=(--set motionSpeed=2) ;;
+    turning) motion=(--set motionTurnsOnly=true) ;;
+    still) motion=(--set motionSpeed=0) ;;
+    esac
     local work=$prefix # for the logs of this run
     mkdir "$work"
-    quietly "$bin/pointplane-simulate" "$1" -o "$work/in.rawlog" --seed "$2" --duration 2 --quiet
-    estimate "$work/in.rawlog" "$prefix"
+    quietly "$bin/pointplane-simulate" "$1" -o "$work/in.rawlog" --seed "$2" --duration 2 --quiet \
+        "${motion[@]}"
+    estimate "$work/in.rawlog" "$prefix" "${variants[@]}"
     mv "$work/in.groundtruth.txt" "$prefix.txt"
     rm -r "$work"
 }
 
-# simulated_cell SCENE VARIANT: of all runs.
+# simulated_cell SCENE MOTION VARIANT: of all runs.
 simulated_cell() {
     local files=() poses
-    for poses in "$work/$1".*."$2.rawlog"; do
-        files+=("${poses%."$2".rawlog}.txt" "$poses")
+    for poses in "$work/$1.$2".*."$3.rawlog"; do
+        files+=("${poses%."$3".rawlog}.txt" "$poses")
     done
     nees "${files[@]}"
 }
@@ -71,7 +93,7 @@ real() { # folder
     noise=$(truth_noise "$1")
     [[ $noise == 0,0,0 ]] || options=(--gt-sigma-trans 0.0001 --gt-sigma-rot-deg "$noise")
     quietly "$bin/pointplane-convert" tum "$data/$1" -o "$work/$1.rawlog" --quiet
-    estimate "$work/$1.rawlog" "$work/$1"
+    estimate "$work/$1.rawlog" "$work/$1" config plain
     quietly "$bin/pointplane-odometry" -c config-paper.ini "$work/$1.rawlog" --quiet --jobs 1 \
         --only-poses --since 31 -o "$work/$1.paper.rawlog"
     [[ $noise != 0,0,0 ]] || noise=exact
@@ -83,10 +105,12 @@ real() { # folder
 
 readonly scenes=(corner desk room notexture cabinet corridor corridor_floor)
 export bin work
-export -f quietly estimate nees simulated_run
-for scene in "${scenes[@]}"; do
-    for ((seed = 1; seed <= runs; ++seed)); do
-        echo "$scene $seed"
+export -f quietly options_of estimate nees simulated_run
+for motion in hand fast turning still; do
+    for scene in "${scenes[@]}"; do
+        for ((seed = 1; seed <= runs; ++seed)); do
+            echo "$scene $seed $motion"
+        done
     done
 done | xargs -P "$(nproc)" -L 1 bash -c '
     set -euo pipefail
@@ -112,12 +136,28 @@ done | xargs -P "$(nproc)" -L 1 bash -c '
     echo
     echo "Simulated scenes, 2 s each, $runs seeds pooled:"
     echo
-    echo "| scene | config.ini | plain H⁻¹ |"
-    echo "|---|---|---|"
+    echo "| scene | config.ini | points alone | planes alone | plain H⁻¹ |"
+    echo "|---|---|---|---|---|"
     for scene in "${scenes[@]}"; do
-        config=$(simulated_cell "$scene" config)
-        plain=$(simulated_cell "$scene" plain)
-        echo "| $scene | $config | $plain |"
+        row="| $scene |"
+        for variant in config points planes plain; do
+            cell=$(simulated_cell "$scene" hand "$variant")
+            row+=" $cell |"
+        done
+        echo "$row"
+    done
+    echo
+    echo "The same scenes with config.ini, from cameras that move otherwise:"
+    echo
+    echo "| scene | twice as fast | turning in place | standing still |"
+    echo "|---|---|---|---|"
+    for scene in "${scenes[@]}"; do
+        row="| $scene |"
+        for motion in fast turning still; do
+            cell=$(simulated_cell "$scene" "$motion" config)
+            row+=" $cell |"
+        done
+        echo "$row"
     done
 } >"$work/tables"
 sed -i -e "/^<!-- tables begin -->$/,/^<!-- tables end -->$/{/^<!-- tables begin -->$/{p;r $work/tables
