@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "image_noise.h"
 #include "texture.h"
 #include <gtest/gtest.h>
 
@@ -28,28 +29,14 @@ cv::Mat derivativesOf(const cv::Mat& gray)
     cv::buildOpticalFlowPyramid(gray, pyramid, {kWindowPx, kWindowPx}, 0, true);
     return pyramid[1];
 }
+
+/** Of the patch in the middle of an image of 100 x 100 pixels. */
+PatchUncertainty inTheMiddle(const cv::Mat& gray, double noise, Brightness brightness)
+{
+    const Patch patch(gray, derivativesOf(gray), {50, 50}, kWindowPx / 2);
+    return patchUncertainty(patch, noise, brightness);
+}
 }  // namespace
-
-TEST(ImageNoise, IsThatOfTheImage)
-{
-    for (const double sigma : {1.5, 3.0, 6.0})
-    {
-        EXPECT_NEAR(imageNoise(blankWall(sigma)), std::hypot(sigma, 0.29), 0.25);
-    }
-}
-
-TEST(ImageNoise, SeesPastTexture)
-{
-    const test::Texture texture(1, 8, 80);
-    test::GaussianSampler random(3);
-    EXPECT_LT(imageNoise(test::renderImage(640, 480, texture, 2, &random)), 3.5);
-}
-
-TEST(ImageNoise, IsAtLeastThatOfRounding)
-{
-    EXPECT_DOUBLE_EQ(imageNoise(cv::Mat(480, 640, CV_8UC1, cv::Scalar(7))), 0.3);
-    EXPECT_DOUBLE_EQ(imageNoise(cv::Mat(2, 2, CV_8UC1, cv::Scalar(7))), 0.3);
-}
 
 TEST(PatchUncertainty, OfAStepCornerIsByHand)
 {
@@ -59,16 +46,12 @@ TEST(PatchUncertainty, OfAStepCornerIsByHand)
     gray(cv::Rect(50, 50, 50, 50)).setTo(50);
     const double lambda = 7.5 * 2 * 50 * 50;
     EXPECT_NEAR(
-        patchUncertainty(gray, derivativesOf(gray), {50, 50}, kWindowPx, 1.5, Brightness::Constant)
-            .worst(),
-        1.5 * std::sqrt(2 / lambda),
-        1e-3);
+        inTheMiddle(gray, 1.5, Brightness::Constant).worst(), 1.5 * std::sqrt(2 / lambda), 1e-3);
     // A shift of brightness looks like half of a move along the diagonal: all gradients point to
     // one side, each sum being 7.5 * 2 * 50.
     const double sum = 7.5 * 2 * 50;
     EXPECT_NEAR(
-        patchUncertainty(gray, derivativesOf(gray), {50, 50}, kWindowPx, 1.5, Brightness::Shifted)
-            .worst(),
+        inTheMiddle(gray, 1.5, Brightness::Shifted).worst(),
         1.5 * std::sqrt(2 / (lambda - 2 * sum * sum / (kWindowPx * kWindowPx))),
         1e-3);
 }
@@ -76,9 +59,8 @@ TEST(PatchUncertainty, OfAStepCornerIsByHand)
 TEST(PatchUncertainty, OfASlopeIsThatOfItsBrightness)
 {
     const cv::Mat gray = test::renderImage(100, 100, [](double u, double) { return 20 + 2 * u; });
-    const auto uncertaintyWith = [&](Brightness brightness) {
-        return patchUncertainty(gray, derivativesOf(gray), {50, 50}, kWindowPx, 1.0, brightness);
-    };
+    const auto uncertaintyWith = [&](Brightness brightness)
+    { return inTheMiddle(gray, 1.0, brightness); };
     EXPECT_NEAR(
         uncertaintyWith(Brightness::Constant).best(), std::sqrt(2.0 / (15 * 15 * 2 * 2)), 0.002);
     EXPECT_TRUE(std::isinf(uncertaintyWith(Brightness::Shifted).best()));
@@ -88,8 +70,7 @@ TEST(PatchUncertainty, OfAnEdgeIsInfiniteAlongIt)
 {
     cv::Mat gray(100, 100, CV_8UC1, cv::Scalar(150));
     gray(cv::Rect(50, 0, 50, 100)).setTo(50);  // upright
-    const PatchUncertainty u =
-        patchUncertainty(gray, derivativesOf(gray), {50, 50}, kWindowPx, 1.0, Brightness::Constant);
+    const PatchUncertainty u = inTheMiddle(gray, 1.0, Brightness::Constant);
     EXPECT_TRUE(std::isinf(u.worst()));
     EXPECT_NEAR(u.best(), std::sqrt(2 / (15 * 2 * 50.0 * 50.0)), 1e-3);
     EXPECT_NEAR(std::abs(u.axes(1, 0)), 1, 1e-6);
@@ -104,10 +85,7 @@ TEST(PatchUncertainty, ASlopeGoesWhereItsBrightnessIs)
 {
     const cv::Mat gray = test::renderImage(100, 100, [](double u, double) { return 20 + 2 * u; });
     const auto displacementWith = [&](Brightness brightness)
-    {
-        return patchUncertainty(gray, derivativesOf(gray), {50, 50}, kWindowPx, 1.0, brightness)
-            .displacement(0.2);
-    };
+    { return inTheMiddle(gray, 1.0, brightness).displacement(0.2); };
     // 120 grey levels at its centre, 2 a pixel.
     EXPECT_NEAR(displacementWith(Brightness::Constant).x(), -120.0 / 2, 0.1);
     EXPECT_EQ(displacementWith(Brightness::Constant).y(), 0) << "not measured";
@@ -118,8 +96,7 @@ TEST(PatchUncertainty, BrightnessHardlyMovesAnEdge)
 {
     cv::Mat gray(100, 100, CV_8UC1, cv::Scalar(150));
     gray(cv::Rect(50, 0, 50, 100)).setTo(50);
-    const PatchUncertainty u =
-        patchUncertainty(gray, derivativesOf(gray), {50, 50}, kWindowPx, 1.0, Brightness::Constant);
+    const PatchUncertainty u = inTheMiddle(gray, 1.0, Brightness::Constant);
     // Gradients of -50 where it is 150 and 50.
     EXPECT_NEAR(u.displacement(0.2).x(), 50 * (150 + 50) / (2 * 50.0 * 50.0), 0.01);
     EXPECT_NEAR(u.displacement(0.2).y(), 0, 1e-6);
@@ -132,8 +109,7 @@ TEST(PatchUncertainty, WeakStructureOnAnEdgeDoesNotCount)
         cv::Mat gray(100, 100, CV_8UC1, cv::Scalar(150));
         gray(cv::Rect(0, 50, 50, 50)).setTo(150 - step);
         gray(cv::Rect(50, 0, 50, 100)).setTo(50);
-        const PatchUncertainty u = patchUncertainty(
-            gray, derivativesOf(gray), {50, 50}, kWindowPx, 0.3, Brightness::Constant);
+        const PatchUncertainty u = inTheMiddle(gray, 0.3, Brightness::Constant);
         EXPECT_EQ(std::isfinite(u.worst()), counts) << step;
         EXPECT_LT(u.best(), 0.01);
     }
@@ -149,7 +125,8 @@ TEST(PatchUncertainty, OfNoiseIsLarge)
         {
             const cv::Point2f centre(static_cast<float>(u), static_cast<float>(v));
             EXPECT_GT(
-                patchUncertainty(gray, derivatives, centre, kWindowPx, noise, Brightness::Constant)
+                patchUncertainty(
+                    Patch(gray, derivatives, centre, kWindowPx / 2), noise, Brightness::Constant)
                     .worst(),
                 0.1);
         }

@@ -47,7 +47,7 @@ WarpedPatches patchAt(
     std::vector<cv::Mat> pyramid;
     cv::buildOpticalFlowPyramid(gray, pyramid, {15, 15}, 0, true);
     WarpedPatches out;
-    out.add(pyramid[0], pyramid[1], centre, kHalfPx, brightness, measured);
+    out.add(Patch(pyramid[0], pyramid[1], centre, kHalfPx), brightness, measured);
     return out;
 }
 
@@ -150,5 +150,54 @@ TEST(WarpedPatches, patchesAtTheImagesBorderAreCut)
     EXPECT_TRUE(patches.refine(0, moved, Matrix2d::Identity(), position));
     EXPECT_NEAR(position.x, 13.5, 0.05);
     EXPECT_NEAR(position.y, 67.3, 0.05);
+}
+
+TEST(WarpedPatches, likenessIsBlindToGainAndBias)
+{
+    const cv::Mat image = textured(1);
+    const WarpedPatches patches = patchAt(image, {70, 55}, kBoth);
+    const Likeness same = patches.compare(0, image, {70, 55});
+    EXPECT_NEAR(same.zncc, 1, 1e-9);
+    EXPECT_EQ(same.brighter, 0);
+
+    cv::Mat changed;
+    image.convertTo(changed, CV_8U, 0.8, 30);
+    EXPECT_GT(patches.compare(0, changed, {70, 55}).zncc, 0.999);
+    EXPECT_LT(patches.compare(0, 255 - image, {70, 55}).zncc, -0.999);
+    EXPECT_NEAR(patches.compare(0, image + 20, {70, 55}).brighter, 20, 1e-4);
+    EXPECT_LT(patches.compare(0, image, {100, 75}).zncc, 0.8) << "elsewhere";
+}
+
+TEST(WarpedPatches, likenessIsSampledBetweenPixels)
+{
+    // A slope from left to right with a step from top to bottom.
+    const auto at = [](double shift)
+    {
+        return test::renderImage(
+            40, 40, [=](double u, double v) { return 4 * (u - shift) + (v < 20 ? 40 : 80); });
+    };
+    const WarpedPatches patches = patchAt(at(0), {20, 20}, kBoth);
+    const Likeness likeness = patches.compare(0, at(0.5), {20.5F, 20});
+    EXPECT_NEAR(likeness.zncc, 1, 1e-9);
+    EXPECT_NEAR(likeness.brighter, 0, 1e-4);
+    EXPECT_NEAR(patches.compare(0, at(0), {20.5F, 20}).brighter, 2, 1e-4);
+}
+
+TEST(WarpedPatches, nothingIsLikeAFlatPlace)
+{
+    const cv::Mat flat(40, 40, CV_8UC1, cv::Scalar(90));
+    const WarpedPatches patches = patchAt(textured(1), {70, 55}, kBoth);
+    EXPECT_EQ(patches.compare(0, flat, {20, 20}).zncc, 0);
+}
+
+TEST(WarpedPatches, whatIsHiddenBesideThePatchDoesNotMatter)
+{
+    const cv::Mat image = textured(1);
+    const WarpedPatches patches = patchAt(image, {70, 55}, kBoth);
+    cv::Mat hidden = image.clone();
+    hidden(cv::Rect(75, 0, 85, 120)).setTo(0);  // from the fifth column on
+    EXPECT_NEAR(patches.compare(0, hidden, {70, 55}).zncc, 1, 1e-9);
+    hidden(cv::Rect(74, 0, 86, 120)).setTo(0);
+    EXPECT_LT(patches.compare(0, hidden, {70, 55}).zncc, 0.9);
 }
 }  // namespace pointplane

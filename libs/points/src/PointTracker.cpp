@@ -4,98 +4,19 @@
 #include <pointplane/points/PointTracker.h>
 
 #include <opencv2/core/utility.hpp>
-#include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "local_surface.h"
-#include "lucas_kanade.h"
-#include "patch_uncertainty.h"
-#include "warped_patches.h"
+#include "reference_patches.h"
+#include "reference_points.h"
 
 namespace pointplane
 {
 namespace
 {
-constexpr int kBorderPx = 8;
-constexpr int kZnccPx = 9;  //!< side of the patches that are compared
-
-/** An edge's noise across it, of the noise that a corner may have. */
-constexpr double kEdgeOfCorner = 0.5;
-
-bool isInside(const cv::Point2f& p, const cv::Mat& image)
-{
-    return p.x >= kBorderPx && p.y >= kBorderPx &&
-           p.x <= static_cast<float>(image.cols - 1 - kBorderPx) &&
-           p.y <= static_cast<float>(image.rows - 1 - kBorderPx);
-}
-
-/** Samples a patch bilinearly. \pre isInside(centre, image) */
-void samplePatch(const cv::Mat& image, const cv::Point2f& centre, float* out)
-{
-    const float left = centre.x - kZnccPx / 2, top = centre.y - kZnccPx / 2;
-    const int u = static_cast<int>(left), v = static_cast<int>(top);
-    const float a = left - static_cast<float>(u), b = top - static_cast<float>(v);
-    for (int y = 0; y < kZnccPx; ++y)
-    {
-        const uchar* row = image.ptr<uchar>(v + y) + u;
-        const uchar* next = image.ptr<uchar>(v + y + 1) + u;
-        for (int x = 0; x < kZnccPx; ++x)
-        {
-            const float upper =
-                static_cast<float>(row[x]) * (1 - a) + static_cast<float>(row[x + 1]) * a;
-            const float lower =
-                static_cast<float>(next[x]) * (1 - a) + static_cast<float>(next[x + 1]) * a;
-            *out++ = upper * (1 - b) + lower * b;
-        }
-    }
-}
-
-/** The square around a point, to be compared with others. \pre isInside(centre, image) */
-struct ComparedPatch
-{
-    static constexpr int kSize = kZnccPx * kZnccPx;
-
-    ComparedPatch(const cv::Mat& image, const cv::Point2f& centre)
-    {
-        samplePatch(image, centre, samples.data());
-        for (const float sample : samples)
-        {
-            const auto x = static_cast<double>(sample);
-            sum += x;
-            sumOfSquares += x * x;
-        }
-    }
-
-    [[nodiscard]] double variation() const { return sumOfSquares - sum * sum / kSize; }
-
-    std::array<float, kSize> samples;
-    double sum{0}, sumOfSquares{0};
-};
-
-/** Zero-mean normalised cross-correlation, blind to gain and bias; 0 for flat patches. */
-double zncc(const ComparedPatch& a, const ComparedPatch& b)
-{
-    double product = 0;
-    for (size_t i = 0; i < a.samples.size(); ++i)
-    {
-        product += static_cast<double>(a.samples[i]) * static_cast<double>(b.samples[i]);
-    }
-    const double va = a.variation(), vb = b.variation();
-    return va > 1 && vb > 1 ? (product - a.sum * b.sum / ComparedPatch::kSize) / std::sqrt(va * vb)
-                            : 0;
-}
-
-/** Exposure changes brightness, but not by this much. */
-bool isAsBright(const ComparedPatch& a, const ComparedPatch& b)
-{
-    constexpr double kMostShift = 30;  // [grey]
-    return std::abs(a.sum - b.sum) < kMostShift * ComparedPatch::kSize;
-}
-
 /** Relative change of brightness from one pixel to another, per vignetting: it grows with the
  * square of the distance from the centre. */
 double vignettingBetween(
@@ -106,37 +27,6 @@ double vignettingBetween(
            centre.squaredNorm();
 }
 }  // namespace
-
-/** What the points of a reference look like. */
-struct ReferencePatches
-{
-    PatchTemplates searched;
-    WarpedPatches refined;
-    std::vector<ComparedPatch> compared;
-
-    ReferencePatches(int windowPx, size_t numPoints, size_t numLevels) : searched(windowPx)
-    {
-        searched.reserve(numPoints, numLevels);
-        refined.reserve(numPoints, windowPx / 2);
-        compared.reserve(numPoints);
-    }
-
-    /** \param pyramid with derivatives \param halfPx half of the window \param brightness constant
-     * for edges, along which it may be all that tells anything */
-    void add(
-        const std::vector<cv::Mat>& pyramid,
-        const cv::Point2f& centre,
-        int halfPx,
-        Brightness brightness,
-        const Directions& measured)
-    {
-        // Corners have structure enough nearer to their centre, where the surface is flatter.
-        const int refinedPx = brightness == Brightness::Shifted ? 3 * halfPx / 4 : halfPx;
-        searched.add(pyramid, centre, brightness);
-        refined.add(pyramid[0], pyramid[1], centre, refinedPx, brightness, measured);
-        compared.emplace_back(pyramid[0], centre);
-    }
-};
 
 struct PointTracker::Search
 {
@@ -152,26 +42,6 @@ struct PointTracker::Sought
     cv::Point2f predicted, position;
     bool found{false};
 };
-
-void PointReference::note(const std::vector<PointTrack>& tracks)
-{
-    misses.resize(points.size(), 0);
-    for (int& count : misses)
-    {
-        ++count;
-    }
-    for (const PointTrack& track : tracks)
-    {
-        misses[static_cast<size_t>(track.ref)] = 0;
-    }
-}
-
-bool PointReference::isDue(size_t point) const
-{
-    constexpr int kPatience = 3, kTurns = 8;
-    return point >= misses.size() || misses[point] < kPatience ||
-           (misses[point] + static_cast<int>(point)) % kTurns == 0;
-}
 
 void PointTracker::TParams::check() const
 {
@@ -216,98 +86,9 @@ std::vector<cv::Mat> PointTracker::pyramid(const cv::Mat& gray) const
     return out;
 }
 
-/** \param pyramid with derivatives. Corners are looked for in the halved image, four times as fast:
- * a patch that is searched for needs structure in it, its centre may be anywhere. */
-std::vector<cv::Point2f> PointTracker::candidates(const std::vector<cv::Mat>& pyramid) const
-{
-    constexpr size_t kHalved = 2;  // images and derivatives take turns
-    const bool isHalved = pyramid.size() > kHalved;
-    const float scale = isHalved ? 2.0F : 1.0F;
-    std::vector<cv::Point2f> out;
-    cv::goodFeaturesToTrack(
-        pyramid[isHalved ? kHalved : 0],
-        out,
-        2 * params_.maxPoints,
-        params_.cornerQuality,
-        params_.minSpacingFraction * pyramid[0].cols / static_cast<double>(scale));
-    for (cv::Point2f& corner : out)
-    {
-        corner *= scale;
-    }
-    return out;
-}
-
 PointReference PointTracker::makeReference(const RgbdFrame& frame) const
 {
-    PointReference out;
-    if (frame.gray.empty())
-    {
-        return out;
-    }
-    std::vector<cv::Mat> pyramid;
-    cv::buildOpticalFlowPyramid(
-        frame.gray, pyramid, {params_.windowPx, params_.windowPx}, params_.numLevels - 1, true);
-    struct Edge
-    {
-        PointFeature point;
-        PatchUncertainty uncertainty;
-    };
-    std::vector<Edge> edges;
-    const std::vector<cv::Point2f> corners = candidates(pyramid);
-    const auto patches = std::make_shared<ReferencePatches>(
-        params_.windowPx,
-        std::min(corners.size(), static_cast<size_t>(params_.maxPoints)),
-        pyramid.size() / 2);
-    const auto add =
-        [&](const PointFeature& point, const PatchUncertainty& uncertainty, Brightness brightness)
-    {
-        const cv::Point2f centre = cv::Point2d(point.uv_px.x(), point.uv_px.y());
-        const Directions measured = uncertainty.measured(params_.maxNoisePx);
-        patches->add(pyramid, centre, params_.windowPx / 2, brightness, measured);
-        out.points.push_back(point);
-        out.cov_px.push_back(uncertainty.covariance(params_.maxNoisePx));
-        out.ofBrightness_px.push_back(uncertainty.displacement(params_.maxNoisePx));
-    };
-    const double noise = imageNoise(frame.gray);
-    for (const cv::Point2f& pixel : corners)
-    {
-        if (out.points.size() >= static_cast<size_t>(params_.maxPoints))
-        {
-            break;
-        }
-        const auto uncertaintyWith = [&](Brightness brightness) {
-            return patchUncertainty(
-                frame.gray, pyramid[1], pixel, params_.windowPx, noise, brightness);
-        };
-        PatchUncertainty uncertainty = uncertaintyWith(Brightness::Shifted);
-        const bool isCorner = uncertainty.worst() <= params_.maxNoisePx;
-        if (!isCorner)
-        {
-            uncertainty = uncertaintyWith(Brightness::Constant);
-        }
-        const bool isEdge = !isCorner && uncertainty.best() <= kEdgeOfCorner * params_.maxNoisePx;
-        if (!isInside(pixel, frame.gray) || !(isCorner || isEdge))
-        {
-            continue;
-        }
-        const auto feature = lifter_.lift(frame, Eigen::Vector2f(pixel.x, pixel.y).cast<double>());
-        if (feature && isCorner)
-        {
-            add(*feature, uncertainty, Brightness::Shifted);
-        }
-        else if (feature && !isNearDepthJump(frame, *feature))
-        {
-            edges.push_back({*feature, uncertainty});
-        }
-    }
-    for (size_t i = 0;
-         i < edges.size() && out.points.size() < static_cast<size_t>(params_.minPoints);
-         ++i)
-    {
-        add(edges[i].point, edges[i].uncertainty, Brightness::Constant);
-    }
-    out.patches = patches;
-    return out;
+    return frame.gray.empty() ? PointReference{} : referencePoints(frame, params_, lifter_);
 }
 
 /** Lucas-Kanade surely finds what lies within a quarter of the window at the coarsest level: no
@@ -349,7 +130,7 @@ std::vector<PointTracker::Sought> PointTracker::inView(
         }
         const Eigen::Vector2d uv_px = frame.camera.project(p_cur);
         const cv::Point2f predicted = cv::Point2d(uv_px.x(), uv_px.y());
-        if (isInside(predicted, frame.gray))
+        if (isWellInside(predicted, frame.gray))
         {
             out.push_back({i, predicted, predicted});
         }
@@ -365,13 +146,14 @@ bool PointTracker::isFound(
     const Search& search) const
 {
     if (!point.found || cv::norm(point.position - point.predicted) > search.radius_px ||
-        !isInside(point.position, gray))
+        !isWellInside(point.position, gray))
     {
         return false;
     }
-    const ComparedPatch& looked = reference.patches->compared[point.ref];
-    const ComparedPatch found(gray, point.position);
-    return isAsBright(looked, found) && zncc(looked, found) >= params_.minZncc;
+    constexpr double kMostBrighter =
+        30;  // [grey]; exposure changes brightness, but not by this much
+    const Likeness likeness = reference.patches->refined.compare(point.ref, gray, point.position);
+    return std::abs(likeness.brighter) < kMostBrighter && likeness.zncc >= params_.minZncc;
 }
 
 /** Exactly where it is, and in space, with what is not known of it. */

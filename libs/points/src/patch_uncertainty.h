@@ -2,18 +2,11 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <opencv2/core/mat.hpp>
 
-#include "brightness.h"
-#include "warped_patches.h"
+#include "Patch.h"
 
 namespace pointplane
 {
-/** Standard deviation of an image's white noise [grey], at least that of rounding: median response
- * of the difference of two Laplacians, blind to slopes and edges [Immerkaer 1996; the median
- * instead of the mean leaves texture out]. \param gray CV_8UC1 */
-[[nodiscard]] double imageNoise(const cv::Mat& gray);
-
 /** How far image noise moves a patch that is searched for. */
 struct PatchUncertainty
 {
@@ -38,17 +31,10 @@ struct PatchUncertainty
 };
 
 /** The Cramer-Rao bound sigma sqrt(2 / lambda) in each principal direction. lambda are the
- * eigenvalues of the patch's gradient matrix, less what noise adds to it. Infinite for a patch of
- * noise, and along an edge that has less than a seventh of its structure (in sigma) in that
- * direction: such structure comes from the pixel grid, the edge's bend, or the noise of its
- * brighter side. \param gray CV_8UC1 \param derivatives CV_16SC2, Scharr's (OpenCV's pyramids),
- * gain 32 \param windowPx side of the patch \param noise [grey] \param brightness shifted: what a
- * shift of brightness could explain is no structure */
+ * eigenvalues of the patch's structure, less what noise adds to it. Infinite for a patch of noise,
+ * and along an edge that has less than a seventh of its structure (in sigma) in that direction:
+ * such structure comes from the pixel grid, the edge's bend, or the noise of its brighter side.
+ * \param noise [grey] */
 [[nodiscard]] PatchUncertainty patchUncertainty(
-    const cv::Mat& gray,
-    const cv::Mat& derivatives,
-    const cv::Point2f& centre,
-    int windowPx,
-    double noise,
-    Brightness brightness);
+    const Patch& patch, double noise, Brightness brightness);
 }  // namespace pointplane

@@ -3,13 +3,13 @@
 
 #include <Eigen/LU>
 
+#include <algorithm>
 #include <cmath>
 
 namespace pointplane
 {
 namespace
 {
-constexpr double kScharrGain = 32;
 constexpr int kIterations = 2;
 constexpr float kFarthest_px = 2;
 
@@ -41,55 +41,28 @@ void WarpedPatches::reserve(std::size_t patches, int halfPx)
     samples_.reserve(patches * side * side);
 }
 
-void WarpedPatches::add(
-    const cv::Mat& gray,
-    const cv::Mat& derivatives,
-    const cv::Point2f& centre,
-    int halfPx,
-    Brightness brightness,
-    const Directions& measured)
+void WarpedPatches::add(const Patch& patch, Brightness brightness, const Directions& measured)
 {
-    const int side = 2 * halfPx + 1;
-    const cv::Rect pixels =
-        cv::Rect(cvRound(centre.x) - halfPx, cvRound(centre.y) - halfPx, side, side) &
-        cv::Rect(0, 0, gray.cols, gray.rows);
-    std::vector<Eigen::Vector2d> gradients;
-    gradients.reserve(static_cast<std::size_t>(pixels.area()));
-    Eigen::Vector2d mean(0, 0);
-    const Patch patch{
-        cv::Rect2f(cv::Rect(pixels.tl(), pixels.size() - cv::Size(1, 1))) - centre,
-        pixels.width,
-        pixels.height,
-        samples_.size()};
-    for (int v = pixels.y; v < pixels.br().y; ++v)
-    {
-        for (int u = pixels.x; u < pixels.br().x; ++u)
-        {
-            const auto& g = derivatives.at<cv::Vec2s>(v, u);
-            gradients.emplace_back(g[0] / kScharrGain, g[1] / kScharrGain);
-            mean += gradients.back() / pixels.area();
-            samples_.push_back({static_cast<float>(gray.at<uchar>(v, u)), {0, 0}});
-        }
-    }
-    Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
-    for (Eigen::Vector2d& g : gradients)
-    {
-        // What a shift of brightness could explain is no structure.
-        g -= brightness == Brightness::Shifted ? mean : Eigen::Vector2d::Zero();
-        normal += g * g.transpose();
-    }
+    const cv::Rect& pixels = patch.pixels();
+    patches_.push_back(
+        {cv::Rect2f(cv::Rect(pixels.tl(), pixels.size() - cv::Size(1, 1))) - patch.centre(),
+         pixels.width,
+         pixels.height,
+         samples_.size()});
     const Eigen::Matrix2d ofGradient =
-        measured * (measured.transpose() * normal * measured).inverse() * measured.transpose();
-    for (std::size_t i = 0; i < gradients.size(); ++i)
+        measured * (measured.transpose() * patch.structure(brightness) * measured).inverse() *
+        measured.transpose();
+    const Eigen::Vector2d explained = patch.explained(brightness);
+    for (Eigen::Index i = 0; i < patch.greys().size(); ++i)
     {
-        samples_[patch.begin + i].gain = (-ofGradient * gradients[i]).cast<float>();
+        const Eigen::Vector2d gain = -ofGradient * (patch.gradients().col(i) - explained);
+        samples_.push_back({patch.greys()[i], gain.cast<float>()});
     }
-    patches_.push_back(patch);
 }
 
 /** In the reference's image. */
 Eigen::Vector2f WarpedPatches::step(
-    const Patch& patch,
+    const Samples& patch,
     const cv::Mat& image,
     const Eigen::Matrix2f& warp,
     const Eigen::Vector2f& position) const
@@ -114,7 +87,7 @@ bool WarpedPatches::refine(
     const Eigen::Matrix2d& warp,
     cv::Point2f& position) const
 {
-    const Patch& p = patches_[patch];
+    const Samples& p = patches_[patch];
     const Eigen::Matrix2f A = warp.cast<float>();
     const Eigen::Vector2f start(position.x, position.y);
     Eigen::Vector2f found = start;
@@ -136,5 +109,33 @@ bool WarpedPatches::refine(
     }
     position = {found.x(), found.y()};
     return true;
+}
+
+Likeness WarpedPatches::compare(
+    std::size_t patch, const cv::Mat& image, const cv::Point2f& position) const
+{
+    constexpr int kHalfPx = kComparedPx / 2;
+    const Samples& p = patches_[patch];
+    const cv::Point centre(cvRound(-p.pixels.x), cvRound(-p.pixels.y));
+    const cv::Rect inner =
+        cv::Rect(centre - cv::Point(kHalfPx, kHalfPx), cv::Size(kComparedPx, kComparedPx)) &
+        cv::Rect(0, 0, p.columns, p.rows);
+    double a = 0, b = 0, aa = 0, ab = 0, bb = 0;
+    for (int y = inner.y; y < inner.br().y; ++y)
+    {
+        for (int x = inner.x; x < inner.br().x; ++x)
+        {
+            const auto i = p.begin + static_cast<std::size_t>(y * p.columns + x);
+            const Eigen::Vector2f pixel(
+                position.x + p.pixels.x + static_cast<float>(x),
+                position.y + p.pixels.y + static_cast<float>(y));
+            const auto of = static_cast<double>(samples_[i].grey);
+            const auto at = static_cast<double>(greyAt(image, pixel));
+            a += of, b += at;
+            aa += of * of, ab += of * at, bb += at * at;
+        }
+    }
+    const double n = inner.area(), va = aa - a * a / n, vb = bb - b * b / n;
+    return {va > 1 && vb > 1 ? (ab - a * b / n) / std::sqrt(va * vb) : 0, (b - a) / n};
 }
 }  // namespace pointplane

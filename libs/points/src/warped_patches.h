@@ -7,12 +7,16 @@
 #include <cstddef>
 #include <vector>
 
-#include "brightness.h"
+#include "Patch.h"
 
 namespace pointplane
 {
-/** Columns: orthogonal directions in the image, none to two. */
-using Directions = Eigen::Matrix<double, 2, Eigen::Dynamic, Eigen::ColMajor, 2, 2>;
+/** How alike a patch and a place in an image look. */
+struct Likeness
+{
+    double zncc{0};      //!< zero-mean normalised cross-correlation; 0 where one of them is flat
+    double brighter{0};  //!< the place than the patch [grey]
+};
 
 /** Finds patches of a reference image in an image that shows them turned, larger or slanted. A
  * search that only shifts a patch ends beside its place: by half a pixel for a turn of six degrees.
@@ -21,19 +25,14 @@ using Directions = Eigen::Matrix<double, 2, Eigen::Dynamic, Eigen::ColMajor, 2, 
 class WarpedPatches
 {
  public:
+    static constexpr int kComparedPx = 9;  //!< side of the square in the middle that is compared
+
     /** Makes room for patches of at most this size. */
     void reserve(std::size_t patches, int halfPx);
 
-    /** \param gray CV_8UC1 \param derivatives CV_16SC2, Scharr's (OpenCV's pyramids), gain 32
-     * \param centre inside the image \param halfPx the patch has 2 halfPx + 1 pixels a side
-     * \param measured directions in which it has structure: its position is left alone in others */
-    void add(
-        const cv::Mat& gray,
-        const cv::Mat& derivatives,
-        const cv::Point2f& centre,
-        int halfPx,
-        Brightness brightness,
-        const Directions& measured);
+    /** \param measured directions in which it has structure: its position is left alone in others
+     */
+    void add(const Patch& patch, Brightness brightness, const Directions& measured);
 
     /** \param image CV_8UC1 \param warp how its pixels move with those of the reference
      * \param position where the search starts, within a pixel or two; where it ends \return false
@@ -44,6 +43,12 @@ class WarpedPatches
         const Eigen::Matrix2d& warp,
         cv::Point2f& position) const;
 
+    /** Compares the square in the middle, as far as there is one, with an image that shows it
+     * shifted only.
+     * \pre the position is 5 pixels or more inside the image */
+    [[nodiscard]] Likeness compare(
+        std::size_t patch, const cv::Mat& image, const cv::Point2f& position) const;
+
  private:
     /** A pixel of a patch. */
     struct Sample
@@ -51,19 +56,20 @@ class WarpedPatches
         float grey;
         Eigen::Vector2f gain;  //!< how the position changes with the image's grey value here [px]
     };
-    struct Patch
+    /** Those of one patch. */
+    struct Samples
     {
-        cv::Rect2f pixels;  //!< first and last pixel's place from the centre
+        cv::Rect2f pixels;  //!< first and last pixel's place from the centre [px]
         int columns, rows;
         std::size_t begin;  //!< of its samples, row by row
     };
     [[nodiscard]] Eigen::Vector2f step(
-        const Patch& patch,
+        const Samples& patch,
         const cv::Mat& image,
         const Eigen::Matrix2f& warp,
         const Eigen::Vector2f& position) const;
 
-    std::vector<Patch> patches_;
+    std::vector<Samples> patches_;
     std::vector<Sample> samples_;
 };
 }  // namespace pointplane

@@ -2,48 +2,18 @@
 #pragma once
 
 #include <pointplane/core/Parameters.h>
-#include <pointplane/points/PointFeature.h>
 #include <pointplane/points/PointLifter.h>
+#include <pointplane/points/PointReference.h>
 #include <pointplane/sensor/DepthNoise.h>
 #include <pointplane/sensor/RgbdFrame.h>
 
 #include <opencv2/core/mat.hpp>
 
-#include <memory>
 #include <optional>
 #include <vector>
 
 namespace pointplane
 {
-struct ReferencePatches;
-
-/** A point found again. */
-struct PointTrack
-{
-    int ref{0};        //!< index into PointReference::points
-    PointFeature cur;  //!< where it is in the current frame
-};
-
-/** The points of a reference frame, ready to be found again. All lists have one entry per point. */
-struct PointReference
-{
-    std::vector<PointFeature> points;
-    std::shared_ptr<const ReferencePatches> patches;  //!< tracking: what each looks like
-    cv::Mat descriptors;                              //!< matching: a row a point
-    std::vector<Eigen::Matrix2d> cov_px;  //!< tracking: noise of where each is found [px^2]
-    /** Tracking: how far beside its place each is found in a brighter image, per relative change of
-     * the brightness [px]. */
-    std::vector<Eigen::Vector2d> ofBrightness_px;
-    std::vector<int> misses;  //!< tracking: frames in a row without each point
-
-    /** Counts misses: which points were found again in a frame. */
-    void note(const std::vector<PointTrack>& tracks);
-
-    /** Whether to search for a point now. One that has been missing for some frames is searched for
-     * only now and then, in turns with others, because a search in vain takes longest. */
-    [[nodiscard]] bool isDue(size_t point) const;
-};
-
 /** Finds corners of a reference image again in later images, to a fraction of a pixel.
  *
  * Pyramidal Lucas-Kanade (Bouguet 2001) searches from the predicted position. Each image is
@@ -141,7 +111,6 @@ class PointTracker
     /** How thoroughly points are searched for. */
     struct Search;
     [[nodiscard]] Search searchFor(double radius_px, bool isWide, size_t numPoints) const;
-    [[nodiscard]] std::vector<cv::Point2f> candidates(const std::vector<cv::Mat>& pyramid) const;
     /** A point of the reference that is looked for. */
     struct Sought;
     [[nodiscard]] static std::vector<Sought> inView(
@@ -161,9 +130,9 @@ class PointTracker
         const Eigen::Isometry3d& T_cur_ref,
         const Search& search) const;
 
-    TParams params_;
     [[nodiscard]] DepthNoise cornerNoise(const DepthNoise& noise) const;
 
+    TParams params_;
     PointLifter lifter_;
 };
 }  // namespace pointplane
