@@ -25,7 +25,7 @@ mutants=(
     'libs/pose/src/SolutionAnalysis.cpp|ofUnitNoise += equations_|ofUnitNoise = equations_|pose_Sensitivity'
     'libs/pose/src/PoseSolver.cpp|kStartWidening = 4|kStartWidening = 1|pose_PoseSolver'
     'libs/odometry/src/ShutterCorrection.cpp|(sColour - sDepth) * P|(sDepth - sColour) * P|odometry_ShutterCorrection'
-    'libs/points/src/lucas_kanade.cpp|static_cast<short>(g.x - meanX)|static_cast<short>(g.x)|points_lucas_kanade'
+    'libs/points/src/patch_template.cpp|static_cast<short>(g.x - meanX)|static_cast<short>(g.x)|points_lucas_kanade'
     'libs/points/src/Patch.cpp|out -= pixels_|out += pixels_|points_Patch points_patch_uncertainty'
     'libs/points/src/patch_uncertainty.cpp|(-out.axes|(out.axes|points_patch_uncertainty'
     'libs/pose/src/residuals.cpp|dRef_dCamera - R * pair|dRef_dCamera + R * pair|pose_Sensitivity'

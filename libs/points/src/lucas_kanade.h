@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "brightness.h"
+#include "patch_template.h"
 
 namespace pointplane
 {
@@ -19,13 +20,14 @@ struct PatchSearch
     double epsilon_px{0.03};  //!< steps below this end the search
 };
 
-/** Patches of a reference image at all levels of its pyramid, and pyramidal Lucas-Kanade (Bouguet
- * 2001) that finds them in other images. With constant brightness, positions are those of
- * cv::calcOpticalFlowPyrLK to the bit. That function samples the patches again for each image; here
- * they are sampled once.
+/** Pyramidal Lucas-Kanade (Bouguet 2001) of its own, because with cv::calcOpticalFlowPyrLK the
+ * odometry takes a fifth longer and its error on fr3/structure_notexture_far grows by a quarter:
+ * that function samples the patches again for each image, and knows no shift of brightness.
  *
- * A shift of brightness is solved for with the position. Eliminated from the normal equations, it
- * removes the mean of the patch's gradients; nothing else changes. */
+ * Here, patches of a reference image are sampled once, at all levels of its pyramid. A shift of
+ * brightness is solved for with the position: eliminated from the normal equations, it removes the
+ * mean of the patch's gradients. With constant brightness, positions are those of OpenCV to the
+ * bit. */
 class PatchTemplates
 {
  public:
@@ -48,20 +50,6 @@ class PatchTemplates
         cv::Point2f& position) const;
 
  private:
-    /** Normal matrix of a patch at one level. */
-    struct Normal
-    {
-        float xx{0}, xy{0}, yy{0};
-        float inverseDeterminant{0};  //!< 0 = no structure
-    };
-    [[nodiscard]] std::size_t templateSize() const;
-    [[nodiscard]] Normal append(
-        const cv::Mat& image,
-        const cv::Mat& derivatives,
-        const cv::Point2f& corner,
-        Brightness brightness);
-    [[nodiscard]] cv::Point2f correlation(
-        const std::int16_t* patch, const cv::Mat& image, const cv::Point2f& corner) const;
     [[nodiscard]] bool align(
         std::size_t patchAndLevel,
         const cv::Mat& image,
@@ -69,8 +57,9 @@ class PatchTemplates
         cv::Point2f& position) const;
 
     int windowPx_;
+    std::size_t templateSize_;
     std::size_t numLevels_{0};
-    std::vector<Normal> normals_;        //!< level by level of each patch
-    std::vector<std::int16_t> samples_;  //!< likewise; strips of eight columns, row by row
+    std::vector<NormalMatrix> normals_;  //!< level by level of each patch
+    std::vector<std::int16_t> samples_;  //!< likewise: templates
 };
 }  // namespace pointplane
