@@ -150,8 +150,7 @@ bool PointTracker::isFound(
     {
         return false;
     }
-    constexpr double kMostBrighter =
-        30;  // [grey]; exposure changes brightness, but not by this much
+    constexpr double kMostBrighter = 30;  // [grey]; exposure does not change it by so much
     const Likeness likeness = reference.patches->refined.compare(point.ref, gray, point.position);
     return std::abs(likeness.brighter) < kMostBrighter && likeness.zncc >= params_.minZncc;
 }
