@@ -63,6 +63,21 @@ TEST_F(OdometryEnvelope, halfASecondMissing)
     }
 }
 
+/** A few points on the folds of blank walls agree with a motion along them by chance. */
+TEST(OdometryEnvelopeOfBlankWalls, fewPointsAfterAGapDoNotDecide)
+{
+    SimulationParams params;
+    params.duration = 6;
+    const SimulatedSequence walls("notexture", params, 7);
+    test::CheckedOdometry odometry;
+    for (int i = 24; i < 44; ++i)
+    {
+        (void)odometry.process(walls.frame(i));
+    }
+    const OdometryResult back = odometry.process(walls.frame(94));
+    EXPECT_LT(test::normalisedError(walls.trueMotion(43, 94), back.increment), 3);
+}
+
 TEST_F(OdometryEnvelope, blindForASecondAndBackInAKnownPlace)
 {
     for (int i = 0; i < 20; ++i)

@@ -7,6 +7,7 @@
 #include <Eigen/LU>
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 
 #include "matchers.h"
@@ -381,6 +382,61 @@ TEST(PoseSolver, unobservableDirectionsKeepThePriorsCovariance)
         const Vector6d moved = se3Log(e.pose().mean);
         EXPECT_LT(std::abs(moved[0]) + std::abs(moved[1]) + std::abs(moved[5]), 1e-4);
     }
+}
+
+/** Two planes tell all but the way along their common line; points far away know nothing else as
+ * well as these do. */
+TEST(PoseSolver, supportIsTheNumberOfPointsWhereNothingElseHolds)
+{
+    const auto support = [](int points, int references, const PoseGaussian& prior)
+    {
+        PairWorld world(22);
+        world.addPlane({1, 0, -1}, 1);
+        world.addPlane({-1, 0, -1}, 1);
+        PoseProblem problem = test::atRest({}, world.drawPlanes(0), prior.mean, prior);
+        for (int i = 0; i < points; ++i)
+        {
+            PairWorld one(22);
+            one.addPoint({0, 0, 5});
+            for (int r = 0; r < references; ++r)
+            {
+                problem.points.push_back(one.drawPoints(0).front());
+                problem.points.back().feature = i;
+                problem.points.back().reference = r;
+            }
+        }
+        const PoseSolver solver(test::gaussianSolver());
+        return solver.pointSupport(problem, solver.solve(problem, problem.prior.mean));
+    };
+    const PoseGaussian loose{Eigen::Isometry3d::Identity(), Matrix6d::Identity()};
+    const PoseGaussian tight{Eigen::Isometry3d::Identity(), 1e-10 * Matrix6d::Identity()};
+    constexpr double kNone = std::numeric_limits<double>::infinity();
+    for (const int n : {1, 5, 20})
+    {
+        EXPECT_NEAR(support(n, 1, loose), n, 1e-6);
+        EXPECT_NEAR(support(n, 3, loose), n, 1e-6) << "a point seen by three references is one";
+        EXPECT_EQ(support(n, 1, tight), kNone) << "the prior knows it better";
+    }
+    EXPECT_EQ(support(0, 1, loose), kNone);
+}
+
+/** One point that is known a hundred times better than the others counts for nearly all. */
+TEST(PoseSolver, supportCountsPointsByWhatTheyKnow)
+{
+    PairWorld world(23);
+    world.addPoints(40);
+    PoseProblem problem = test::atRest(world.drawPoints(0), {}, kStart, loosePrior());
+    const PoseSolver solver(test::gaussianSolver());
+    const auto support = [&] { return solver.pointSupport(problem, solver.solve(problem, {})); };
+    const double all = support();
+    EXPECT_GT(all, 10);
+    EXPECT_LE(all, 40);
+    for (size_t i = 3; i < problem.points.size(); ++i)
+    {
+        problem.points[i].ref.cov *= 1e4;
+        problem.points[i].cur.cov *= 1e4;
+    }
+    EXPECT_LT(support(), 3.1);
 }
 
 TEST(PoseSolver, parallelPlanesLeaveSlidingOpen)

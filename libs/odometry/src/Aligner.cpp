@@ -3,12 +3,8 @@
 
 #include <pointplane/core/se3.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <utility>
 
 #include "Stopwatch.h"
@@ -20,39 +16,6 @@ namespace
 /** Search radius when too little is found again around the prediction, over the usual one. */
 constexpr double kWideSearch = 5;
 
-/** Fewer matches than this in total cannot fix a pose [P17, section Pose estimation]. */
-constexpr int kMinMatches = 3;
-
-/** So few points cannot contradict each other when they are wrong; a plane is worth three. */
-constexpr int kFewPoints = 6;
-
-/** Points that should be in view: of fewer, a share says little. */
-constexpr int kHandful = 20;
-
-/** Standard deviations from the predicted motion beyond which an estimate has to be convincing by
- * itself. Cameras in hands stay below three, at any frame rate: the prediction knows how little it
- * knows. Of estimates beyond five, hardly one is right (docs/theory.md, "Verdict"). */
-constexpr double kMostSurprise = 5;
-
-/** An estimate is convincing when all of the following holds. No alternative is looked for then,
- * and it is believed even far from the predicted motion.
- *
- * Of the surfaces in view, nine tenths agree with a right motion and a third with one that is wrong
- * by 5 cm or 5 deg (docs/theory.md, "Verdict"): so much is between. */
-constexpr double kConvincingSurfaces = 0.75;
-
-/** Surfaces and the share of points found again: along a wall, surfaces agree with any motion. With
- * the least surfaces, a seventh of the points must be found; with all of them, none. */
-constexpr double kConvincingTogether = 0.9;
-
-/** Residuals up to twice as large as in the frames before, squared: a wrong motion disagrees more.
- */
-constexpr double kConvincingRise = 4;
-
-/** A prediction that is less certain than this says nothing of which plane is which: other planes
- * are as near, and as parallel (PlaneMatcher). */
-constexpr double kUncertainRotation = 10 * M_PI / 180, kUncertainTranslation = 0.1;  // [rad], [m]
-
 /** Surfaces of a place that agree when it is recognised. By key points alone the motion is
  * centimetres off: less is asked than of an estimate, and twice what a wrong motion shows. What is
  * recalled is then aligned and judged like any reference. */
@@ -61,47 +24,6 @@ constexpr double kRecognised = 0.6;
 /** About half of the time between two frames at 30 Hz, by which the stamp of a depth image may be
  * off where a source gives both images one stamp [s]. */
 constexpr double kTimeSigma = 0.015;
-
-/** Surfaces that are compared: of the newest reference, and of older ones until there are as many.
- */
-constexpr int kEnoughSurfaces = 500;
-
-/** How many directions the measurements know better than the motion model does. */
-int observableDirections(const Matrix6d& information, const Matrix6d& priorCovariance)
-{
-    const Matrix6d L = priorCovariance.llt().matrixL();
-    const Eigen::SelfAdjointEigenSolver<Matrix6d> es(L.transpose() * information * L);
-    return static_cast<int>((es.eigenvalues().array() > 1).count());
-}
-
-/** Root mean square deviation from the predicted pose, in its standard deviations. */
-double surprise(const PoseEstimate& estimate, const PoseGaussian& predicted)
-{
-    const Vector6d e = leftError(estimate.motion.mean.T_prev_cur, predicted.mean);
-    return std::sqrt(e.dot(predicted.cov.ldlt().solve(e)) / 6);
-}
-
-double maxSigma(const Matrix6d& cov)
-{
-    const Eigen::SelfAdjointEigenSolver<Matrix6d> es(cov);
-    return std::sqrt(std::max(0.0, es.eigenvalues().maxCoeff()));
-}
-
-/** Of a predicted pose. */
-bool isUncertain(const Matrix6d& cov)
-{
-    const Vector6d variances = cov.diagonal();
-    return variances.head<3>().maxCoeff() > kUncertainTranslation * kUncertainTranslation ||
-           variances.tail<3>().maxCoeff() > kUncertainRotation * kUncertainRotation;
-}
-
-/** How much speaks for an alignment. */
-double evidence(const Alignment& alignment)
-{
-    const double surfaces = alignment.agreement.fraction() *
-                            std::min(1.0, 1.0 * alignment.agreement.seen() / kEnoughSurfaces);
-    return (alignment.holds ? 1 : 0) + surfaces + alignment.pointShare();
-}
 
 /** Points of a reference that are due and in view of a camera. */
 int numInView(
@@ -170,11 +92,6 @@ void tell(const Alignment& alignment, FrameDiagnostics& diagnostics)
 }
 }  // namespace
 
-double Alignment::pointShare() const
-{
-    return static_cast<double>(estimate.numPointInliers) / std::max(numSought, kHandful);
-}
-
 struct Aligner::Scene
 {
     const FrontEnd& frontEnd;
@@ -187,10 +104,10 @@ struct Aligner::Scene
 
 Aligner::Aligner(const OdometryParams& params)
     : params_(params.pipeline),
-      fuses_(params.pipeline.fuses()),
       searchesAhead_(params.pipeline.searchesAhead()),
       minOverlap_(params.reference.keyframeMinOverlap),
-      solver_(params.poseSolver)
+      solver_(params.poseSolver),
+      judge_(params.pipeline)
 {
 }
 
@@ -211,19 +128,24 @@ Alignment Aligner::align(
     const Motion start{expected, predicted.motion.mean.velocity};
     const bool verifies = params_.leastAgreement > 0;
     Alignment out = attempt(scene, start, Search::Close);
-    if (track.overlap(out.associations) < minOverlap_ || (verifies && !isConvincing(scene, out)))
+    if (track.overlap(out.associations) < minOverlap_ ||
+        (verifies && !Judge::isConvincing(out, errors.usual())))
     {
         Alignment wide = attempt(scene, start, Search::Wide);
-        if (!verifies || evidence(wide) > evidence(out))
+        if (!verifies || Judge::evidence(wide) > Judge::evidence(out))
         {
             out = std::move(wide);
         }
-        if (params_.searchImages && !isConvincing(scene, out))
+        if (params_.searchImages && !Judge::isConvincing(out, errors.usual()))
         {
             searchImages(scene, out);
         }
     }
-    contradict(scene, out);
+    if (Judge::restsOnChance(out))
+    {
+        leaveOutPoints(scene, out);
+    }
+    judge_.contradict(out, errors.usual());
     tell(out, diagnostics);
     diagnostics.msMatching = watch.ms() - diagnostics.msPose;
     return out;
@@ -247,9 +169,21 @@ Alignment Aligner::attempt(const Scene& scene, const Motion& start, Search searc
         out.associations = associate(scene, coarse.T_prev_cur, 1);
         estimate(scene, coarse, out);
     }
-    judge(out);
+    judge_.judge(out);
     verify(scene, out);
     return out;
+}
+
+/** So that planes alone, and the prediction, tell the motion. */
+void Aligner::leaveOutPoints(const Scene& scene, Alignment& alignment) const
+{
+    for (Association& association : alignment.associations)
+    {
+        association.points.clear();
+    }
+    estimate(scene, alignment.estimate.motion.mean, alignment);
+    judge_.judge(alignment);
+    verify(scene, alignment);
 }
 
 /** Motions that the images alone tell, until one is convincing. */
@@ -267,11 +201,11 @@ void Aligner::searchImages(const Scene& scene, Alignment& best) const
             T_prev_world * reference->T_world_cam * motion->T_cur_ref.inverse();
         Alignment other =
             attempt(scene, {T_prev_cur, scene.predicted.motion.mean.velocity}, Search::Wide);
-        if (evidence(other) > evidence(best))
+        if (Judge::evidence(other) > Judge::evidence(best))
         {
             best = std::move(other);
         }
-        if (isConvincing(scene, best))
+        if (Judge::isConvincing(best, scene.errors.usual()))
         {
             return;
         }
@@ -311,9 +245,6 @@ std::vector<Association> Aligner::associate(
     return out;
 }
 
-/** The paper counts points and planes; with a prediction to fuse with, any of them helps. */
-int Aligner::minMatches() const { return fuses_ ? 1 : kMinMatches; }
-
 /** From the associations; the prediction where there is too little to estimate from. */
 void Aligner::estimate(const Scene& scene, const Motion& start, Alignment& alignment) const
 {
@@ -325,58 +256,24 @@ void Aligner::estimate(const Scene& scene, const Motion& start, Alignment& align
     problem.noise = scene.errors.noise();
     PoseEstimate out;
     out.motion = scene.predicted.motion;
-    if (static_cast<int>(alignment.numMatches()) >= minMatches())
+    if (static_cast<int>(alignment.numMatches()) >= judge_.minMatches())
     {
         out = solver_.solve(problem, start);
     }
     out.iterations += alignment.estimate.iterations;
     alignment.estimate = out;
+    if (params_.fuses() && Judge::isUncertain(scene.predicted.pose))
+    {
+        alignment.pointSupport = solver_.pointSupport(problem, out);
+    }
     alignment.msPose += watch.ms();
-}
-
-/** Is the estimate to be believed? */
-void Aligner::judge(Alignment& alignment) const
-{
-    const PoseEstimate& estimate = alignment.estimate;
-    const PoseGaussian& predicted = alignment.predicted.pose;
-    alignment.observableDirections =
-        observableDirections(estimate.infoPoints + estimate.infoPlanes, predicted.cov);
-    const auto matches = static_cast<int>(alignment.numMatches());
-    const double sigma = maxSigma(estimate.pose().cov);
-    std::ostringstream reason;
-    if (matches < minMatches())
-    {
-        reason << "too few points and planes are found again: " << matches;
-    }
-    else if (!fuses_)
-    {
-        // [P17, section Pose estimation]: the largest eigenvalue, and nothing else.
-        alignment.holds = sigma <= params_.gateSigma;
-        if (!alignment.holds)
-        {
-            reason << "the pose is too uncertain: its largest standard deviation " << sigma
-                   << " is above gateSigma";
-        }
-    }
-    else if (alignment.observableDirections == 0)
-    {
-        reason << "points and planes tell no direction better than the prediction does";
-    }
-    else
-    {
-        alignment.holds = true;
-        if (alignment.observableDirections < 6)
-        {
-            reason << "only " << alignment.observableDirections
-                   << " of 6 directions are measured, the others are predicted";
-        }
-    }
-    alignment.reason = reason.str();
 }
 
 /** Asks the depth image, and counts the points that should be in view. */
 void Aligner::verify(const Scene& scene, Alignment& alignment)
 {
+    alignment.numSought = 0;
+    alignment.agreement = {};
     const Motion& motion = alignment.estimate.motion.mean;
     const Eigen::Isometry3d T_cur_world =
         motion.T_prev_cur.inverse() * scene.track.previous().T_world_cam.inverse();
@@ -384,7 +281,7 @@ void Aligner::verify(const Scene& scene, Alignment& alignment)
     {
         alignment.numSought +=
             numInView(*reference, scene.current.frame, T_cur_world * reference->T_world_cam);
-        if (alignment.agreement.seen() < kEnoughSurfaces)
+        if (alignment.agreement.seen() < Judge::kEnoughSurfaces)
         {
             const DepthMotion depth = depthMotion(
                 scene.track, *reference, scene.current.frame, motion, scene.errors.shutter());
@@ -416,51 +313,5 @@ MovingRegions Aligner::findMoving(
         }
     }
     return frontEnd.findMoving(current, earlier);
-}
-
-bool Aligner::isConvincing(const Scene& scene, const Alignment& a) const
-{
-    const NoiseFactors usual = scene.errors.usual();
-    const int worth = a.estimate.numPointInliers + 3 * static_cast<int>(a.problem.planes.size());
-    return a.holds && worth >= kFewPoints && a.agreement.fraction() > kConvincingSurfaces &&
-           a.agreement.fraction() + a.pointShare() > kConvincingTogether &&
-           a.estimate.pointChi2PerDof < kConvincingRise * usual.points &&
-           a.estimate.planeChi2PerDof < kConvincingRise * usual.planes;
-}
-
-/** The last word: surfaces that should be in view and are not; matches that might be any. */
-void Aligner::contradict(const Scene& scene, Alignment& alignment) const
-{
-    if (!alignment.holds || !fuses_)
-    {
-        return;
-    }
-    std::ostringstream reason;
-    const double agreement = alignment.agreement.fraction();
-    const double farOff = surprise(alignment.estimate, scene.predicted.pose);
-    if (alignment.agreement.seen() > 0 && agreement < params_.leastAgreement)
-    {
-        reason << "the depth image shows only " << std::lround(100 * agreement)
-               << " % of the surfaces where the motion of " << alignment.numMatches()
-               << " points and planes puts them";
-    }
-    else if (farOff > kMostSurprise && !isConvincing(scene, alignment))
-    {
-        reason << "the motion is " << std::lround(farOff)
-               << " standard deviations from the predicted one, and too little confirms it";
-    }
-    else if (
-        isUncertain(scene.predicted.pose.cov) && alignment.numSought >= kHandful &&
-        alignment.estimate.numPointInliers < kFewPoints && agreement <= kConvincingTogether)
-    {
-        reason << "only " << alignment.estimate.numPointInliers << " of " << alignment.numSought
-               << " points in view agree with the motion of " << alignment.problem.planes.size()
-               << " planes, " << scene.predicted.dt << " s after the previous measured frame";
-    }
-    if (!reason.str().empty())
-    {
-        alignment.reason = reason.str();
-        alignment.holds = false;
-    }
 }
 }  // namespace pointplane

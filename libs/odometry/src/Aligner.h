@@ -5,43 +5,19 @@
 #include <pointplane/odometry/MovingRegions.h>
 #include <pointplane/odometry/OdometryParams.h>
 #include <pointplane/odometry/OdometryResult.h>
-#include <pointplane/odometry/PairBuilder.h>
-#include <pointplane/odometry/Verdict.h>
 #include <pointplane/pose/PoseSolver.h>
 
 #include <optional>
-#include <string>
 #include <vector>
 
+#include "Alignment.h"
 #include "FrontEnd.h"
+#include "Judge.h"
 #include "Track.h"
 #include "uncertainty/ErrorModel.h"
 
 namespace pointplane
 {
-/** A frame compared with its references: matches, motion, and whether it is to be believed. */
-struct Alignment
-{
-    Prediction predicted;
-    std::vector<Association> associations;
-    PoseProblem problem;  //!< the pairs that they make
-    PoseEstimate estimate;
-    int observableDirections{0};  //!< of 6, measured better than predicted
-    Agreement agreement;          //!< of the surfaces seen before with this frame's depth image
-    int numSought{0};             //!< points of the references that should be in view
-    bool holds{false};            //!< the estimate is to be believed
-    double msPose{0};             //!< time that solving took [ms]
-    std::string reason;           //!< why it does not hold, or how much of it is predicted
-
-    [[nodiscard]] size_t numMatches() const
-    {
-        return problem.points.size() + problem.planes.size();
-    }
-
-    /** Fraction of the points in view that agrees with the estimate; smaller if there are few. */
-    [[nodiscard]] double pointShare() const;
-};
-
 /** Matches a frame, estimates its pose and judges the estimate [P17, section Pose estimation].
  * Points and planes are searched for where the predicted motion puts them. If that fails, they are
  * searched for farther away, then where a motion puts them that the images alone tell. The depth
@@ -86,19 +62,17 @@ class Aligner
     };
 
     [[nodiscard]] Alignment attempt(const Scene& scene, const Motion& start, Search search) const;
+    void leaveOutPoints(const Scene& scene, Alignment& alignment) const;
     void searchImages(const Scene& scene, Alignment& best) const;
     [[nodiscard]] static std::vector<Association> associate(
         const Scene& scene, const Eigen::Isometry3d& T_prev_cur, double radiusFactor);
     void estimate(const Scene& scene, const Motion& start, Alignment& alignment) const;
-    void judge(Alignment& alignment) const;
     static void verify(const Scene& scene, Alignment& alignment);
-    [[nodiscard]] bool isConvincing(const Scene& scene, const Alignment& alignment) const;
-    void contradict(const Scene& scene, Alignment& alignment) const;
-    [[nodiscard]] int minMatches() const;
 
     PipelineParams params_;
-    bool fuses_, searchesAhead_;
+    bool searchesAhead_;
     double minOverlap_;
     PoseSolver solver_;
+    Judge judge_;
 };
 }  // namespace pointplane

@@ -221,6 +221,14 @@ PoseEstimate PoseSolver::solve(const PoseProblem& problem, const Motion& start) 
     return out;
 }
 
+double PoseSolver::pointSupport(const PoseProblem& problem, const PoseEstimate& solution) const
+{
+    const RobustPrior prior{problem.prior, settings_.params.priorStudentDof};
+    NormalEquations equations(settings_, problem);
+    const Linearised at(equations, prior, solution.motion.mean);
+    return SolutionAnalysis(equations, problem, at.H, at.H_inverse).pointSupport();
+}
+
 PoseAnalysis PoseSolver::analyse(const PoseProblem& problem, const PoseEstimate& solution) const
 {
     const RobustPrior prior{problem.prior, settings_.params.priorStudentDof};

@@ -4,9 +4,11 @@
 #include <pointplane/core/covariance.h>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace pointplane
@@ -129,6 +131,44 @@ Disagreement SolutionAnalysis::disagreementOf(const Groups& groups, const Matrix
         out.expected += known.solve(Matrix6d(covOfGradient.topLeftCorner<6, 6>())).trace();
     }
     return out;
+}
+
+double SolutionAnalysis::pointSupport() const
+{
+    const Matrix6d byPoints = equations_.points().H.topLeftCorner<6, 6>();
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6d> shares(
+        byPoints, Matrix6d(H_.topLeftCorner<6, 6>()));
+    double out = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < 6; ++k)
+    {
+        if (shares.eigenvalues()[k] > 0.5)
+        {
+            Vector12d direction = Vector12d::Zero();
+            direction.head<6>() = shares.eigenvectors().col(k);
+            out = std::min(out, effectivePoints(direction));
+        }
+    }
+    return out;
+}
+
+/** Points that know a direction, each by what it knows: (sum h)^2 / sum h^2 (Kish 1965). */
+double SolutionAnalysis::effectivePoints(const Vector12d& direction) const
+{
+    const auto order = sortedByFeature(problem_.points);
+    double sum = 0, sumOfSquares = 0;
+    for (auto it = order.begin(); it != order.end();)
+    {
+        const int feature = it->first;
+        double h = 0;
+        for (; it != order.end() && it->first == feature; ++it)
+        {
+            h += direction.dot(
+                equations_.influence(it->second) * equations_.jacobian(it->second) * direction);
+        }
+        sum += h;
+        sumOfSquares += h * h;
+    }
+    return sumOfSquares > 0 ? sum * sum / sumOfSquares : 0;
 }
 
 std::vector<FeatureResidual> SolutionAnalysis::pointResiduals(const Sensitivity& of) const

@@ -33,6 +33,9 @@ class SolutionAnalysis
     [[nodiscard]] Disagreement pointDisagreement(const Matrix12d& cov) const;
     [[nodiscard]] Disagreement planeDisagreement(const Matrix12d& cov) const;
 
+    /** See PoseSolver. */
+    [[nodiscard]] double pointSupport() const;
+
     /** Residuals with what noise of the current frame does to them. */
     [[nodiscard]] std::vector<FeatureResidual> pointResiduals(const Sensitivity& of) const;
     [[nodiscard]] std::vector<FeatureResidual> planeResiduals(const Sensitivity& of) const;
@@ -48,6 +51,7 @@ class SolutionAnalysis
     template <class Pairs>
     [[nodiscard]] std::vector<FeatureResidual> residuals(
         const Pairs& pairs, size_t offset, const Sensitivity& of) const;
+    [[nodiscard]] double effectivePoints(const Vector12d& direction) const;
     [[nodiscard]] Disagreement disagreementOf(const Groups& groups, const Matrix12d& cov) const;
 
     const NormalEquations& equations_;

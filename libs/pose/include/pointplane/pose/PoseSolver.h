@@ -131,6 +131,13 @@ class PoseSolver
     [[nodiscard]] PoseAnalysis analyse(
         const PoseProblem& problem, const PoseEstimate& solution) const;
 
+    /** By how many points the solution stands where nothing else holds it: of the directions of
+     * the pose that the points know better than planes and prior together do, the effective number
+     * of points in the one with the fewest. Few that agree may do so by chance.
+     * \return infinity if there is no such direction */
+    [[nodiscard]] double pointSupport(
+        const PoseProblem& problem, const PoseEstimate& solution) const;
+
     /** Parameters with their words as enumerators. */
     struct Settings
     {

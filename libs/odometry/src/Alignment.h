@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pointplane/odometry/PairBuilder.h>
+#include <pointplane/odometry/Verdict.h>
+#include <pointplane/pose/PoseSolver.h>
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "Track.h"
+
+namespace pointplane
+{
+/** A frame compared with its references: matches, motion, and whether it is to be believed. */
+struct Alignment
+{
+    Prediction predicted;
+    std::vector<Association> associations;
+    PoseProblem problem;  //!< the pairs that they make
+    PoseEstimate estimate;
+    int observableDirections{0};  //!< of 6, measured better than predicted
+    Agreement agreement;          //!< of the surfaces seen before with this frame's depth image
+    int numSought{0};             //!< points of the references that should be in view
+    /** PoseSolver::pointSupport() where the prediction is uncertain. */
+    double pointSupport{std::numeric_limits<double>::infinity()};
+    bool holds{false};   //!< the estimate is to be believed
+    double msPose{0};    //!< time that solving took [ms]
+    std::string reason;  //!< why it does not hold, or how much of it is predicted
+
+    [[nodiscard]] size_t numMatches() const
+    {
+        return problem.points.size() + problem.planes.size();
+    }
+};
+}  // namespace pointplane

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Judge.h"
+
+#include <pointplane/core/se3.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace pointplane
+{
+namespace
+{
+/** Fewer matches than this in total cannot fix a pose [P17, section Pose estimation]. */
+constexpr int kMinMatches = 3;
+
+/** Fewer points than this may agree by chance; a plane is worth three. */
+constexpr int kFewPoints = 8;
+
+/** Points that should be in view: of fewer, a share says little. */
+constexpr int kHandful = 20;
+
+/** Where the prediction does not tell which point is which, the share of those in view by which
+ * they confirm a motion: half of them do not agree on a wrong one. */
+constexpr double kConfirmingPoints = 0.5;
+
+/** Standard deviations from the predicted motion beyond which an estimate has to be convincing by
+ * itself. Cameras in hands stay below three, at any frame rate: the prediction knows how little it
+ * knows. Of estimates beyond five, hardly one is right (docs/theory.md, "Verdict"). */
+constexpr double kMostSurprise = 5;
+
+/** Of the surfaces in view, nine tenths agree with a right motion and a third with one that is
+ * wrong by 5 cm or 5 deg (docs/theory.md, "Verdict"): so much is between. */
+constexpr double kConvincingSurfaces = 0.75;
+
+/** Where points do not confirm it, so much must agree of the surfaces: nine tenths do with a right
+ * motion. */
+constexpr double kConfirmingSurfaces = 0.9;
+
+/** Residuals up to twice as large as in the frames before, squared: a wrong motion disagrees more.
+ */
+constexpr double kConvincingRise = 4;
+
+/** A prediction that is less certain than this says nothing of which plane is which: other planes
+ * are as near, and as parallel (PlaneMatcher). */
+constexpr double kUncertainRotation = 10 * M_PI / 180, kUncertainTranslation = 0.1;  // [rad], [m]
+
+/** How many directions the measurements know better than the motion model does. */
+int observableDirections(const Matrix6d& information, const Matrix6d& priorCovariance)
+{
+    const Matrix6d L = priorCovariance.llt().matrixL();
+    const Eigen::SelfAdjointEigenSolver<Matrix6d> es(L.transpose() * information * L);
+    return static_cast<int>((es.eigenvalues().array() > 1).count());
+}
+
+/** Root mean square deviation from the predicted pose, in its standard deviations. */
+double surprise(const PoseEstimate& estimate, const PoseGaussian& predicted)
+{
+    const Vector6d e = leftError(estimate.motion.mean.T_prev_cur, predicted.mean);
+    return std::sqrt(e.dot(predicted.cov.ldlt().solve(e)) / 6);
+}
+
+double maxSigma(const Matrix6d& cov)
+{
+    const Eigen::SelfAdjointEigenSolver<Matrix6d> es(cov);
+    return std::sqrt(std::max(0.0, es.eigenvalues().maxCoeff()));
+}
+
+/** Fraction of the points in view that agrees with the estimate; smaller if there are few. */
+double pointShare(const Alignment& a)
+{
+    return static_cast<double>(a.estimate.numPointInliers) / std::max(a.numSought, kHandful);
+}
+/** Whether the prediction or most points in view tell that a motion is right. */
+bool isConfirmed(const Alignment& a)
+{
+    return !Judge::isUncertain(a.predicted.pose) || pointShare(a) > kConfirmingPoints;
+}
+
+/** Whether it rests on planes that may be others: points in view should agree, and do not. */
+bool isOfDoubtfulPlanes(const Alignment& a)
+{
+    return !isConfirmed(a) && a.numSought >= kHandful && a.estimate.numPointInliers < kFewPoints &&
+           a.agreement.fraction() <= kConfirmingSurfaces;
+}
+}  // namespace
+
+Judge::Judge(const PipelineParams& params) : params_(params), fuses_(params.fuses()) {}
+
+/** The paper counts points and planes; with a prediction to fuse with, any of them helps. */
+int Judge::minMatches() const { return fuses_ ? 1 : kMinMatches; }
+
+bool Judge::isUncertain(const PoseGaussian& predicted)
+{
+    const Vector6d variances = predicted.cov.diagonal();
+    return variances.head<3>().maxCoeff() > kUncertainTranslation * kUncertainTranslation ||
+           variances.tail<3>().maxCoeff() > kUncertainRotation * kUncertainRotation;
+}
+
+bool Judge::restsOnChance(const Alignment& a)
+{
+    return !isConfirmed(a) && a.pointSupport < kFewPoints;
+}
+
+double Judge::evidence(const Alignment& alignment)
+{
+    const double surfaces = alignment.agreement.fraction() *
+                            std::min(1.0, 1.0 * alignment.agreement.seen() / kEnoughSurfaces);
+    return (alignment.holds ? 1 : 0) + surfaces + pointShare(alignment);
+}
+
+bool Judge::isConvincing(const Alignment& a, const NoiseFactors& usual)
+{
+    const int worth = a.estimate.numPointInliers + 3 * static_cast<int>(a.problem.planes.size());
+    return a.holds && worth >= kFewPoints && (isConfirmed(a) || a.numSought < kHandful) &&
+           a.agreement.fraction() > kConvincingSurfaces &&
+           a.estimate.pointChi2PerDof < kConvincingRise * usual.points &&
+           a.estimate.planeChi2PerDof < kConvincingRise * usual.planes;
+}
+
+void Judge::judge(Alignment& alignment) const
+{
+    const PoseEstimate& estimate = alignment.estimate;
+    const PoseGaussian& predicted = alignment.predicted.pose;
+    alignment.observableDirections =
+        observableDirections(estimate.infoPoints + estimate.infoPlanes, predicted.cov);
+    const auto matches = static_cast<int>(alignment.numMatches());
+    const double sigma = maxSigma(estimate.pose().cov);
+    alignment.holds = false;
+    std::ostringstream reason;
+    if (matches < minMatches())
+    {
+        reason << "too few points and planes are found again: " << matches;
+    }
+    else if (!fuses_)
+    {
+        // [P17, section Pose estimation]: the largest eigenvalue, and nothing else.
+        alignment.holds = sigma <= params_.gateSigma;
+        if (!alignment.holds)
+        {
+            reason << "the pose is too uncertain: its largest standard deviation " << sigma
+                   << " is above gateSigma";
+        }
+    }
+    else if (alignment.observableDirections == 0)
+    {
+        reason << "points and planes tell no direction better than the prediction does";
+    }
+    else
+    {
+        alignment.holds = true;
+        if (alignment.observableDirections < 6)
+        {
+            reason << "only " << alignment.observableDirections
+                   << " of 6 directions are measured, the others are predicted";
+        }
+    }
+    alignment.reason = reason.str();
+}
+
+void Judge::contradict(Alignment& alignment, const NoiseFactors& usual) const
+{
+    if (!alignment.holds || !fuses_)
+    {
+        return;
+    }
+    std::ostringstream reason;
+    const double agreement = alignment.agreement.fraction();
+    const double farOff = surprise(alignment.estimate, alignment.predicted.pose);
+    if (alignment.agreement.seen() > 0 && agreement < params_.leastAgreement)
+    {
+        reason << "the depth image shows only " << std::lround(100 * agreement)
+               << " % of the surfaces where the motion of " << alignment.numMatches()
+               << " points and planes puts them";
+    }
+    else if (farOff > kMostSurprise && !isConvincing(alignment, usual))
+    {
+        reason << "the motion is " << std::lround(farOff)
+               << " standard deviations from the predicted one, and too little confirms it";
+    }
+    else if (isOfDoubtfulPlanes(alignment))
+    {
+        reason << "only " << alignment.estimate.numPointInliers << " of " << alignment.numSought
+               << " points in view agree with the motion, " << alignment.predicted.dt
+               << " s after the previous measured frame";
+    }
+    if (!reason.str().empty())
+    {
+        alignment.reason = reason.str();
+        alignment.holds = false;
+    }
+}
+}  // namespace pointplane

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pointplane/odometry/OdometryParams.h>
+#include <pointplane/pose/PoseSolver.h>
+
+#include "Alignment.h"
+
+namespace pointplane
+{
+/** Is an alignment to be believed (docs/theory.md, section Verdict)? */
+class Judge
+{
+ public:
+    explicit Judge(const PipelineParams& params);
+
+    /** Fewest matches to estimate a motion from. */
+    [[nodiscard]] int minMatches() const;
+
+    /** By what the estimate says of itself: sets `holds`, `observableDirections`, `reason`. */
+    void judge(Alignment& alignment) const;
+
+    /** The last word: surfaces that should be in view and are not; matches that might be any.
+     * \param usual variance of the residuals so far, over the propagated one */
+    void contradict(Alignment& alignment, const NoiseFactors& usual) const;
+
+    /** How much speaks for an alignment, to compare it with others of the same frame. */
+    [[nodiscard]] static double evidence(const Alignment& alignment);
+
+    /** Whether it needs no comparison with others, and is believed even far from the prediction. */
+    [[nodiscard]] static bool isConvincing(const Alignment& alignment, const NoiseFactors& usual);
+
+    /** Whether points that may agree by chance decide a direction. */
+    [[nodiscard]] static bool restsOnChance(const Alignment& alignment);
+
+    /** Whether a predicted pose says nothing of which feature is which. */
+    [[nodiscard]] static bool isUncertain(const PoseGaussian& predicted);
+
+    /** So many surfaces are enough to compare. */
+    static constexpr int kEnoughSurfaces = 500;
+
+ private:
+    PipelineParams params_;
+    bool fuses_;
+};
+}  // namespace pointplane

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Judge.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace pointplane
+{
+namespace
+{
+/** A good one: 300 points in view, all of which agree with the motion, as do all surfaces. */
+Alignment makeAlignment(double sigmaOfPrediction)
+{
+    Alignment out;
+    out.predicted.dt = 0.5;
+    out.predicted.pose.cov = sigmaOfPrediction * sigmaOfPrediction * Matrix6d::Identity();
+    out.estimate.infoPoints = 1e6 * Matrix6d::Identity();
+    out.problem.points.resize(300);
+    out.numSought = 300;
+    out.estimate.numPointInliers = 300;
+    out.estimate.pointChi2PerDof = 1;
+    out.agreement.agrees = 1000;
+    return out;
+}
+
+constexpr double kCertain = 0.01, kUncertain = 1;  // [m, rad]
+const NoiseFactors kUsual{1, 1};
+
+TEST(Judge, believesWhatPointsAndSurfacesConfirm)
+{
+    const Judge judge{PipelineParams{}};
+    for (const double sigma : {kCertain, kUncertain})
+    {
+        Alignment a = makeAlignment(sigma);
+        judge.judge(a);
+        judge.contradict(a, kUsual);
+        EXPECT_TRUE(a.holds) << a.reason;
+        EXPECT_TRUE(Judge::isConvincing(a, kUsual));
+        EXPECT_FALSE(Judge::restsOnChance(a));
+        EXPECT_EQ(a.reason, "");
+    }
+}
+
+/** Surfaces agree with any motion along a wall. */
+TEST(Judge, surfacesAloneDoNotConvinceWhereThePredictionSaysNothing)
+{
+    for (const double sigma : {kCertain, kUncertain})
+    {
+        Alignment a = makeAlignment(sigma);
+        a.estimate.numPointInliers = 100;
+        Judge(PipelineParams{}).judge(a);
+        EXPECT_EQ(Judge::isConvincing(a, kUsual), sigma == kCertain);
+    }
+}
+
+TEST(Judge, fewPointsMayAgreeByChance)
+{
+    const auto restsOnChance = [](double sigma, int inliers, double support)
+    {
+        Alignment a = makeAlignment(sigma);
+        a.estimate.numPointInliers = inliers;
+        a.pointSupport = support;
+        return Judge::restsOnChance(a);
+    };
+    EXPECT_TRUE(restsOnChance(kUncertain, 100, 5));
+    EXPECT_FALSE(restsOnChance(kUncertain, 100, 9)) << "so many do not agree by chance";
+    EXPECT_FALSE(restsOnChance(kUncertain, 200, 5)) << "most points in view agree";
+    EXPECT_FALSE(restsOnChance(kCertain, 100, 5)) << "they were searched for where they are";
+}
+
+TEST(Judge, planesAreDoubtedWherePointsShouldAgree)
+{
+    const auto judged = [](double sigma, int inView, int surfaces)
+    {
+        Alignment a = makeAlignment(sigma);
+        a.problem.points.clear();
+        a.problem.planes.resize(5);
+        a.estimate.numPointInliers = 0;
+        a.numSought = inView;
+        a.agreement = {surfaces, 0, 1000 - surfaces};
+        const Judge judge{PipelineParams{}};
+        judge.judge(a);
+        judge.contradict(a, kUsual);
+        return a;
+    };
+    const Alignment doubted = judged(kUncertain, 300, 800);
+    EXPECT_FALSE(doubted.holds);
+    EXPECT_THAT(doubted.reason, testing::HasSubstr("0 of 300 points in view"));
+    EXPECT_THAT(doubted.reason, testing::HasSubstr("0.5 s after"));
+    EXPECT_TRUE(judged(kUncertain, 300, 950).holds);
+    EXPECT_TRUE(judged(kUncertain, 0, 800).holds) << "no points to ask";
+    EXPECT_TRUE(judged(kCertain, 300, 800).holds);
+}
+
+TEST(Judge, surfacesThatAreNotWhereTheyShouldBeContradict)
+{
+    Alignment a = makeAlignment(kCertain);
+    a.agreement = {400, 0, 600};
+    const Judge judge{PipelineParams{}};
+    judge.judge(a);
+    EXPECT_TRUE(a.holds);
+    judge.contradict(a, kUsual);
+    EXPECT_FALSE(a.holds);
+    EXPECT_THAT(a.reason, testing::HasSubstr("only 40 %"));
+}
+
+TEST(Judge, farFromThePredictionOnlyWhatConvincesIsBelieved)
+{
+    for (const double rise : {1.0, 10.0})
+    {
+        Alignment a = makeAlignment(kCertain);
+        a.estimate.motion.mean.T_prev_cur.translation().x() = 1;
+        a.estimate.pointChi2PerDof = rise;
+        const Judge judge{PipelineParams{}};
+        judge.judge(a);
+        judge.contradict(a, kUsual);
+        EXPECT_EQ(a.holds, rise == 1.0) << a.reason;
+    }
+}
+
+TEST(Judge, moreEvidenceIsMoreSurfacesAndMorePoints)
+{
+    const Alignment good = makeAlignment(kCertain);
+    Alignment fewer = good;
+    fewer.estimate.numPointInliers = 100;
+    EXPECT_LT(Judge::evidence(fewer), Judge::evidence(good));
+    Alignment less = good;
+    less.agreement = {700, 100, 200};
+    EXPECT_LT(Judge::evidence(less), Judge::evidence(good));
+    Alignment held = less;
+    held.holds = true;
+    EXPECT_GT(Judge::evidence(held), Judge::evidence(good));
+}
+}  // namespace
+}  // namespace pointplane
