@@ -131,6 +131,10 @@ void addGaps(std::size_t numFrames, const ConditionOptions& options, std::vector
             out.push_back(withGap(name, numFrames, length, options, fill));
         }
     }
+    for (const int length : options.foreign)
+    {
+        out.push_back(withGap("foreign", numFrames, length, options, changed(mirrored)));
+    }
     const GapFiller frozen = [](std::size_t begin, std::size_t k, EnvelopeRun& run) {
         run.push_back({k, begin - 1, {}});
     };

@@ -32,15 +32,16 @@ struct ConditionOptions
     std::vector<double> rates{30, 15, 10, 6, 3, 2, 1};  //!< [Hz]
     std::vector<int> gaps{3, 6, 10, 15, 25, 50};        //!< [frames]
     std::vector<int> frozen{3, 15};                     //!< [frames]
+    std::vector<int> foreign{1};                        //!< [frames]
     int places{10};                                     //!< of each gap, at most
     int phases{30};                                     //!< of each rate: starting frames, at most
     int before{20};                                     //!< frames that lead up to a gap
     int after{15};                                      //!< frames after it
 };
 
-/** All that a recording can go through: other rates, gaps, images that are missing, black or
- * frozen, fewer pixels, less range. What it is too short or too slow for is left out.
- * \param numFrames of the recording \param rate its own [Hz] */
+/** All that a recording can go through: other rates, gaps, images that are missing, black,
+ * frozen or of another place, fewer pixels, less range. What it is too short or too slow for is
+ * left out. \param numFrames of the recording \param rate its own [Hz] */
 [[nodiscard]] std::vector<Condition> envelopeConditions(
     std::size_t numFrames, double rate, const ConditionOptions& options);
 }  // namespace pointplane

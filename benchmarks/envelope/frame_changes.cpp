@@ -68,6 +68,18 @@ RgbdFrame withoutImages(const RgbdFrame& frame)
     return out;
 }
 
+RgbdFrame mirrored(const RgbdFrame& frame)
+{
+    constexpr int kLeftToRight = 1;
+    RgbdFrame out = frame;
+    // flip() would write into the given frame's images.
+    out.gray = cv::Mat();
+    out.depth = cv::Mat();
+    cv::flip(frame.gray, out.gray, kLeftToRight);
+    cv::flip(frame.depth, out.depth, kLeftToRight);
+    return out;
+}
+
 RgbdFrame withDepthUpTo(const RgbdFrame& frame, float range)
 {
     RgbdFrame out = frame;

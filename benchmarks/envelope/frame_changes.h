@@ -16,6 +16,9 @@ namespace pointplane
 /** Both images are empty. */
 [[nodiscard]] RgbdFrame withoutImages(const RgbdFrame& frame);
 
+/** What the camera would see in a mirror: an image of another place, as when recordings mix. */
+[[nodiscard]] RgbdFrame mirrored(const RgbdFrame& frame);
+
 /** No depth beyond a range. \param range [m] along the optical axis */
 [[nodiscard]] RgbdFrame withDepthUpTo(const RgbdFrame& frame, float range);
 

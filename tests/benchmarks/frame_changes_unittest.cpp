@@ -39,6 +39,15 @@ RgbdFrame slantedPlane()
 int numReadings(const cv::Mat& depth) { return cv::countNonZero(depth == depth); }
 }  // namespace
 
+TEST(FrameChanges, AMirrorSwapsLeftAndRight)
+{
+    const RgbdFrame frame = slantedPlane();
+    const RgbdFrame seen = mirrored(frame);
+    EXPECT_EQ(seen.gray.at<uchar>(7, 0), frame.gray.at<uchar>(7, 639));
+    EXPECT_EQ(seen.depth.at<float>(7, 600), frame.depth.at<float>(7, 39));
+    EXPECT_EQ(frame.gray.at<uchar>(7, 0), 0) << "the given frame is as it was";
+}
+
 TEST(FrameChanges, TakeAwayWhatTheySayAndLeaveTheirInputAlone)
 {
     const RgbdFrame frame = slantedPlane();

@@ -143,7 +143,7 @@ Alignment Aligner::align(
     }
     if (Judge::restsOnChance(out))
     {
-        leaveOutPoints(scene, out);
+        distrustPoints(scene, out);
     }
     judge_.contradict(out, errors.usual());
     tell(out, diagnostics);
@@ -174,14 +174,18 @@ Alignment Aligner::attempt(const Scene& scene, const Motion& start, Search searc
     return out;
 }
 
-/** So that planes alone, and the prediction, tell the motion. */
-void Aligner::leaveOutPoints(const Scene& scene, Alignment& alignment) const
+/** The motion stays; its covariance is what planes and prediction tell without the points. */
+void Aligner::distrustPoints(const Scene& scene, Alignment& alignment) const
 {
+    PoseEstimate estimated = alignment.estimate;
     for (Association& association : alignment.associations)
     {
         association.points.clear();
     }
-    estimate(scene, alignment.estimate.motion.mean, alignment);
+    estimate(scene, estimated.motion.mean, alignment);
+    estimated.motion.cov = alignment.estimate.motion.cov;
+    estimated.infoPoints.setZero();
+    alignment.estimate = estimated;
     judge_.judge(alignment);
     verify(scene, alignment);
 }

@@ -62,7 +62,7 @@ class Aligner
     };
 
     [[nodiscard]] Alignment attempt(const Scene& scene, const Motion& start, Search search) const;
-    void leaveOutPoints(const Scene& scene, Alignment& alignment) const;
+    void distrustPoints(const Scene& scene, Alignment& alignment) const;
     void searchImages(const Scene& scene, Alignment& best) const;
     [[nodiscard]] static std::vector<Association> associate(
         const Scene& scene, const Eigen::Isometry3d& T_prev_cur, double radiusFactor);
