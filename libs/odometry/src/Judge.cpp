@@ -74,6 +74,7 @@ double pointShare(const Alignment& a)
 {
     return static_cast<double>(a.estimate.numPointInliers) / std::max(a.numSought, kHandful);
 }
+
 /** Whether the prediction or most points in view tell that a motion is right. */
 bool isConfirmed(const Alignment& a)
 {
