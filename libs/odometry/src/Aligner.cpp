@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include "Stopwatch.h"
@@ -141,11 +142,11 @@ Alignment Aligner::align(
             searchImages(scene, out);
         }
     }
-    if (Judge::restsOnChance(out))
+    judge_.contradict(out, errors.usual());
+    if (out.holds && Judge::restsOnChance(out))
     {
         distrustPoints(scene, out);
     }
-    judge_.contradict(out, errors.usual());
     tell(out, diagnostics);
     diagnostics.msMatching = watch.ms() - diagnostics.msPose;
     return out;
@@ -169,6 +170,10 @@ Alignment Aligner::attempt(const Scene& scene, const Motion& start, Search searc
         out.associations = associate(scene, coarse.T_prev_cur, 1);
         estimate(scene, coarse, out);
     }
+    if (params_.fuses() && Judge::isUncertain(scene.predicted.pose))
+    {
+        out.pointSupport = solver_.pointSupport(out.problem, out.estimate);
+    }
     judge_.judge(out);
     verify(scene, out);
     return out;
@@ -177,17 +182,19 @@ Alignment Aligner::attempt(const Scene& scene, const Motion& start, Search searc
 /** The motion stays; its covariance is what planes and prediction tell without the points. */
 void Aligner::distrustPoints(const Scene& scene, Alignment& alignment) const
 {
-    PoseEstimate estimated = alignment.estimate;
+    const Motion motion = alignment.estimate.motion.mean;
+    const std::string fewAgree = Judge::fewPointsAgree(alignment);
     for (Association& association : alignment.associations)
     {
         association.points.clear();
     }
-    estimate(scene, estimated.motion.mean, alignment);
-    estimated.motion.cov = alignment.estimate.motion.cov;
-    estimated.infoPoints.setZero();
-    alignment.estimate = estimated;
+    estimate(scene, motion, alignment);
+    alignment.estimate.motion.mean = motion;
     judge_.judge(alignment);
-    verify(scene, alignment);
+    if (!alignment.holds)
+    {
+        alignment.reason = fewAgree;
+    }
 }
 
 /** Motions that the images alone tell, until one is convincing. */
@@ -266,18 +273,12 @@ void Aligner::estimate(const Scene& scene, const Motion& start, Alignment& align
     }
     out.iterations += alignment.estimate.iterations;
     alignment.estimate = out;
-    if (params_.fuses() && Judge::isUncertain(scene.predicted.pose))
-    {
-        alignment.pointSupport = solver_.pointSupport(problem, out);
-    }
     alignment.msPose += watch.ms();
 }
 
 /** Asks the depth image, and counts the points that should be in view. */
 void Aligner::verify(const Scene& scene, Alignment& alignment)
 {
-    alignment.numSought = 0;
-    alignment.agreement = {};
     const Motion& motion = alignment.estimate.motion.mean;
     const Eigen::Isometry3d T_cur_world =
         motion.T_prev_cur.inverse() * scene.track.previous().T_world_cam.inverse();

@@ -106,6 +106,15 @@ bool Judge::restsOnChance(const Alignment& a)
     return !isConfirmed(a) && a.pointSupport < kFewPoints;
 }
 
+std::string Judge::fewPointsAgree(const Alignment& alignment)
+{
+    std::ostringstream out;
+    out << "only " << alignment.estimate.numPointInliers << " of " << alignment.numSought
+        << " points in view agree with the motion, " << alignment.predicted.dt
+        << " s after the previous measured frame";
+    return out.str();
+}
+
 double Judge::evidence(const Alignment& alignment)
 {
     const double surfaces = alignment.agreement.fraction() *
@@ -184,9 +193,7 @@ void Judge::contradict(Alignment& alignment, const NoiseFactors& usual) const
     }
     else if (isOfDoubtfulPlanes(alignment))
     {
-        reason << "only " << alignment.estimate.numPointInliers << " of " << alignment.numSought
-               << " points in view agree with the motion, " << alignment.predicted.dt
-               << " s after the previous measured frame";
+        reason << fewPointsAgree(alignment);
     }
     if (!reason.str().empty())
     {

@@ -4,6 +4,8 @@
 #include <pointplane/odometry/OdometryParams.h>
 #include <pointplane/pose/PoseSolver.h>
 
+#include <string>
+
 #include "Alignment.h"
 
 namespace pointplane
@@ -32,6 +34,9 @@ class Judge
 
     /** Whether points that may agree by chance decide a direction. */
     [[nodiscard]] static bool restsOnChance(const Alignment& alignment);
+
+    /** The reason of a frame that is not believed because of that. */
+    [[nodiscard]] static std::string fewPointsAgree(const Alignment& alignment);
 
     /** Whether a predicted pose says nothing of which feature is which. */
     [[nodiscard]] static bool isUncertain(const PoseGaussian& predicted);

@@ -96,7 +96,8 @@ class MotionModel
      * rad^2/s^4]; zero before there are two. */
     [[nodiscard]] const Vector6d& acceleration2() const { return acceleration2_; }
 
-    /** Forgets the motion: the velocity is unknown again. */
+    /** Forgets the motion: the velocity is unknown again. How the camera accelerates stays known:
+     * it is carried as before. */
     void reset();
 
  private:
