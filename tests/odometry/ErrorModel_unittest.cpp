@@ -2,6 +2,7 @@
 #include "uncertainty/ErrorModel.h"
 
 #include <cmath>
+#include <vector>
 
 #include "matchers.h"
 #include <gtest/gtest.h>
@@ -10,8 +11,7 @@ namespace pointplane
 {
 namespace
 {
-/** Features as noisy as propagated, and a camera that has moved by one view since its only
- * reference.
+/** Features as noisy as propagated, and a camera that has moved by 0.6 m since its only reference.
  */
 class ErrorModelTest : public testing::Test
 {
@@ -20,7 +20,7 @@ class ErrorModelTest : public testing::Test
     {
         params.noiseScale.adaptive = false;
         reference.id = 1;
-        estimate.motion.mean.T_prev_cur.translation().x() = 0.15;
+        estimate.motion.mean.T_prev_cur.translation().x() = 0.6;
         estimate.infoPoints = Matrix6d::Identity();
         estimate.infoPoints.bottomRightCorner<3, 3>() *= 2;  // as if they were 1 m away
         analysis.sensitivity.points = Matrix12d::Identity();
@@ -52,28 +52,30 @@ TEST_F(ErrorModelTest, aFrameWithLargerResidualsThanUsualIsNoisier)
     EXPECT_NEAR(learn().noise(0, 0), usual, 1e-9 * usual) << "one quiet frame proves nothing";
 }
 
-TEST_F(ErrorModelTest, aReferenceDriftsAsTheViewChanges)
+TEST_F(ErrorModelTest, aFrameErrsByItsView)
 {
     const JointCovariance::Measurement out = learn();
-    const JointCovariance::DriftStep& step = out.steps.at(1);
-    EXPECT_NEAR(step.gained, 4 * (1 - std::exp(-0.25)), 1e-6);
-    EXPECT_NEAR(step.whole, step.gained, 1e-12) << "the frame before is the reference itself";
-    EXPECT_GT(out.drift(0, 0), 0);
-    EXPECT_NEAR(out.drift(3, 3), out.drift(0, 0) / 4, 1e-12)
+    EXPECT_EQ(out.views.frames, std::vector<int>{1});
+    ASSERT_EQ(out.views.correlation.rows(), 2);
+    EXPECT_EQ(out.views.correlation(0, 0), 1);
+    EXPECT_NEAR(out.views.correlation(0, 1), std::exp(-1), 1e-6);
+    EXPECT_EQ(out.views.correlation(1, 0), out.views.correlation(0, 1));
+    EXPECT_GT(out.viewSigma[0], 0);
+    EXPECT_NEAR(out.viewSigma[3], out.viewSigma[0] / 2, 1e-12)
         << "a turn errs by half of it, 1 m away";
-    params.covariance.driftSigma *= 2;
-    EXPECT_NEAR(learn().drift(0, 0), 4 * out.drift(0, 0), 1e-15);
+    params.covariance.viewSigma *= 2;
+    EXPECT_NEAR(learn().viewSigma[0], 2 * out.viewSigma[0], 1e-15);
 }
 
 /** Points and planes that a frame does not have say nothing of what it errs by. */
 TEST_F(ErrorModelTest, onlyTheKindsThatAFrameHasCount)
 {
     analysis.sensitivity.planes.setZero();
-    const double points = learn().drift(0, 0);
+    const double points = learn().viewSigma[0];
     analysis.sensitivity.planes = analysis.sensitivity.points;
-    const double both = learn().drift(0, 0);
+    const double both = learn().viewSigma[0];
     analysis.sensitivity.points.setZero();
-    const double planes = learn().drift(0, 0);
+    const double planes = learn().viewSigma[0];
     EXPECT_NEAR(both, std::sqrt(points * planes), 1e-15);
 }
 
@@ -106,6 +108,6 @@ TEST_F(ErrorModelTest, independentIncrementsErrAsTheSolverSays)
         Matrix6d(out.noise.topLeftCorner<6, 6>()),
         test::IsMatrixNear(Matrix6d(3 * Matrix6d::Identity()), 1e-15));
     EXPECT_TRUE(out.references.empty());
-    EXPECT_TRUE(out.drift.isZero(0));
+    EXPECT_TRUE(out.viewSigma.isZero(0));
 }
 }  // namespace pointplane

@@ -85,40 +85,66 @@ TEST(JointCovariance, errorsFromFrameToFrameAddUp)
     }
 }
 
-TEST(JointCovariance, referencesDrift)
+/** Frames that see the scene alike err alike, and those of other views each for itself. */
+TEST(JointCovariance, framesErrByTheirViews)
 {
-    JointCovariance joint = started();
-    JointCovariance::Measurement measurement = against(1);
-    measurement.drift = 0.5 * Matrix6d::Identity();
-    measurement.steps[1] = {1, 1, 1};
-    for (int frame = 2; frame <= 11; ++frame)
+    for (const double correlation : {0.0, 0.75, 1.0})
     {
-        joint.measure(frame, kAtRest, kFrame, measurement);
-        joint.keep({1});
+        JointCovariance joint = started();
+        JointCovariance::Measurement measurement = against(1);
+        measurement.viewSigma.setConstant(2);
+        measurement.views.frames = {1};
+        measurement.views.correlation.resize(2, 2);
+        measurement.views.correlation << 1, correlation, correlation, 1;
+        joint.measure(2, kAtRest, kFrame, measurement);
+        EXPECT_THAT(joint.latest(), isTimesIdentity(1 + 4 * 2 * (1 - correlation)));
     }
-    EXPECT_THAT(joint.latest(), isTimesIdentity(1 + 10 * 0.5));
-    EXPECT_THAT(joint.relative(9, kAtRest), isTimesIdentity(2 + 2 * 0.5));
 }
 
-/** Back at the reference's view, nothing of its drift is left: not in this frame, and in what it
- * has in common with those that saw it. */
-TEST(JointCovariance, driftVanishesWhereItIsNotKept)
+/** There and back: what the frame on the way erred by is not added up. */
+TEST(JointCovariance, backAtAReferencesViewNothingIsLeftOfItsError)
 {
     JointCovariance joint = started();
     JointCovariance::Measurement measurement = against(1);
-    measurement.drift = 4 * Matrix6d::Identity();
-    measurement.steps[1] = {1, 0.5, 1};
+    measurement.viewSigma.setConstant(2);
+    measurement.views.frames = {1};
+    measurement.views.correlation.resize(2, 2);
+    measurement.views.correlation << 1, 0.5, 0.5, 1;
     joint.measure(2, kAtRest, kFrame, measurement);
     joint.keep({1});
-    EXPECT_THAT(joint.latest(), isTimesIdentity(1 + 2));
-    measurement.steps[1] = {0.5, 0, 1};
+    EXPECT_THAT(joint.latest(), isTimesIdentity(1 + 4));
+    measurement.views.correlation.setOnes();
     joint.measure(3, kAtRest, kFrame, measurement);
-    joint.keep({1});
-    EXPECT_THAT(joint.latest(), isTimesIdentity(1 + 0.5));
-    measurement.steps[1] = {0, 0, 1};
-    joint.measure(4, kAtRest, kFrame, measurement);
     EXPECT_THAT(joint.latest(), isTimesIdentity(1));
-    EXPECT_THAT(joint.relative(2, kAtRest), isTimesIdentity(1 + 3));
+    EXPECT_THAT(joint.relative(2, kAtRest), isTimesIdentity(2 + 4));
+}
+
+/** References agree with each other about a frame that errs by its own view: two of them tell no
+ * more than one. */
+TEST(JointCovariance, aFramesOwnErrorIsNotAveragedByManyReferences)
+{
+    const auto seenFromElsewhere = [](double betweenReferences)
+    {
+        JointCovariance joint = started();
+        JointCovariance::Measurement measurement = against(1);
+        measurement.noise.setZero();
+        measurement.viewSigma.setConstant(2);
+        measurement.views.frames = {1};
+        measurement.views.correlation.resize(2, 2);
+        measurement.views.correlation << 1, betweenReferences, betweenReferences, 1;
+        joint.measure(2, kAtRest, kFrame, measurement);
+        measurement.references[1] << 0.5 * Matrix6d::Identity(), Matrix6d::Zero();
+        measurement.references[2] = measurement.references[1];
+        measurement.views.frames = {1, 2};
+        measurement.views.correlation = Eigen::Matrix3d::Identity();
+        measurement.views.correlation(0, 1) = measurement.views.correlation(1, 0) =
+            betweenReferences;
+        joint.measure(3, kAtRest, kFrame, measurement);
+        return joint.latest();
+    };
+    // 4 of frame 3 and 4 of frame 1; what frame 2 errs by is in its pose, too, and cancels.
+    EXPECT_THAT(seenFromElsewhere(0), isTimesIdentity(8));
+    EXPECT_THAT(seenFromElsewhere(0.9), isTimesIdentity(8));
 }
 
 /** Where nothing but the motion model tells the pose, an error of the velocity goes on. */
@@ -238,18 +264,27 @@ TEST(JointCovariance, predictedFramesAndANewWindow)
     EXPECT_THROW(joint.measure(5, kAtRest, kFrame, against(1)), std::exception);
 }
 
-/** A place that is compared with again: its pose was kept, what it errs by seen from here is new.
- */
-TEST(JointCovariance, aRecalledReferenceDriftsByTheWholeWay)
+/** A place that is compared with again: its pose was kept. Of the error by its view, the other
+ * references' tell what they have in common with it. */
+TEST(JointCovariance, aRecalledReferenceErrsAsReferencesOfLikeViewsDo)
 {
-    JointCovariance joint = started();
-    joint.measure(2, kAtRest, kFrame, against(1));
-    joint.restart(2, {1});
-    JointCovariance::Measurement measurement = against(1);
-    measurement.drift = 4 * Matrix6d::Identity();
-    measurement.steps[1] = {0.5, 0.1, 3};
-    joint.measure(3, kAtRest, kFrame, measurement);
-    EXPECT_THAT(joint.latest(), isTimesIdentity(1 + 3 * 4));
+    const auto variance = [](double withPrevious)
+    {
+        JointCovariance joint = started();
+        JointCovariance::Measurement measurement = against(1);
+        joint.measure(2, kAtRest, kFrame, measurement);
+        joint.restart(2, {1});
+        measurement.viewSigma.setConstant(2);
+        measurement.views.frames = {2, 1};
+        measurement.views.correlation = Eigen::Matrix3d::Identity();
+        measurement.views.correlation(0, 1) = measurement.views.correlation(1, 0) = withPrevious;
+        measurement.views.correlation(0, 2) = measurement.views.correlation(2, 0) = 1;
+        measurement.views.correlation(1, 2) = measurement.views.correlation(2, 1) = withPrevious;
+        joint.measure(3, kAtRest, kFrame, measurement);
+        return joint.latest();
+    };
+    EXPECT_THAT(variance(0), isTimesIdentity(1 + 4 * 2));
+    EXPECT_THAT(variance(0.5), isTimesIdentity(1 + 4 * 1));
 }
 
 TEST(JointCovariance, keepsWhatIsStillNeeded)
@@ -270,6 +305,42 @@ TEST(JointCovariance, keepsWhatIsStillNeeded)
     EXPECT_TRUE(joint.knows(6)) << "the previous one, though beyond the history";
     EXPECT_FALSE(joint.knows(5));
 }
+
+namespace
+{
+/** Of frames that go on in a line: what is known of the latest views tells all that is known. */
+double correlationOf(int a, int b) { return std::pow(0.7, std::abs(a - b)); }
+
+JointCovariance::Views viewsOf(const std::vector<int>& references, int frame)
+{
+    JointCovariance::Views out{references, {}};
+    std::vector<int> all = references;
+    all.push_back(frame);
+    const auto n = static_cast<Eigen::Index>(all.size());
+    out.correlation.resize(n, n);
+    for (Eigen::Index i = 0; i < n; ++i)
+    {
+        for (Eigen::Index k = 0; k < n; ++k)
+        {
+            out.correlation(i, k) =
+                correlationOf(all[static_cast<size_t>(i)], all[static_cast<size_t>(k)]);
+        }
+    }
+    return out;
+}
+
+/** Errors of variance 1 with these correlations. */
+std::vector<Vector6d> sampledViews(int n, test::GaussianSampler& sampler)
+{
+    std::vector<Vector6d> out{sampler.vector<6>()};
+    for (int k = 1; k < n; ++k)
+    {
+        const double kept = correlationOf(k - 1, k);
+        out.emplace_back(kept * out.back() + std::sqrt(1 - kept * kept) * sampler.vector<6>());
+    }
+    return out;
+}
+}  // namespace
 
 /** Errors drawn as the model says, in a moving frame, with all kinds of dependence at once. */
 TEST(JointCovariance, monteCarlo)
@@ -298,13 +369,12 @@ TEST(JointCovariance, monteCarlo)
         m.prior = 0.4 * Matrix12d::Identity();
         m.noise = setup.covariance<12>(0.1, 1);
         m.priorNoise = setup.covariance<12>(0.1, 1);
-        m.drift = setup.covariance<6>(0.1, 0.5);
+        m.viewSigma = Vector6d::LinSpaced(0.3, 0.8);
+        m.views = viewsOf(k == 1 ? std::vector<int>{0} : std::vector<int>{0, k - 1}, k);
         m.camera = setup.vector<12>() * setup.vector<kNumCameraErrors>().transpose();
         m.camera.bottomRightCorner<6, 3>().setConstant(0.4);
         m.cameraGain = 0.8 * CameraMatrix::Identity();
         m.cameraNoise = setup.covariance<kNumCameraErrors>(0.01, 0.1);
-        m.steps[0] = {0.7, 0.4, 1};
-        m.steps[k - 1] = {0.9, 0.8, 1};
         joint.measure(k, poses.back(), 0.5, m);
         joint.keep({0, k - 1, k});
         measurements.push_back(m);
@@ -316,7 +386,7 @@ TEST(JointCovariance, monteCarlo)
     for (int run = 0; run < kRuns; ++run)
     {
         std::vector<Vector6d> pose{sampler.sample(startCov)};
-        std::map<int, Vector6d> drift{{0, Vector6d::Zero()}};
+        const std::vector<Vector6d> view = sampledViews(kFrames, sampler);
         Vector6d velocity = Vector6d::Zero();
         CameraVector camera = sampler.sample(cameraCov);
         for (int k = 1; k < kFrames; ++k)
@@ -324,15 +394,6 @@ TEST(JointCovariance, monteCarlo)
             const JointCovariance::Measurement& m = measurements[static_cast<size_t>(k - 1)];
             const Matrix6d Ad = adjoint(poses[static_cast<size_t>(k - 1)]);
             const Matrix6d toBase = Ad.inverse();
-            for (auto& [frame, error] : drift)
-            {
-                const auto it = m.steps.find(frame);
-                if (it != m.steps.end())
-                {
-                    error = it->second.kept * error +
-                            std::sqrt(it->second.gained) * (Ad * sampler.sample(m.drift));
-                }
-            }
             const Vector6d before = toBase * pose.back();
             Vector12d predicted;
             predicted << before + 0.5 * velocity, velocity;
@@ -340,12 +401,15 @@ TEST(JointCovariance, monteCarlo)
             shared += m.camera * camera;
             for (const auto& [frame, change] : m.references)
             {
-                shared += change * (toBase * (pose[static_cast<size_t>(frame)] + drift.at(frame)));
+                const auto reference = static_cast<size_t>(frame);
+                shared +=
+                    change *
+                    (toBase * pose[reference] +
+                     m.viewSigma.cwiseProduct(view[static_cast<size_t>(k)] - view[reference]));
             }
             shared += sampler.sample(m.noise);
             pose.push_back(Ad * shared.head<6>());
             velocity = shared.tail<6>();
-            drift[k].setZero();
             camera = m.cameraGain * camera + sampler.sample(m.cameraNoise);
         }
         latest.push_back(pose.back());
@@ -366,7 +430,7 @@ TEST(JointCovariance, refusesParametersNamingTheKey)
     };
     refused([](auto& p) { p.model = "none"; });
     refused([](auto& p) { p.noise = 0; });
-    refused([](auto& p) { p.driftSigma = -1; });
+    refused([](auto& p) { p.viewSigma = -1; });
     refused([](auto& p) { p.vignetting = -0.1; });
     refused([](auto& p) { p.motion = -0.1; });
     refused([](auto& p) { p.principalPoint = -0.1; });

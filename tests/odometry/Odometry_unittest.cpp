@@ -245,7 +245,7 @@ TEST(Odometry, errorsAgainstKeyFramesDoNotAddUp)
         OdometryParams params;
         params.covariance.history = 10;
         params.covariance.model = model;
-        params.covariance.driftSigma *= std::sqrt(drift);
+        params.covariance.viewSigma *= std::sqrt(drift);
         const OdometryResult r = CheckedOdometry(params).run(0, 20);
         return Variances{r.since[0].cov.trace(), r.since[9].cov.trace()};
     };

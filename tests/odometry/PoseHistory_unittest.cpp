@@ -81,7 +81,7 @@ TEST(PoseHistory, covariancesStayPositiveDefiniteWhereNothingIsKnown)
     variances << 1e4, 1e-12, 1e4, 1e-14, 1e2, 1e-14;
     const Matrix6d cov = propagate(adjoint(elsewhere()), Matrix6d(variances.asDiagonal()));
     measurement.noise.topLeftCorner<6, 6>() = cov;
-    measurement.drift = 1e-3 * cov;
+    measurement.viewSigma = 0.03 * variances.cwiseSqrt();
     for (int frame = 2; frame <= 40; ++frame)
     {
         measurement.references.clear();

@@ -2,8 +2,8 @@
 #include "ErrorModel.h"
 
 #include <pointplane/core/covariance.h>
-#include <pointplane/odometry/uncertainty/ReferenceErrors.h>
 #include <pointplane/odometry/uncertainty/exposure_errors.h>
+#include <pointplane/odometry/uncertainty/view_errors.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,9 +14,9 @@ namespace pointplane
 {
 namespace
 {
-/** How fast what the features of a frame err by together grows with the view, over what is
- * propagated: as their residuals grow, and as the references contradict each other. The geometric
- * mean of points and planes, or that of the only kind that the frame has. */
+/** How large what the features of a frame err by together is, over what is propagated: as their
+ * residuals grow with the view, and as the references contradict each other. The geometric mean of
+ * points and planes, or that of the only kind that the frame has. */
 double commonLevel(const NoiseFactors& noise, const NoiseFactors& drift, const Sensitivity& of)
 {
     const double ofPoints = noise.points * drift.points, ofPlanes = noise.planes * drift.planes;
@@ -86,29 +86,43 @@ JointCovariance::Measurement ErrorModel::errorsOf(
         out.prior.rightCols<6>().setZero();  // the velocity is a new one for each frame
     }
     out.priorNoise = params_.motion * propagate(of.prior, frame.motionNoise);
-    drift(frame, out);
+    errorsByView(frame, out);
     return out;
 }
 
-/** What the references err by, seen from the current frame rather than from the previous one. */
-void ErrorModel::drift(const Measured& frame, JointCovariance::Measurement& out) const
+void ErrorModel::errorsByView(const Measured& frame, JointCovariance::Measurement& out) const
 {
     const double level =
         commonLevel(noise_.levels(), variogram_.levels().drift, frame.analysis.sensitivity);
-    out.drift = driftPerView(
-        params_.driftSigma * std::sqrt(level),
+    out.viewSigma = viewSigma(
+        params_.viewSigma * std::sqrt(level),
         frame.estimate.infoPoints + frame.estimate.infoPlanes);
-    const Reference& previous = *frame.references.front();
-    const Eigen::Isometry3d& T_prev_cur = frame.estimate.motion.mean.T_prev_cur;
+
+    struct View
+    {
+        Eigen::Isometry3d T_world_cam;
+        double stamp;
+    };
+    std::vector<View> views;
     for (const Reference* reference : frame.references)
     {
-        const Eigen::Isometry3d T_ref_prev =
-            reference->T_world_cam.inverse() * previous.T_world_cam;
-        const double age = previous.stamp - reference->stamp;
-        out.steps[reference->id] = driftStep(
-            viewsBetween(T_ref_prev, age),
-            viewsBetween(T_ref_prev * T_prev_cur, age + frame.dt),
-            viewsBetween(T_prev_cur, frame.dt));
+        out.views.frames.push_back(reference->id);
+        views.push_back({reference->T_world_cam, reference->stamp});
+    }
+    const View& previous = views.front();
+    views.push_back(
+        {previous.T_world_cam * frame.estimate.motion.mean.T_prev_cur, previous.stamp + frame.dt});
+
+    const auto n = static_cast<Eigen::Index>(views.size());
+    out.views.correlation.resize(n, n);
+    for (Eigen::Index i = 0; i < n; ++i)
+    {
+        for (Eigen::Index k = 0; k < n; ++k)
+        {
+            const View &a = views[static_cast<size_t>(i)], &b = views[static_cast<size_t>(k)];
+            out.views.correlation(i, k) =
+                viewCorrelation(a.T_world_cam.inverse() * b.T_world_cam, a.stamp - b.stamp);
+        }
     }
 }
 }  // namespace pointplane

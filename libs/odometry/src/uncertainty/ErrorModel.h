@@ -15,15 +15,15 @@ namespace pointplane
 {
 /** Where errors of a measured pose come from, and how large they are. To first order
  *
- *     x = sum_r K_r (X_r + D_r) + K_0 (predicted motion) + B k + e
+ *     x = sum_r K_r (X_r + b - b_r) + K_0 (predicted motion) + B k + e
  *
  * x is the error of pose and velocity; K_r, K_0 and B are how the solution follows each term
  * (Sensitivity in PoseAnalysis). The terms:
  *
  * - X_r: error of the pose of reference r.
- * - D_r: what all features of reference r err by together, seen from here rather than from where it
- *   stood, because depth, lens and scene are not quite what they are modelled as. A Gaussian field
- *   over views: ReferenceErrors. Its size follows the residuals: NoiseScale, ResidualVariogram.
+ * - b, b_r: what all features of this frame, and of reference r, err by together, because depth,
+ *   lens and scene are not quite what they are modelled as. A Gaussian field over views:
+ *   view_errors. Its size follows the residuals: NoiseScale, ResidualVariogram.
  * - Predicted motion: the previous pose and velocity, and white acceleration: MotionModel, which
  *   Track owns.
  * - k: errors of the camera that all frames share: vignetting, principal point, focal length,
@@ -65,7 +65,7 @@ class ErrorModel
  private:
     [[nodiscard]] JointCovariance::Measurement errorsOf(
         const Measured& frame, const NoiseFactors& usual) const;
-    void drift(const Measured& frame, JointCovariance::Measurement& out) const;
+    void errorsByView(const Measured& frame, JointCovariance::Measurement& out) const;
 
     JointCovariance::TParams params_;
     bool isJoint_, fuses_;

@@ -6,6 +6,8 @@
 #include <pointplane/core/se3.h>
 #include <pointplane/odometry/uncertainty/JointCovariance.h>
 
+#include <Eigen/Cholesky>
+
 #include <algorithm>
 #include <stdexcept>
 #include <string>
@@ -27,7 +29,7 @@ void JointCovariance::TParams::check() const
 {
     (void)isJoint();
     checkRange("noise", noise, 1e-3, 1000);
-    checkRange("driftSigma", driftSigma, 0, 1);
+    checkRange("viewSigma", viewSigma, 0, 1);
     checkRange("motion", motion, 0, 1000);
     checkRange("vignetting", vignetting, 0, 1);
     checkRange("principalPoint", principalPoint, 0, 100);
@@ -68,13 +70,13 @@ void JointCovariance::restart(int frame, const std::vector<int>& poses)
     kept.push_back(frame);
     keep({}, kept);
     previous_ = frame;
-    prepend({{Kind::Drift, frame}}, Eigen::MatrixXd::Zero(kSize, cov_.cols()), Matrix6d::Zero());
+    addView({frame}, 0, Eigen::MatrixXd::Identity(1, 1));
 }
 
 /** Of pose and velocity on all blocks so far. The predicted motion starts at the previous frame
  * with its velocity: an error of that moves it by dt times as much. */
 Eigen::MatrixXd JointCovariance::dependence(
-    const Matrix6d& Ad, double dt, const Measurement& measurement) const
+    int frame, const Matrix6d& Ad, double dt, const Measurement& measurement) const
 {
     const Matrix6d Ad_inverse = Ad.inverse();
     Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * kSize, cov_.cols());
@@ -82,11 +84,12 @@ Eigen::MatrixXd JointCovariance::dependence(
     A.middleCols<kSize>(find(Kind::Pose, previous_)) += prior * Ad_inverse;
     A.middleCols<kSize>(find(Kind::Velocity, 0)) +=
         dt * prior + measurement.prior.rightCols<kSize>();
-    for (const auto& [frame, change] : measurement.references)
+    for (const auto& [reference, change] : measurement.references)
     {
-        const Eigen::Matrix<double, 2 * kSize, kSize> ofReference = change * Ad_inverse;
-        A.middleCols<kSize>(find(Kind::Pose, frame)) += ofReference;
-        A.middleCols<kSize>(find(Kind::Drift, frame)) += ofReference;
+        const Matrix126d byView = change * measurement.viewSigma.asDiagonal();
+        A.middleCols<kSize>(find(Kind::Pose, reference)) += change * Ad_inverse;
+        A.middleCols<kSize>(find(Kind::View, reference)) -= byView;
+        A.middleCols<kSize>(find(Kind::View, frame)) += byView;
     }
     A.middleCols<kNumCameraErrors>(find(Kind::Camera, 0)) += measurement.camera;
     A.topRows<kSize>() = (Ad * A.topRows<kSize>()).eval();
@@ -97,12 +100,12 @@ void JointCovariance::measure(
     int frame, const Eigen::Isometry3d& T_world_prev, double dt, const Measurement& measurement)
 {
     const Matrix6d Ad = adjoint(T_world_prev);
-    drift(Ad, measurement);
+    addViews(frame, measurement.views);
 
-    // Pose and velocity, what the frame errs by as a reference (at its own view, nothing), camera.
-    constexpr Eigen::Index camera = 3 * kSize, size = camera + kNumCameraErrors;
+    // Pose and velocity, camera.
+    constexpr Eigen::Index camera = 2 * kSize, size = camera + kNumCameraErrors;
     Eigen::MatrixXd A = Eigen::MatrixXd::Zero(size, cov_.cols());
-    A.topRows<2 * kSize>() = dependence(Ad, dt, measurement);
+    A.topRows<2 * kSize>() = dependence(frame, Ad, dt, measurement);
     A.block<kNumCameraErrors, kNumCameraErrors>(camera, find(Kind::Camera, 0)) =
         measurement.cameraGain;
     Matrix12d toWorld = Matrix12d::Identity();
@@ -112,8 +115,7 @@ void JointCovariance::measure(
         propagate(toWorld, Matrix12d(measurement.noise + measurement.priorNoise));
     Q.bottomRightCorner<kNumCameraErrors, kNumCameraErrors>() = measurement.cameraNoise;
 
-    const std::vector<Block> added{
-        {Kind::Pose, frame}, {Kind::Velocity, 0}, {Kind::Drift, frame}, {Kind::Camera, 0}};
+    const std::vector<Block> added{{Kind::Pose, frame}, {Kind::Velocity, 0}, {Kind::Camera, 0}};
     prepend(added, A, Q);
     std::vector<std::size_t> kept;
     for (std::size_t k = 0; k < blocks_.size(); ++k)
@@ -129,25 +131,47 @@ void JointCovariance::measure(
     previous_ = frame;
 }
 
-/** What the references say changes with the view. A place that was recalled is new. */
-void JointCovariance::drift(const Matrix6d& Ad, const Measurement& measurement)
+/** Of a new frame, and of places that were recalled. */
+void JointCovariance::addViews(int frame, const Views& views)
 {
-    const Matrix6d perView = propagate(Ad, measurement.drift);
-    for (const auto& [frame, step] : measurement.steps)
+    std::vector<int> frames = views.frames;
+    frames.push_back(frame);
+    for (std::size_t k = 0; k < frames.size(); ++k)
     {
-        if (!has(Kind::Drift, frame))
+        if (!has(Kind::View, frames[k]))
         {
-            prepend(
-                {{Kind::Drift, frame}},
-                Eigen::MatrixXd::Zero(kSize, cov_.cols()),
-                step.whole * perView);
-            continue;
+            addView(frames, k, views.correlation);
         }
-        const Eigen::Index row = find(Kind::Drift, frame);
-        cov_.middleRows<kSize>(row) *= step.kept;
-        cov_.middleCols<kSize>(row) *= step.kept;
-        cov_.block<kSize, kSize>(row, row) += step.gained * perView;
     }
+}
+
+/** What is known of the error at other views foretells a part of it (kriging); the rest is new.
+ * \param C correlation of the errors of `frames` */
+void JointCovariance::addView(
+    const std::vector<int>& frames, std::size_t added, const Eigen::MatrixXd& C)
+{
+    std::vector<std::size_t> known;
+    for (std::size_t k = 0; k < frames.size(); ++k)
+    {
+        if (has(Kind::View, frames[k]))
+        {
+            known.push_back(k);
+        }
+    }
+    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(kSize, cov_.cols());
+    double isNew = 1;
+    if (!known.empty())
+    {
+        const Eigen::VectorXd shared = C(known, added);
+        const Eigen::VectorXd weights = C(known, known).ldlt().solve(shared);
+        for (std::size_t k = 0; k < known.size(); ++k)
+        {
+            A.middleCols<kSize>(find(Kind::View, frames[known[k]])) =
+                weights[static_cast<Eigen::Index>(k)] * Matrix6d::Identity();
+        }
+        isNew = std::max(0.0, 1 - weights.dot(shared));
+    }
+    prepend({{Kind::View, frames[added]}}, A, isNew * Matrix6d::Identity());
 }
 
 void JointCovariance::keep(const std::vector<int>& references, const std::vector<int>& poses)
@@ -166,7 +190,7 @@ void JointCovariance::keep(const std::vector<int>& references, const std::vector
             isWanted = numPoses++ <= params_.history || frame == previous_ || isReference ||
                        contains(poses, frame);
         }
-        else if (kind == Kind::Drift)
+        else if (kind == Kind::View)
         {
             isWanted = isReference;
         }

@@ -12,11 +12,11 @@
 namespace pointplane
 {
 /** One Gaussian of all errors that go on from frame to frame: those of the latest poses, of the
- * velocity, of the camera, and of what each reference frame says about a pose.
+ * velocity, of the camera, and of the views of the reference frames.
  *
  * Frames are compared with the same references again and again. So their errors do not add up as
  * those of independent increments would. The method is stochastic cloning (Roumeliotis and Burdick
- * 2002), with one common error per reference instead of one per feature.
+ * 2002), with one common error per frame (view_errors.h) instead of one per feature.
  *
  * Errors of poses are left perturbations in the world frame [m, rad]; that of the velocity is in
  * the body frame [m/s, rad/s]. Derivation: docs/theory.md, Window. */
@@ -27,11 +27,11 @@ class JointCovariance
     {
         std::string model{"joint"};
         double noise{1.0};
-        double driftSigma{0.00035};
+        double viewSigma{0.0004};
         double motion{0.07};
         double vignetting{0.15};
-        double principalPoint{0.2};
-        double focalLength{0.0004};
+        double principalPoint{0.3};
+        double focalLength{0.0006};
         double depthScale{0.005};
         int history{1};
 
@@ -47,12 +47,11 @@ class JointCovariance
               noise,
               "-",
               "factor on the variance of a frame's own points and planes (1 = as learnt)");
-            v("driftSigma",
-              driftSigma,
+            v("viewSigma",
+              viewSigma,
               "-",
-              "error that all features of a reference share once the camera has moved by one "
-              "view (0.15 m, a turn of 2 rad, or 1 s): standard deviation as a fraction of "
-              "the scene's distance");
+              "error that all features of a frame share, alike in frames that see the scene from "
+              "the same place: standard deviation as a fraction of the scene's distance");
             v("motion",
               motion,
               "-",
@@ -86,14 +85,12 @@ class JointCovariance
         [[nodiscard]] bool isJoint() const;  //!< model is joint, not independent
     };
 
-    /** How the error of what a reference says goes on from the previous frame's view to this one's:
-     * it is `kept` times the one before, plus noise (driftStep()). Variances are in units of
-     * Measurement::drift. */
-    struct DriftStep
+    /** How alike the errors of views are (viewCorrelation()). */
+    struct Views
     {
-        double kept{1};
-        double gained{0};  //!< variance of the noise
-        double whole{1};   //!< variance of the error, if nothing is known before
+        std::vector<int> frames;  //!< ids of the references
+        /** Of these frames and, as the last row and column, of the new one. */
+        Eigen::MatrixXd correlation{Eigen::MatrixXd::Identity(1, 1)};
     };
 
     /** What pose (left perturbation in the previous measured frame) and velocity of a measured
@@ -105,8 +102,8 @@ class JointCovariance
         Matrix12d noise{Matrix12d::Zero()};       //!< of the frame's own features
         Matrix12d priorNoise{Matrix12d::Zero()};  //!< of the predicted motion, without the velocity
         MotionByCamera camera{MotionByCamera::Zero()};  //!< change with errors of the camera
-        Matrix6d drift{Matrix6d::Zero()};  //!< covariance that what a reference says gains per view
-        std::map<int, DriftStep> steps;    //!< of each reference that others are compared with
+        Vector6d viewSigma{Vector6d::Zero()};           //!< of errors by the view (viewSigma())
+        Views views;
         CameraMatrix cameraGain{CameraMatrix::Identity()};  //!< the camera's errors after the frame
         CameraMatrix cameraNoise{CameraMatrix::Zero()};     //!< are gain * before + noise
     };
@@ -158,7 +155,7 @@ class JointCovariance
         Pose,
         Velocity,
         Camera,
-        Drift  //!< of a reference: error of what it says, seen from the previous frame
+        View  //!< of a reference: error by its view, in units of Measurement::viewSigma
     };
     struct Block
     {
@@ -174,9 +171,10 @@ class JointCovariance
     [[nodiscard]] bool has(Kind kind, int frame) const;
     [[nodiscard]] Eigen::Index find(Kind kind, int frame) const;
     [[nodiscard]] Matrix6d at(Eigen::Index row, Eigen::Index column) const;
-    void drift(const Matrix6d& Ad, const Measurement& measurement);
+    void addViews(int frame, const Views& views);
+    void addView(const std::vector<int>& frames, std::size_t added, const Eigen::MatrixXd& C);
     [[nodiscard]] Eigen::MatrixXd dependence(
-        const Matrix6d& Ad, double dt, const Measurement& measurement) const;
+        int frame, const Matrix6d& Ad, double dt, const Measurement& measurement) const;
     void prepend(
         const std::vector<Block>& blocks, const Eigen::MatrixXd& A, const Eigen::MatrixXd& Q);
     void select(const std::vector<std::size_t>& kept);

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pointplane/core/types.h>
+
+namespace pointplane
+{
+/** How alike two frames err by where they stand.
+ *
+ * Depth, lens and scene are not quite what they are modelled as. So all features of a frame err
+ * together, as if the camera stood elsewhere. Frames that see the scene alike err alike, and
+ * nothing of it shows when they are compared; frames far apart err each for itself. This is a
+ * stationary Gaussian field over views.
+ * \param motion, time [s] between the two frames
+ * \return correlation of their errors: exp(-distance / 0.6 m - time / 10 s) */
+[[nodiscard]] double viewCorrelation(const Eigen::Isometry3d& motion, double time);
+
+/** Standard deviation of that error, as an error of the pose (left perturbation) [m, rad]: sigma D
+ * per axis of the translation and sigma / 2 per axis of the rotation. D is the distance of the
+ * features, which `information` tells.
+ * \param information of the pose by all features, J^T W J */
+[[nodiscard]] Vector6d viewSigma(double sigma, const Matrix6d& information);
+}  // namespace pointplane

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/odometry/uncertainty/view_errors.h>
+
+#include <cmath>
+
+namespace pointplane
+{
+namespace
+{
+/** Over which errors become those of another view: about the distance from which a scene of a room
+ * looks different, and the time over which cameras and scenes change. Chosen, as the part of the
+ * rotation, by the NEES of true motions: docs/experiments.md. */
+constexpr double kDistance = 0.6;  // [m]
+constexpr double kTime = 10;       // [s]
+
+/** A rotation errs by this part of what would move the scene as far as the translation does. */
+constexpr double kRotation = 0.5;
+
+/** How far away [m] the features are: where a rotation moves them as far as a translation of that
+ * distance times the angle. */
+double distanceOf(const Matrix6d& information)
+{
+    const double ofTranslation = information.topLeftCorner<3, 3>().trace();
+    const double ofRotation = information.bottomRightCorner<3, 3>().trace();
+    return ofTranslation > 0 ? std::sqrt(ofRotation / (2 * ofTranslation)) : 1;
+}
+}  // namespace
+
+double viewCorrelation(const Eigen::Isometry3d& motion, double time)
+{
+    return std::exp(-motion.translation().norm() / kDistance - std::abs(time) / kTime);
+}
+
+Vector6d viewSigma(double sigma, const Matrix6d& information)
+{
+    Vector6d out;
+    out << Eigen::Vector3d::Constant(sigma * distanceOf(information)),
+        Eigen::Vector3d::Constant(sigma * kRotation);
+    return out;
+}
+}  // namespace pointplane

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/odometry/uncertainty/view_errors.h>
+
+#include <Eigen/Eigenvalues>
+
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace pointplane
+{
+namespace
+{
+Eigen::Isometry3d along(double x) { return Eigen::Isometry3d(Eigen::Translation3d(x, 0, 0)); }
+}  // namespace
+
+TEST(viewCorrelation, byHand)
+{
+    EXPECT_EQ(viewCorrelation(along(0), 0), 1);
+    EXPECT_NEAR(viewCorrelation(along(0.6), 0), std::exp(-1), 1e-12);
+    EXPECT_NEAR(viewCorrelation(along(-0.6), 0), std::exp(-1), 1e-12);
+    EXPECT_NEAR(viewCorrelation(along(0), -10), std::exp(-1), 1e-12);
+    EXPECT_NEAR(viewCorrelation(along(0.3), 5), std::exp(-1), 1e-12);
+}
+
+TEST(viewCorrelation, aTurnInPlaceIsTheSameView)
+{
+    const Eigen::Isometry3d turn(Eigen::AngleAxisd(1, Eigen::Vector3d::UnitY()));
+    EXPECT_EQ(viewCorrelation(turn, 0), 1);
+}
+
+/** Of any places, in any order: else it would be no correlation. */
+TEST(viewCorrelation, isPositiveDefinite)
+{
+    const std::vector<std::pair<double, double>> views{
+        {0, 0}, {0.1, 0.03}, {0.5, 0.4}, {0.1, 1}, {-2, 3}, {0, 8}};
+    const auto n = static_cast<Eigen::Index>(views.size());
+    Eigen::MatrixXd C(n, n);
+    for (Eigen::Index i = 0; i < n; ++i)
+    {
+        for (Eigen::Index k = 0; k < n; ++k)
+        {
+            const auto &a = views[static_cast<size_t>(i)], &b = views[static_cast<size_t>(k)];
+            C(i, k) = viewCorrelation(along(a.first - b.first), a.second - b.second);
+        }
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> es(C);
+    EXPECT_GT(es.eigenvalues().minCoeff(), 0.01);
+}
+
+TEST(viewSigma, byHand)
+{
+    Matrix6d information = Matrix6d::Identity();
+    information.bottomRightCorner<3, 3>() *= 8;  // as of features 2 m away
+    const Vector6d sigma = viewSigma(0.01, information);
+    EXPECT_NEAR(sigma[0], 0.02, 1e-12);
+    EXPECT_NEAR(sigma[2], 0.02, 1e-12);
+    EXPECT_NEAR(sigma[5], 0.005, 1e-12);
+    EXPECT_NEAR(viewSigma(0.01, Matrix6d::Zero())[0], 0.01, 1e-12) << "of nothing, 1 m";
+}
+}  // namespace pointplane
