@@ -6,17 +6,16 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-# What the parameters were chosen on; docs/experiments.md says what took part in what.
-readonly chosen_on='^(tum_fr1_xyz|tum_fr1_rpy|tum_fr3_structure_notexture_far|icl_living_room_kt0|iphone|azure|kinect1_fixed)'
-
-# One line per sequence: NAME|chosen, seeds or held|ours mm|ours deg|fast mm|fast deg|peer mm|peer deg|its name|NEES 1|NEES 1 s
-awk -F ' *[|] *' -v chosen_on="$chosen_on" '
+# One line per sequence: NAME|chosen on it (yes, other seeds, no)|ours mm|ours deg|fast mm|fast deg|peer mm|peer deg|its name|NEES 1|NEES 1 s
+awk -F ' *[|] *' '
     function finish() {
         if (name == "" || ours == "") return
-        printf "%s|%s|%s|%s|%s|%s|%s\n", name, name ~ chosen_on ? "chosen" : name ~ /^simulated/ ? "seeds" : "held",
-            ours, fast == "" ? "-|-" : fast, peer == "" ? "-|-" : peer, best == "" ? "-" : best, nees
+        if (!(name in chosen_on)) { print "error: no summary of " name >"/dev/stderr"; exit 1 }
+        printf "%s|%s|%s|%s|%s|%s|%s\n", name, chosen_on[name], ours, fast == "" ? "-|-" : fast,
+            peer == "" ? "-|-" : peer, best == "" ? "-" : best, nees
         ours = fast = peer = best = ""
     }
+    name == "" && NF == 9 { chosen_on[$2] = $3 }
     /^### / { finish(); name = $0; sub(/^### /, "", name); sub(/ \(.*/, "", name) }
     $2 == "config.ini" && NF >= 11 { ours = $3 "|" $4; nees = $9 "|" $11 }
     $2 == "config-fast.ini" && NF >= 11 { fast = $3 "|" $4 }
@@ -29,7 +28,7 @@ awk -F ' *[|] *' -v chosen_on="$chosen_on" '
     exit 1
 }
 
-rows() { # chosen, seeds or held; heading
+rows() { # yes, other seeds or no; heading
     awk -F '|' -v kind="$1" -v heading="$2" '
         function pair(mm, deg) { return mm == "-" ? "-" : mm " / " deg }
         $2 == kind {
@@ -44,9 +43,9 @@ rows() { # chosen, seeds or held; heading
     echo
     echo "| recording | config.ini [mm / deg] | config-fast.ini [mm / deg] | best peer [mm / deg] | NEES over 1 frame / 1 s |"
     echo "|---|---|---|---|---|"
-    rows chosen "parameters were chosen on these"
-    rows seeds "on the same scenes, but other seeds"
-    rows held "not chosen on these, except as *decisions* below says"
+    rows yes "parameters were chosen on these"
+    rows "other seeds" "on the same scenes, but other seeds"
+    rows no "not chosen on these, except as *decisions* below says"
     echo
 } >"$work/results"
 if [[ $(grep -cE '<!-- results:(begin|end) -->' README.md) != 2 ]]; then

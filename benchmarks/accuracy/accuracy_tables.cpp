@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <regex>
 #include <sstream>
 
 namespace pointplane
@@ -18,6 +19,18 @@ namespace
 
 [[nodiscard]] double mm(double metres) { return 1e3 * metres; }
 [[nodiscard]] double degrees(double radians) { return radians * 180 / M_PI; }
+
+/** Whether parameters of config.ini were chosen on a recording or on a part of it
+ * (docs/experiments.md, "What took part in which choice"). */
+[[nodiscard]] std::string chosenOn(const std::string& sequence)
+{
+    static const std::regex kChosen(
+        ".*(fr|freiburg)1_(xyz|rpy)(_part)?|.*(fr|freiburg)3_structure_notexture_far(_part)?|"
+        "icl_living_room_kt0.*|iphone.*|azure.*|kinect1_fixed.*|simulated desk");
+    return std::regex_match(sequence, kChosen)    ? "yes"
+           : sequence.rfind("simulated ", 0) == 0 ? "other seeds"
+                                                  : "no";
+}
 
 /** The peer with the smallest value, or nullptr without any. */
 template <class Value>
@@ -91,17 +104,18 @@ std::string markdownSummary(const std::vector<SequenceScores>& all)
             continue;
         }
         name = own->method;
-        rows << "| " << scores.sequence << " | " << number(mm(own->rpeTranslation), 1) << " | "
-             << number(mm(t->rpeTranslation), 1) << " (" << t->method << ") | "
-             << number(degrees(own->rpeRotation), 2) << " | " << number(degrees(r->rpeRotation), 2)
-             << " (" << r->method << ") | "
+        rows << "| " << scores.sequence << " | " << chosenOn(scores.sequence) << " | "
+             << number(mm(own->rpeTranslation), 1) << " | " << number(mm(t->rpeTranslation), 1)
+             << " (" << t->method << ") | " << number(degrees(own->rpeRotation), 2) << " | "
+             << number(degrees(r->rpeRotation), 2) << " (" << r->method << ") | "
              << (own->rpeTranslation < t->rpeTranslation && own->rpeRotation < r->rpeRotation
                      ? "yes"
                      : "**no**")
              << " |\n";
     }
-    return "| sequence | " + name + " mm/s | best peer mm/s | " + name +
-           " deg/s | best peer deg/s | ahead in both |\n|---|---|---|---|---|---|\n" + rows.str();
+    return "| sequence | chosen on it | " + name + " mm/s | best peer mm/s | " + name +
+           " deg/s | best peer deg/s | ahead in both |\n|---|---|---|---|---|---|---|\n" +
+           rows.str();
 }
 
 nlohmann::ordered_json toJson(const std::vector<SequenceScores>& all)
