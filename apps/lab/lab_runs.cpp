@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "lab_runs.h"
 
-#include <pointplane/evaluation/association.h>
 #include <pointplane/evaluation/trajectory_text.h>
 #include <pointplane/evaluation/units.h>
 #include <pointplane/mrpt_io/errors.h>
@@ -22,17 +21,6 @@ namespace pointplane
 {
 namespace
 {
-/** How far the estimate's last position is from the truth's, both seen from where they begin. */
-double finalError(const Trajectory& truth, const Trajectory& estimate)
-{
-    const auto trueAt = [&](double stamp)
-    { return truth.poses[nearestIndex(truth.stamps, stamp)]; };
-    const Eigen::Isometry3d trueMotion =
-        trueAt(estimate.stamps.front()).inverse() * trueAt(estimate.stamps.back());
-    const Eigen::Isometry3d motion = estimate.poses.front().inverse() * estimate.poses.back();
-    return (trueMotion.translation() - motion.translation()).norm();
-}
-
 LabScore scoreOf(
     const LabRun& run,
     const std::string& trajectory,
@@ -52,7 +40,7 @@ LabScore scoreOf(
     {
         const Trajectory truth = readTrajectoryText(run.groundTruth);
         const Trajectory estimate = readTrajectoryText(trajectory);
-        return {relativePoseError(truth, estimate, rpe), "", finalError(truth, estimate)};
+        return {relativePoseError(truth, estimate, rpe), "", estimate};
     }
     catch (const std::exception& e)
     {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pointplane/evaluation/Trajectory.h>
 #include <pointplane/evaluation/rpe.h>
 
 #include <iosfwd>
@@ -27,7 +28,7 @@ struct LabScore
 {
     std::optional<RpeResult> rpe;
     std::string failure;
-    double finalError{0};  //!< of the last position, first poses laid over each other [m]
+    Trajectory estimate{};  //!< what was scored
 };
 
 /** How runs are made; sweep and reproduce share the options. */

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/evaluation/svg_chart.h>
+#include <pointplane/evaluation/trajectory_text.h>
 #include <pointplane/mrpt_io/rawlog_names.h>
 
 #include <algorithm>
@@ -87,7 +88,7 @@ void ReproduceCommand::addTo(CLI::App& command)
     command.add_option("--report", report, "Write DIR/index.html: one file, with the curves")
         ->type_name("DIR")
         ->group("Output");
-    command.add_option("--figure", figure, "Write Fig. 3 as DIR/paper_fig3_*.svg")
+    command.add_option("--figure", figure, "Write Fig. 3 and Fig. 5 as DIR/paper_fig*.svg")
         ->type_name("DIR")
         ->group("Output");
 }
@@ -213,14 +214,20 @@ void ReproduceCommand::run(CommandContext& context) const
     {
         runs.push_back({"corner: " + v.name, corner, groundTruthOf(corner), v.config, v.settings});
     }
-    RpeOptions rpe;
-    rpe.fixedDelta = true;
-    result.protocol = describe(rpe);
-    result.scores = runner.run(runs, rpe, context.err);
+    result.rpe.fixedDelta = true;
+    result.scores = runner.run(runs, result.rpe, context.err);
+    for (const ReproducedSequence& s : result.sequences)
+    {
+        result.truths.push_back(readTrajectoryText(s.groundTruth));
+    }
     const auto firstOfCorner =
         result.scores.end() - static_cast<std::ptrdiff_t>(result.cornerVariants.size());
     result.cornerScores.assign(firstOfCorner, result.scores.end());
     result.scores.erase(firstOfCorner, result.scores.end());
+    if (makes("corner"))
+    {
+        result.cornerTruth = readTrajectoryText(groundTruthOf(corner));
+    }
 
     if (!files.replaceTable())
     {
@@ -234,11 +241,9 @@ void ReproduceCommand::run(CommandContext& context) const
     if (!figure.empty())
     {
         const WorkDirectory folder(figure);
-        const char* const names[] = {"/paper_fig3_translation.svg", "/paper_fig3_rotation.svg"};
-        const std::vector<Chart> charts = alphaCharts(result);
-        for (std::size_t k = 0; k < charts.size(); ++k)
+        for (const NamedChart& chart : figuresOf(result))
         {
-            writeText(svgFileOf(charts[k]), folder.path() + names[k], context.out);
+            writeText(svgFileOf(chart.chart), folder.path() + "/" + chart.fileName, context.out);
         }
     }
     for (const auto* scores : {&result.scores, &result.cornerScores})

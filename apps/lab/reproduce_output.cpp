@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "PosesFromStart.h"
 #include "reproduce_tables.h"
 #include "result_output.h"
 #include "sweep_charts.h"
@@ -64,7 +65,7 @@ std::string failures(const Reproduction& result)
 
 std::string intro(const Reproduction& result)
 {
-    return "RMSE of the relative pose error in mm / deg. " + result.protocol +
+    return "RMSE of the relative pose error in mm / deg. " + describe(result.rpe) +
            ". n p: n frames were not measured but predicted.";
 }
 }  // namespace
@@ -113,7 +114,7 @@ nlohmann::ordered_json toJson(const Reproduction& result)
 {
     nlohmann::ordered_json json;
     json["title"] = "Reproduction";
-    json["protocol"] = result.protocol;
+    json["protocol"] = describe(result.rpe);
     json["missing"] = missing(result);
     for (const PublishedFigures& p : publishedFigures())
     {
@@ -156,7 +157,7 @@ nlohmann::ordered_json toJson(const Reproduction& result)
         {
             run["translation"] = score.rpe->translation.rmse;
             run["rotationDeg"] = score.rpe->rotation.rmse * kDegreesPerRadian;
-            run["finalError"] = score.finalError;
+            run["finalError"] = finalError(result, k);
         }
         else
         {
@@ -188,6 +189,8 @@ std::string toCsv(const Reproduction& result)
     return out;
 }
 
+namespace
+{
 std::vector<Chart> alphaCharts(const Reproduction& result)
 {
     std::vector<std::string> alphas;
@@ -221,6 +224,38 @@ std::vector<Chart> alphaCharts(const Reproduction& result)
     }
     return charts;
 }
+}  // namespace
+
+double finalError(const Reproduction& result, std::size_t corner)
+{
+    return PosesFromStart(result.cornerTruth, result.cornerScores[corner].estimate).finalError();
+}
+
+std::vector<NamedChart> figuresOf(const Reproduction& result)
+{
+    std::vector<NamedChart> out;
+    const auto add = [&](const std::string& fileName, const std::vector<Chart>& charts)
+    {
+        const char* const names[] = {"translation", "rotation"};
+        for (std::size_t k = 0; k < charts.size(); ++k)
+        {
+            out.push_back({fileName + names[k] + ".svg", charts[k]});
+        }
+    };
+    add("paper_fig3_", alphaCharts(result));
+    for (std::size_t k = 0; k < result.cornerScores.size(); ++k)
+    {
+        if (result.cornerScores[k].rpe)
+        {
+            const std::string& name = result.cornerVariants[k].name;
+            std::string asFile = name;
+            std::replace(asFile.begin(), asFile.end(), ' ', '_');
+            add("paper_fig5_" + asFile + "_",
+                PosesFromStart(result.cornerTruth, result.cornerScores[k].estimate).charts(name));
+        }
+    }
+    return out;
+}
 
 HtmlReport reportOf(const Reproduction& result)
 {
@@ -230,9 +265,9 @@ HtmlReport reportOf(const Reproduction& result)
     {
         report.addParagraph(absent);
     }
-    for (const Chart& chart : alphaCharts(result))
+    for (const NamedChart& figure : figuresOf(result))
     {
-        report.addChart(chart);
+        report.addChart(figure.chart);
     }
     for (const ReproductionTable& table : reproductionTables(result))
     {

@@ -28,7 +28,7 @@ std::vector<std::string> with(std::vector<std::string> settings, const std::stri
     return settings;
 }
 
-/** What Tables 1 and 2 compare. */
+/** What [P17, Table 1 and Table 2] compare. */
 void addTables(std::vector<Variant>& plan, const std::string& paper)
 {
     plan.push_back({"tables", "points and planes", paper, {}});
@@ -133,16 +133,28 @@ const std::vector<PublishedFigures>& publishedFigures()
     return figures;
 }
 
+std::string chosenOn(const std::string& sequence)
+{
+    const std::string planes = "limits of one plane";
+    if (sequence == "fr1/xyz")
+    {
+        return planes + ", SURF's threshold, the circle's radius";
+    }
+    const bool isOther =
+        sequence != "fr3/structure_notexture_far" && sequence != "icl_living_room_kt0";
+    return isOther ? "nothing" : planes;
+}
+
 std::vector<Variant> planVariants(const std::string& paper, const std::vector<std::string>& alphas)
 {
     std::vector<Variant> plan;
     addTables(plan, paper);
     addTukey(plan, paper);
-    for (const std::string& alpha : alphas)
+    for (const std::string& alpha : alphas)  // [P17, Fig. 3]
     {
         plan.push_back({"alpha", alpha, paper, {"PoseSolver.alpha=" + alpha}});
     }
-    plan.push_back({"corner", "planes", paper, kPlanesOnly});
+    plan.push_back({"corner", "planes", paper, kPlanesOnly});  // [P17, Fig. 5]
     plan.push_back({"corner", "points and planes", paper, {}});
     addAblations(plan, paper);
     return plan;

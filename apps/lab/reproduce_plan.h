@@ -36,6 +36,10 @@ struct PublishedFigures
 /** [P17] Tables 1 and 2, "mm / deg". */
 [[nodiscard]] const std::vector<PublishedFigures>& publishedFigures();
 
+/** Which choices of config-paper.ini a part of the sequence took part in; "nothing" for most.
+ * docs/experiments_archive.md has the figures. */
+[[nodiscard]] std::string chosenOn(const std::string& sequence);
+
 /** What `reproduce` makes, and by what name --only chooses it. */
 constexpr const char* kReproducedGroups[] = {
     "tables", "tukey", "alpha", "corner", "paper", "detectors"};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reproduce_tables.h"
 
+#include <pointplane/evaluation/compare.h>
 #include <pointplane/evaluation/units.h>
 
 #include <algorithm>
@@ -173,20 +174,89 @@ std::vector<ReproductionTable> paperTables(const Reproduction& result)
     return {first, second};
 }
 
+/** How much the error changes from one run of a sequence to another, "-8.2 [-16.4, -1.9] mm". */
+std::string changeText(
+    const Reproduction& result, std::size_t sequence, const char* from, const char* to)
+{
+    const LabScore* const a = result.score(sequence, "tables", from);
+    const LabScore* const b = result.score(sequence, "tables", to);
+    if (a == nullptr || b == nullptr)
+    {
+        return "-";
+    }
+    const Comparison both = compareRuns(
+        result.truths[sequence], {a->estimate, b->estimate}, result.rpe, AteOptions(), {});
+    const bool better = both.bestTranslation == 1;
+    const auto& behind = both.runs[better ? 0 : 1].translationBehindBest;
+    if (!behind)
+    {
+        return "-";
+    }
+    const double sign = better ? -1000 : 1000;
+    const double ends[] = {sign * behind->lower, sign * behind->upper};
+    return format(
+        "%+.1f [%+.1f, %+.1f]%s",
+        sign * behind->value,
+        std::min(ends[0], ends[1]),
+        std::max(ends[0], ends[1]),
+        behind->excludesZero() ? "" : " chance");
+}
+
+ReproductionTable chanceTable(const Reproduction& result)
+{
+    ReproductionTable table{
+        "Is it more than chance? Change of the error in mm, with its 95 % interval (bootstrap over "
+        "blocks of 1 s)",
+        {"sequence", "by weights, points alone", "by planes"},
+        {}};
+    for (std::size_t s = 0; s < result.sequences.size(); ++s)
+    {
+        table.rows.push_back(
+            {displayName(result.sequences[s]),
+             changeText(result, s, "points, unweighted", "points"),
+             changeText(result, s, "points", "points and planes")});
+    }
+    return table;
+}
+
+/** How many frames a run of the sequence had: colour images with a depth image. */
+std::string framesText(const Reproduction& result, std::size_t sequence)
+{
+    const std::size_t runs = result.variants.size();
+    for (std::size_t v = 0; v < runs; ++v)
+    {
+        if (const auto& rpe = result.scores[sequence * runs + v].rpe)
+        {
+            const Coverage& coverage = rpe->coverage;
+            return std::to_string(coverage.tracked + coverage.predicted + coverage.lost);
+        }
+    }
+    return "-";
+}
+
 ReproductionTable sequenceTable(const Reproduction& result)
 {
     ReproductionTable table{
         "Sequences",
-        {"sequence", "first stamp", "last stamp", "colour images", "in the paper"},
+        {"sequence",
+         "first stamp",
+         "last stamp",
+         "colour images",
+         "frames",
+         "in the paper",
+         "chosen on a part of it"},
         {}};
-    for (const ReproducedSequence& s : result.sequences)
+    for (std::size_t k = 0; k < result.sequences.size(); ++k)
     {
+        const ReproducedSequence& s = result.sequences[k];
         table.rows.push_back(
             {displayName(s),
              s.firstStamp,
              s.lastStamp,
              std::to_string(s.numFrames),
-             publishedOf(s.name).points.empty() ? "no" : "yes"});
+             framesText(result, k),
+             publishedOf(s.name).points.empty() ? "no" : "yes",
+             chosenOn(s.name)});
     }
     return table;
 }
@@ -204,7 +274,7 @@ ReproductionTable cornerTable(const Reproduction& result)
         const LabScore& score = result.cornerScores[k];
         table.rows.push_back(
             {name,
-             score.rpe ? format("%.1f", 1000 * score.finalError) : "failed",
+             score.rpe ? format("%.1f", 1000 * finalError(result, k)) : "failed",
              name == "planes" ? "114" : "-",
              cellText(score)});
     }
@@ -215,6 +285,20 @@ ReproductionTable cornerTable(const Reproduction& result)
 std::string displayName(const ReproducedSequence& s)
 {
     return s.name + (s.isPart ? " (part)" : "");
+}
+
+const LabScore* Reproduction::score(
+    std::size_t sequence, const std::string& group, const std::string& name) const
+{
+    for (std::size_t v = 0; v < variants.size(); ++v)
+    {
+        const LabScore& score = scores[sequence * variants.size() + v];
+        if (variants[v].group == group && variants[v].name == name && score.rpe)
+        {
+            return &score;
+        }
+    }
+    return nullptr;
 }
 
 std::string Reproduction::text(
@@ -239,6 +323,7 @@ std::vector<ReproductionTable> reproductionTables(const Reproduction& result)
         {
             out.push_back(std::move(table));
         }
+        out.push_back(chanceTable(result));
     }
     const auto addGroup = [&](const char* group, const char* caption, const char* what)
     {

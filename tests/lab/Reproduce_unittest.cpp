@@ -90,19 +90,46 @@ TEST(Reproduce, fromATumFolderToTheTables)
     writeTumFolder(dir / "sequences/rgbd_dataset_freiburg1_desk");
     const test::AppRun r = reproduce(
         dir / "sequences",
-        {"--alphas", "0,10", "--json", dir / "out.json", "--report", dir / "report"});
+        {"--alphas",
+         "0,10",
+         "--json",
+         dir / "out.json",
+         "--report",
+         dir / "report",
+         "--figure",
+         dir / "figures"});
     ASSERT_EQ(r.code, 0) << r.err;
     EXPECT_THAT(r.out, HasSubstr("Table 1"));
     EXPECT_THAT(r.out, HasSubstr("| 43 / 2.3 "));
     EXPECT_THAT(r.out, HasSubstr("| fr1/360 "));
     EXPECT_THAT(test::readBytes(dir / "report/index.html"), HasSubstr("Fig. 3: Translation"));
     EXPECT_THAT(r.out, HasSubstr("Fig. 5"));
+    EXPECT_THAT(r.out, HasSubstr("| 16            | 16     | yes          | nothing "));
+    for (const char* const figure :
+         {"fig3_translation",
+          "fig3_rotation",
+          "fig5_planes_translation",
+          "fig5_planes_rotation",
+          "fig5_points_and_planes_translation",
+          "fig5_points_and_planes_rotation"})
+    {
+        EXPECT_THAT(
+            test::readBytes(dir / (std::string("figures/paper_") + figure + ".svg")),
+            HasSubstr("</svg>"))
+            << figure;
+    }
     // 18 of the sequence and two of the corner; four repeat others (Tukey's usual constant, alpha
     // 10, SURF).
     EXPECT_THAT(r.err, HasSubstr("[16/16, 0 s left]"));
 
     const auto json = nlohmann::json::parse(test::readBytes(dir / "out.json"));
     ASSERT_EQ(json["runs"].size(), 18U);
+    ASSERT_EQ(json["corner"].size(), 2U);
+    for (const auto& run : json["corner"])
+    {
+        EXPECT_GT(run["finalError"], 0) << run;
+        EXPECT_LT(run["finalError"], 0.05) << run;
+    }
     EXPECT_EQ(json["published"].size(), 4U);
     double paperOwn = 0;
     for (const auto& run : json["runs"])
