@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <iterator>
 #include <sstream>
 #include <string>
 
@@ -80,15 +81,15 @@ TEST(ConfigFiles, theOthersHoldOnlyWhatDiffersFromTheDefaults)
     }
 }
 
-/** A value of config-paper.ini that the paper names, and where it does. */
-struct NamedByThePaper
+/** A value of the paper's configuration, and the place in the paper that asks for it. */
+struct PapersValue
 {
     const char* where;
     const char* key;
     const char* value;
 };
 
-class PapersConfiguration : public testing::TestWithParam<NamedByThePaper>
+class PapersConfiguration : public testing::TestWithParam<PapersValue>
 {
 };
 
@@ -106,36 +107,82 @@ TEST_P(PapersConfiguration, hasTheValueThatThePaperNames)
     FAIL() << "no key " << GetParam().key;
 }
 
-const NamedByThePaper kNamed[] = {
+const PapersValue kNamed[] = {
+    {"Fig. 1: points", "Pipeline.usePoints", "true"},
+    {"Fig. 1: and planes", "Pipeline.usePlanes", "true"},
     {"Point Extraction: SURF features", "PointDetector.detector", "surf"},
+    {"Point Extraction: SURF has an orientation (Bay 2006)", "PointDetector.upright", "false"},
     {"Point Extraction: sigma_p = 1/2", "DepthNoise.sigmaPixelPx", "0.5"},
     {"Point Extraction: sigma_Z = 1.425e-6 Z^2 [mm]", "DepthNoise.sigmaInverseDepth", "0.001425"},
+    {"Point Extraction: sigma_Z has no other part", "DepthNoise.sigmaDepth", "0"},
+    {"Point Extraction: sigma_Z has no other part", "DepthNoise.sigmaRelative", "0"},
     {"Eq. 2: sigma_Z of a Kinect", "DepthNoise.kind", "given"},
     {"Eq. 1: the respective depth pixel value", "PointLifter.depthModel", "nearest"},
-    {"Plane Extraction: RANSAC filters each detected plane", "PlaneExtractor.ransac", "true"},
-    {"after Eq. 3: w = sigma_Z^-2", "PlaneExtractor.fitWeights", "sigmaZ"},
-    {"Eq. 3: each pixel counts", "PlaneExtractor.correlatedPixels", "1"},
-    {"Plane Extraction: no merging", "PlaneExtractor.mergeCoplanarPlanes", "false"},
     {"Eq. 1: of one pixel", "PointLifter.minValidPixels", "1"},
     {"Eq. 1: whatever is beside it", "PointLifter.maxEdgeSigmas", "0"},
+    {"Plane Extraction: RANSAC filters each detected plane", "PlaneExtractor.ransac", "true"},
+    {"Plane Extraction: no merging", "PlaneExtractor.mergeCoplanarPlanes", "false"},
+    {"after Eq. 3: w = sigma_Z^-2", "PlaneExtractor.fitWeights", "sigmaZ"},
+    {"Eq. 3: each pixel counts", "PlaneExtractor.correlatedPixels", "1"},
+    {"Matching: descriptors", "Points.method", "match"},
     {"Matching: the closest match", "PointMatcher.maxRatio", "1"},
     {"Matching: of the frame before", "PointMatcher.crossCheck", "false"},
-    {"Matching: descriptors", "Points.method", "match"},
     {"Matching: overlap of at least 50 %", "PlaneMatcher.minOverlap", "0.5"},
     {"Matching: normals within 10 degrees", "PlaneMatcher.maxNormalAngleDeg", "10"},
     {"Matching: distances within 10 cm", "PlaneMatcher.maxDistance", "0.1"},
+    {"Matching: small frame-to-frame motion", "Pipeline.searchAround", "previous"},
+    {"Matching: consecutive frames", "Reference.reference", "adjacent"},
+    {"Matching: one search", "Reference.keyframeMinOverlap", "0"},
+    {"Fig. 1: nothing but points and planes tells the motion", "Pipeline.searchImages", "false"},
     {"Eq. 9: plane residual", "PoseSolver.planeResidual", "closestPoint"},
     {"after Eq. 10: w = 1 / diag(Sigma_r)", "PoseSolver.weighting", "diagonal"},
     {"after Eq. 10: planes have no M-estimator", "PoseSolver.planeStudentDof", "0"},
+    {"after Eq. 10: uncertainties as propagated", "NoiseScale.adaptive", "false"},
+    {"after Eq. 10: uncertainties as propagated", "NoiseScale.pointFactor", "1"},
+    {"after Eq. 10: uncertainties as propagated", "NoiseScale.planeFactor", "1"},
     {"Experiments: alpha = 10", "PoseSolver.alpha", "10"},
     {"Pose estimation: or else the decaying velocity", "Pipeline.degeneracy", "gate"},
+    {"Pose estimation: the eigenvalue decides alone", "Pipeline.leastAgreement", "0"},
     {"Pose estimation: Sigma = H^-1", "PoseSolver.covariance", "hessian"},
-    {"Matching: small frame-to-frame motion", "Pipeline.searchAround", "previous"},
-    {"Matching: consecutive frames", "Reference.reference", "adjacent"},
-    {"nothing but the velocity is predicted", "Shutter.correct", "false"},
-    {"after Eq. 10: the increment's own", "Covariance.model", "independent"},
-    {"Pose estimation: uncertainties as propagated", "NoiseScale.adaptive", "false"},
+    {"Pose estimation: that of each increment", "Covariance.model", "independent"},
+    {"nothing is said of the shutter", "Shutter.correct", "false"},
 };
 INSTANTIATE_TEST_SUITE_P(Paper, PapersConfiguration, testing::ValuesIn(kNamed));
+
+/** What the paper leaves open, and docs/theory.md calls a choice. */
+const PapersValue kChosen[] = {
+    {"Matching: a k-NN search", "PointMatcher.neighbours", "5"},
+    {"Matching: a circular region", "PointMatcher.searchRadiusPx", "50"},
+    {"Point Extraction: SURF's threshold", "PointDetector.surfThreshold", "30"},
+    {"Point Extraction: how many points", "PointDetector.maxPoints", "500"},
+    {"Point Extraction: and where", "PointDetector.gridCellPx", "40"},
+    {"Point Extraction: depths that count", "PointLifter.minDepth", "0.02"},
+    {"Point Extraction: depths that count", "PointLifter.maxDepth", "100"},
+    {"Plane Extraction: cells", "PlaneExtractor.cellSizePx", "10"},
+    {"Plane Extraction: least size", "PlaneExtractor.minPlaneFraction", "0.01"},
+    {"after Eq. 10: Tukey weights", "PoseSolver.tukeySigmas", "4.685"},
+    {"Pose estimation: a decaying velocity", "MotionModel.decay", "0.9"},
+    {"Pose estimation: a given threshold", "Pipeline.gateSigma", "0.5"},
+};
+INSTANTIATE_TEST_SUITE_P(Choice, PapersConfiguration, testing::ValuesIn(kChosen));
+
+/** No value differs from the default without a reason. */
+TEST(ConfigFiles, eachValueOfThePapersConfigurationHasItsPlaceInThePaper)
+{
+    OdometryParams params = loadOdometryParams(kRoot + "/config-paper.ini"), defaults;
+    const ParameterTable values = parametersOf(params), usual = parametersOf(defaults);
+    for (std::size_t i = 0; i < values.size(); ++i)
+    {
+        const std::string key = values[i].section + "." + values[i].key;
+        const auto isKey = [&](const PapersValue& value) { return value.key == key; };
+        if (values[i].text() != usual[i].text())
+        {
+            EXPECT_TRUE(
+                std::any_of(std::begin(kNamed), std::end(kNamed), isKey) ||
+                std::any_of(std::begin(kChosen), std::end(kChosen), isKey))
+                << key;
+        }
+    }
+}
 }  // namespace
 }  // namespace pointplane

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What only the paper's configuration does between frames.
+// What config-paper.ini does between frames.
 #include <pointplane/core/se3.h>
+#include <pointplane/mrpt_io/params_ini.h>
 
 #include <limits>
+#include <string>
 
 #include "hell_frames.h"
 #include <gmock/gmock.h>
@@ -15,19 +17,12 @@ namespace
 using test::CachedSequence;
 using test::CheckedOdometry;
 
-/** As config-paper.ini, as far as it matters here. */
-OdometryParams paper()
+OdometryParams paper() { return loadOdometryParams(POINTPLANE_SOURCE_DIR "/config-paper.ini"); }
+
+OdometryParams paperOfPlanesAlone()
 {
-    OdometryParams out;
-    out.pipeline.degeneracy = "gate";
-    out.pipeline.searchAround = "previous";
-    out.pipeline.gateSigma = 0.5;
-    out.shutter.correct = false;
-    out.points.method = "match";
-    out.reference.reference = "adjacent";
-    out.reference.keyframeMinOverlap = 0;
-    out.covariance.model = "independent";
-    out.poseSolver.covariance = "hessian";
+    OdometryParams out = paper();
+    out.pipeline.usePoints = false;
     return out;
 }
 
@@ -37,6 +32,41 @@ RgbdFrame withoutDepth(int i)
     frame.depth.setTo(std::numeric_limits<float>::quiet_NaN());
     return frame;
 }
+
+/** The corner's two walls: no depth near the floor, z = 0. */
+RgbdFrame withoutFloor(int i)
+{
+    RgbdFrame frame = CachedSequence::corner().frame(i);
+    const Eigen::Isometry3d T_world_cam = CachedSequence::corner().sequence().truth(frame.stamp);
+    for (int v = 0; v < frame.depth.rows; ++v)
+    {
+        for (int u = 0; u < frame.depth.cols; ++u)
+        {
+            float& z = frame.depth.at<float>(v, u);
+            const Eigen::Vector3d ray(
+                (u - frame.camera.cx) / frame.camera.fx,
+                (v - frame.camera.cy) / frame.camera.fy,
+                1);
+            if (!((T_world_cam * (static_cast<double>(z) * ray)).z() > 0.1))
+            {
+                z = std::numeric_limits<float>::quiet_NaN();
+            }
+        }
+    }
+    return frame;
+}
+
+/** Of the second of two frames. */
+OdometryResult secondOf(const OdometryParams& params, RgbdFrame (*frame)(int))
+{
+    CheckedOdometry odometry(params);
+    (void)odometry.process(frame(0));
+    return odometry.process(frame(1));
+}
+
+RgbdFrame wholeFrame(int i) { return CachedSequence::corner().frame(i); }
+
+Vector6d logOf(const OdometryResult& result) { return se3Log(result.increment.mean); }
 }  // namespace
 
 TEST(PapersPipeline, tracks)
@@ -49,36 +79,79 @@ TEST(PapersPipeline, tracks)
         test::IsNearPose(CachedSequence::corner().sequence().trueMotion(0, 6), 0.03, 0.03));
 }
 
-/** [P17, section Pose estimation]: fewer than three matches, or the largest eigenvalue. */
+/** [P17, section Pose estimation]: H^-1 of the last estimate; a frame that it rejects moves on as
+ * the one before. */
 TEST(PapersPipeline, theLargestEigenvalueGates)
 {
     OdometryParams params = paper();
     CheckedOdometry measured(params);
-    (void)measured.run(0, 1);
+    const Vector6d before = logOf(measured.run(0, 1));
     const OdometryResult result = measured.run(2, 2);
     ASSERT_EQ(result.status, TrackingStatus::Tracked);
     const Eigen::SelfAdjointEigenSolver<Matrix6d> es(result.increment.cov);
     const double sigma = std::sqrt(es.eigenvalues().maxCoeff());
-    params.pipeline.gateSigma = 0.9 * sigma;
-    EXPECT_THAT(CheckedOdometry(params).run(0, 2).reason, testing::HasSubstr("above gateSigma"));
+    params.pipeline.gateSigma = 1.001 * sigma;
+    EXPECT_EQ(CheckedOdometry(params).run(0, 2).status, TrackingStatus::Tracked);
+    params.pipeline.gateSigma = 0.999 * sigma;
+    CheckedOdometry gated(params);
+    (void)gated.run(0, 1);
+    const OdometryResult rejected = gated.run(2, 2);
+    EXPECT_THAT(rejected.reason, testing::HasSubstr("above gateSigma"));
+    EXPECT_THAT(logOf(rejected), test::IsMatrixNear(before, 1e-6));
 }
 
-/** Other tests of the default configuration are not the paper's. */
+/** All is a fifth farther than in the frames before: the default configuration refuses that. */
 TEST(PapersPipeline, nothingElseGates)
 {
-    OdometryParams params = paper();
-    params.pipeline.leastAgreement = 0.99;
-    EXPECT_EQ(CheckedOdometry(params).run(0, 2).status, TrackingStatus::Tracked);
+    const auto statusOfAnImpossibleFrame = [](const OdometryParams& params)
+    {
+        CheckedOdometry odometry(params);
+        (void)odometry.run(0, 3);
+        RgbdFrame frame = CachedSequence::corner().frame(4);
+        frame.depth *= 1.2;
+        return odometry.process(frame).status;
+    };
+    EXPECT_EQ(statusOfAnImpossibleFrame(paper()), TrackingStatus::Tracked);
+    EXPECT_EQ(statusOfAnImpossibleFrame({}), TrackingStatus::Predicted);
 }
 
+/** Points and planes count as one each. */
 TEST(PapersPipeline, fewerThanThreeMatchesAreNotSolvedFor)
 {
+    const OdometryResult none = secondOf(paper(), withoutDepth);
+    EXPECT_EQ(none.status, TrackingStatus::Predicted);
+    EXPECT_THAT(none.reason, testing::HasSubstr("found again: 0"));
+    EXPECT_EQ(none.diagnostics.iterations, 0);
+
+    const OdometryResult two = secondOf(paperOfPlanesAlone(), withoutFloor);
+    EXPECT_EQ(two.status, TrackingStatus::Predicted);
+    EXPECT_THAT(two.reason, testing::HasSubstr("found again: 2"));
+    EXPECT_EQ(two.diagnostics.iterations, 0);
+
+    const OdometryResult three = secondOf(paperOfPlanesAlone(), wholeFrame);
+    EXPECT_EQ(three.status, TrackingStatus::Tracked) << three.reason;
+    EXPECT_EQ(three.diagnostics.numPlanePairs, 3);
+
+    const OdometryResult both = secondOf(paper(), withoutFloor);
+    EXPECT_EQ(both.status, TrackingStatus::Tracked) << both.reason;
+    EXPECT_EQ(both.diagnostics.numPlanePairs, 2);
+}
+
+/** The first frame that is not measured moves on as the last measured one did, each that follows by
+ * nine tenths of that before. */
+TEST(PapersPipeline, theVelocityDecaysWhereNothingIsMeasured)
+{
     CheckedOdometry odometry(paper());
-    (void)odometry.run(0, 2);
-    const OdometryResult result = odometry.process(withoutDepth(3));
-    EXPECT_EQ(result.status, TrackingStatus::Predicted);
-    EXPECT_THAT(result.reason, testing::HasSubstr("found again: 0"));
-    EXPECT_EQ(result.diagnostics.iterations, 0);
+    const OdometryResult last = odometry.run(0, 3);
+    ASSERT_EQ(last.status, TrackingStatus::Tracked);
+    const Vector6d increment = logOf(last);
+    ASSERT_GT(increment.norm(), 1e-3);
+    for (int i = 4; i < 8; ++i)
+    {
+        EXPECT_THAT(
+            logOf(odometry.process(withoutDepth(i))),
+            test::IsMatrixNear(increment * std::pow(0.9, i - 4), 1e-6));
+    }
 }
 
 /** The frame before is the reference, whatever became of it: nothing is found in one without depth,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/core/covariance.h>
 #include <pointplane/planes/PlaneExtractor.h>
+#include <pointplane/planes/PlaneFitter.h>
 
 #include <Eigen/LU>
 #include <opencv2/core.hpp>
@@ -303,6 +304,40 @@ TEST_P(PlaneExtractorTest, segmentsAreTheInliersOfRansac)
     }
     EXPECT_EQ(wrong, 0);
     EXPECT_GT(inside, 0.9 * static_cast<double>(depth.total()));
+}
+
+/** [P17 Eq. 3 to 5], each inlier of RANSAC counting by itself. */
+TEST_P(PlaneExtractorTest, thePapersPlaneIsTheFitToItsSegment)
+{
+    const cv::Mat depth = noisy(test::renderRoom(camera, test::cornerThetas()));
+    PlaneExtractor::TParams params;
+    params.ransac = true;
+    params.fitWeights = "sigmaZ";
+    params.correlatedPixels = 1;
+    params.mergeCoplanarPlanes = false;
+    const PlaneSet set = extract(depth, camera, params);
+    ASSERT_EQ(set.planes.size(), 3U);
+    for (size_t k = 0; k < set.planes.size(); ++k)
+    {
+        std::vector<Eigen::Vector3d> segment;
+        for (int v = 0; v < depth.rows; ++v)
+        {
+            for (int u = 0; u < depth.cols; ++u)
+            {
+                if (set.labels.at<uchar>(v, u) == k + 1)
+                {
+                    segment.emplace_back(
+                        static_cast<double>(depth.at<float>(v, u)) * test::pixelRay(camera, u, v));
+                }
+            }
+        }
+        EXPECT_EQ(set.planes[k].numPixels, static_cast<int>(segment.size()));
+        const auto expected = fitWeightedLeastSquares(segment, {});
+        ASSERT_TRUE(expected);
+        const PlaneGaussian& plane = set.planes[k].plane_cam;
+        EXPECT_THAT(plane.theta_m, test::IsMatrixNear(expected->theta_m, 1e-9));
+        EXPECT_LT(test::whitenedDifference(plane.cov_m, expected->cov_m), 1e-6);
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(

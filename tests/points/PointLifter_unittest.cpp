@@ -63,6 +63,23 @@ TEST(PointLifter, wallByHand)
     }
 }
 
+/** [P17 Eq. 1]: "the respective depth pixel value", whatever is beside it. */
+TEST(PointLifter, nearestIsOneReading)
+{
+    RgbdFrame frame = wall(kNan);
+    frame.depth.at<float>(100, 200) = 2;
+    frame.depth.at<float>(101, 200) = 5;
+    PointLifter::TParams params = nearest();
+    params.maxEdgeSigmas = 0;
+    const auto point = PointLifter(params, DepthNoise{}).lift(frame, {200.4, 99.6});
+    ASSERT_TRUE(point);
+    EXPECT_EQ(point->p_cam.mean.z(), 2);
+    EXPECT_NEAR(point->p_cam.cov(2, 2), std::pow(1.425e-3 * 4, 2), 1e-12);
+    params.minValidPixels = 3;
+    EXPECT_FALSE(PointLifter(params, DepthNoise{}).lift(frame, {200.4, 99.6}));
+    EXPECT_FALSE(PointLifter(nearest(), DepthNoise{}).lift(frame, {200.4, 99.6})) << "at an edge";
+}
+
 TEST(PointLifter, mixtureByHand)
 {
     // Centre column at 2 m, the rest at 3 m: weights 8 and 8.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/covariance.h>
 #include <pointplane/core/se3.h>
 #include <pointplane/pose/residuals.h>
 
@@ -123,6 +124,34 @@ TEST(Residuals, closestPointIsThePapersEquation)
             (moved * (ref.n.dot(T.translation()) + ref.d) - cur.d * cur.n.transpose()).transpose();
         EXPECT_THAT(
             planeResidualClosestPoint(pair, still(T)).r, test::IsMatrixNear(expected, 1e-12));
+    }
+}
+
+/** From Sigma_theta of N and d [P17, after Eq. 6 and after Eq. 10]: the same as from theta_m. */
+TEST(Residuals, closestPointsCovarianceIsThatOfTheHessianForms)
+{
+    test::GaussianSampler sampler(8);
+    for (int i = 0; i < 50; ++i)
+    {
+        const PlanePair pair = randomPlanePair(sampler);
+        const Eigen::Isometry3d T = randomPose(sampler);
+        const auto ofForms = [&](const Eigen::Matrix<double, 8, 1>& x) -> Eigen::Vector3d
+        {
+            const Eigen::Vector3d N_ref = x.head<3>(), N_cur = x.segment<3>(4);
+            return T.linear().transpose() * N_ref * (N_ref.dot(T.translation()) + x[3]) -
+                   x[7] * N_cur;
+        };
+        const Plane ref = hessianForm(pair.ref.theta_m), cur = hessianForm(pair.cur.theta_m);
+        Eigen::Matrix<double, 8, 1> forms;
+        forms << ref.n, ref.d, cur.n, cur.d;
+        const auto J = test::numericJacobian(ofForms, forms);
+        Eigen::Matrix<double, 8, 8> cov = Eigen::Matrix<double, 8, 8>::Zero();
+        cov.topLeftCorner<4, 4>() = hessianCovariance(pair.ref);
+        cov.bottomRightCorner<4, 4>() = hessianCovariance(pair.cur);
+        EXPECT_LT(
+            test::whitenedDifference(
+                planeResidualClosestPoint(pair, still(T)).cov, propagate(J, cov)),
+            1e-5);
     }
 }
 

@@ -46,6 +46,7 @@ std::vector<double> indexOf(const Trajectory& estimate, DeltaUnit unit)
 
 using IndexPairs = std::vector<std::pair<std::size_t, std::size_t>>;
 
+/** The drift per second of [P17, section Experiments], if delta is one second. */
 IndexPairs fixedDeltaPairs(const Trajectory& estimate, const RpeOptions& options)
 {
     const std::vector<double> index = indexOf(estimate, options.unit);

@@ -209,6 +209,7 @@ void Odometry::Impl::predict(
     unmatched->points = frontEnd.pointReference(current);
     unmatched->images = frontEnd.keyframeImages(current);
     showNewPoints(unmatched->points, shown);
+    // [P17, section Matching]: consecutive frames, whatever became of the one before.
     const bool isAdjacent = params.reference.isAdjacent();
     if (!isAdjacent && unmatched->planes.planes.empty() && unmatched->points.points.empty())
     {

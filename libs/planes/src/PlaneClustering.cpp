@@ -258,6 +258,7 @@ std::vector<int> Graph::cellsOf(const Node& node) const
     return out;
 }
 
+/** The method that [P17, section Plane Extraction] names. */
 std::vector<CellCluster> Graph::cluster(double minPixels)
 {
     std::priority_queue<QueueEntry> queue;

@@ -136,6 +136,7 @@ std::vector<PlaneMatch> PlaneMatcher::match(
         {
             const Plane plane = hessianForm(cur.planes[c].plane_cam.theta_m);
             const int smaller = std::min(counts.ref[r], counts.cur[c]);
+            // [P17, section Matching]: overlap, angle, distance.
             if (counts.common[r][c] >= params_.minOverlap * std::max(1, smaller) &&
                 moved.n.dot(plane.n) > minCosine &&
                 std::abs(moved.d - plane.d) < params_.maxDistance)

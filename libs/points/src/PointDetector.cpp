@@ -23,7 +23,7 @@ using KeyPoints = std::vector<cv::KeyPoint>;
 
 constexpr int kOrbBorderPx = 31;  // OpenCV's ORB drops points nearer to the border
 
-/** OpenCV's SURF, or null where OpenCV was built without it. */
+/** OpenCV's SURF [P17, section Point Extraction], or null where OpenCV was built without it. */
 cv::Ptr<cv::Feature2D> openCvSurf([[maybe_unused]] const PointDetector::TParams& params)
 {
 #ifdef POINTPLANE_HAVE_XFEATURES2D
@@ -97,6 +97,7 @@ struct PointDetector::Impl
         return out;
     }
 
+    /** dlib's SURF [P17, section Point Extraction]. */
     KeyPoints surf(const cv::Mat& gray, const cv::Mat& mask, cv::Mat& descriptors) const
     {
         const DlibSurf surf(gray);

@@ -96,7 +96,7 @@ std::optional<PointFeature> PointLifter::lift(
     }
     if (params_.depthModel == "nearest")
     {
-        reading.z = static_cast<double>(frame.depth.at<float>(v, u));
+        reading.z = static_cast<double>(frame.depth.at<float>(v, u));  // [P17 Eq. 1]
         reading.sigma = noise_.sigmaZ(reading.z);
         if (!(reading.z >= params_.minDepth && reading.z <= params_.maxDepth))
         {

@@ -119,7 +119,7 @@ float descriptorDistance(const cv::Mat& a, int rowA, const cv::Mat& b, int rowB)
     return std::sqrt(squaredL2(a.ptr<float>(rowA), b.ptr<float>(rowB), a.cols));
 }
 
-/** The k current points of nearest descriptor, nearest first. */
+/** The k current points of nearest descriptor, nearest first [P17, section Matching]. */
 std::vector<int> nearestDescriptors(const cv::Mat& refs, int ref, const cv::Mat& curs, int k)
 {
     std::vector<std::pair<float, int>> all;
@@ -185,6 +185,7 @@ std::vector<PointMatch> PointMatcher::match(
         const auto consider = [&](int cur)
         {
             const auto c = static_cast<size_t>(cur);
+            // [P17, section Matching]: the circle around p.
             if (!((cur_px[c] - centre).squaredNorm() <= radius * radius))
             {
                 return;

@@ -122,13 +122,14 @@ NormalEquations::Weighted NormalEquations::weighted(size_t i, const Motion& moti
     }
     else
     {
-        out.W = Eigen::Matrix3d::Identity() / (kUnweightedSigma * kUnweightedSigma);
+        out.W =
+            Eigen::Matrix3d::Identity() / (kUnweightedSigma * kUnweightedSigma);  // [P17, Table 1]
     }
     out.squaredNorm = residual.r.dot(out.W * residual.r);
     return out;
 }
 
-/** Weight and cost of a squared Mahalanobis norm. */
+/** Weight and cost of a squared Mahalanobis norm [P17, after Eq. 10]. */
 std::pair<double, double> NormalEquations::robust(double squaredNorm, bool isPoint) const
 {
     const double limit = solver_.params.tukeySigmas * scale_;
@@ -146,7 +147,7 @@ std::pair<double, double> NormalEquations::robust(double squaredNorm, bool isPoi
 
 double NormalEquations::gain(size_t i) const
 {
-    return isPoint(i) ? 1 / noise_.points : solver_.params.alpha / noise_.planes;
+    return isPoint(i) ? 1 / noise_.points : solver_.params.alpha / noise_.planes;  // [P17 Eq. 10]
 }
 
 void NormalEquations::add(FeatureSum& sum, size_t i) const

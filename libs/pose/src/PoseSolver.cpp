@@ -61,7 +61,7 @@ struct RobustPrior
     }
 };
 
-/** Levenberg-Marquardt. */
+/** Levenberg-Marquardt [P17, section Pose estimation]. */
 class Descent
 {
  public:

@@ -52,7 +52,7 @@ Residual pointResidual(const PointPair& pair, const Motion& motion)
         motion.T_prev_cur * (pair.cur.mean + pair.dCur_dV * motion.velocity);
     out.r = pair.ref.mean - p_prev;  // [P17 Eq. 8]
     out.curCov = propagate(R, pair.cur.cov);
-    out.cov = pair.ref.cov + out.curCov;
+    out.cov = pair.ref.cov + out.curCov;  // [P17, after Eq. 10]
     out.J << -Eigen::Matrix3d::Identity(), hat(p_prev);
     out.J_V = -R * pair.dCur_dV;
     out.ofCamera = pair.dRef_dCamera - R * pair.dCur_dCamera;
@@ -93,7 +93,7 @@ Residual planeResidualClosestPoint(const PlanePair& pair, const Motion& motion)
     Residual out;
     out.r = reference.C - cur.C;  // [P17 Eq. 9]
     out.curCov = propagate(cur.J, pair.cur.cov_m);
-    out.cov = propagate(byReference, pair.ref.cov_m) + out.curCov;
+    out.cov = propagate(byReference, pair.ref.cov_m) + out.curCov;  // [P17, after Eq. 10]
     // T_cur_prev exp(-xi) moves the reference.
     out.J = -byReference * jacobianOfTransform(pair.ref.theta_m);
     out.J_V = -cur.J * pair.dCur_dV;

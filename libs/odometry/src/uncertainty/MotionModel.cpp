@@ -201,7 +201,8 @@ void MotionModel::coast(double dt)
 {
     increment_.reset();
     atIncrementsEnd_.reset();
-    // What decays is uncertain by as much as it decays; the rest is white acceleration.
+    // [P17, section Pose estimation]. What decays is uncertain by as much as it decays; the rest is
+    // white acceleration.
     const Vector6d decayed = (1 - std::pow(params_.decay, dt / kFramePeriod)) * velocity_;
     velocity_ -= decayed;
     const double t = std::min(dt, kLongestCoasting - coasting_);

@@ -43,7 +43,7 @@ ShutterModel ShutterCalibrator::complete(const ShutterModel& source) const
 {
     if (!params_.correct)
     {
-        return {0, 0, 0};
+        return {0, 0, 0};  // [P17] says nothing of it
     }
     const auto known = [](double a, double b) { return std::isfinite(a) ? a : b; };
     return {
