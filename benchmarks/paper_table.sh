@@ -33,5 +33,10 @@ done
     echo
     cat "$work/figures.md"
     echo
+    for picture in docs/figures/paper_fig*.svg; do
+        picture=${picture##*/}
+        title=$(sed -E 's/^paper_fig([0-9])_(.*)[.]svg$/Fig. \1: \2/; y/_/ /' <<<"$picture")
+        printf '![%s](figures/%s)\n\n' "$title" "$picture"
+    done
 } >"$work/page.md"
 replace docs/paper_figures.md figures "$work/page.md"
