@@ -81,6 +81,7 @@ function(pointplane_add_test lib concept)
   add_executable(${target} ${CMAKE_CURRENT_SOURCE_DIR}/${concept}_unittest.cpp)
   target_link_libraries(${target} PRIVATE ${ARG_LINK} GTest::gtest GTest::gmock GTest::gtest_main)
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/tests/support)
+  target_precompile_headers(${target} REUSE_FROM test_headers)
   pointplane_target_defaults(${target})
   set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   gtest_discover_tests(${target} TEST_PREFIX "${lib}/" DISCOVERY_TIMEOUT 60

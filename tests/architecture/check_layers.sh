@@ -39,6 +39,8 @@ done
 fail "MRPT stays behind mrpt_io" \
     "$(grep -rnE --exclude-dir=mrpt_io --exclude-dir=grabber '#include <mrpt/' libs)"
 fail "OpenCV is not for" "$(grep -rnE '#include <opencv2/' libs/core libs/pose libs/evaluation)"
+fail "a header may be read twice: it begins with #pragma once" \
+    "$(grep -rL --include='*.h' '^#pragma once' libs apps)"
 fail "mrpt::vision is not for new code" "$(grep -rnE 'mrpt/vision' libs apps)"
 fail "libraries do not print, nor read the environment" \
     "$(grep -rnE 'std::(cout|cerr|clog)|(^|[^a-z])f?printf\(|getenv' libs | grep -vE ':[0-9]+: *(\*|//|/\*)')"

@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
-# Runs the commands of README's table of tools, of docs/evaluation.md and of docs/tutorials as they
-# are written; the first two on a short simulated recording under the names that stand there.
-# commands.sh BUILD WORK
+# Runs the commands of README, docs and docs/tutorials as they are written; outside of the tutorials on
+# a short simulated recording under the names that stand there. commands.sh BUILD WORK
 set -uo pipefail
 build=$(realpath "$1") work=$2
 root=$(realpath "$(dirname "${BASH_SOURCE[0]}")/../..")
@@ -37,26 +36,39 @@ for name in A B C; do
     ln -s EST $name
 done
 if [[ -n ${POINTPLANE_DATA:-} ]]; then
-    ln -s "$POINTPLANE_DATA/tum_fr1_xyz_part" rgbd_dataset_freiburg1_xyz
+    # Two seconds of it are enough here.
+    mkdir rgbd_dataset_freiburg1_xyz
+    ln -s "$POINTPLANE_DATA"/tum_fr1_xyz_part/* rgbd_dataset_freiburg1_xyz/
+    for list in rgb depth; do
+        rm rgbd_dataset_freiburg1_xyz/$list.txt
+        head -75 "$POINTPLANE_DATA/tum_fr1_xyz_part/$list.txt" >rgbd_dataset_freiburg1_xyz/$list.txt
+    done
 fi
 
-while read -r command; do
-    case $command in
-        pointplane-simulate*) run 0 "$command --duration 0.5" ;;  # 18 s otherwise, in the same way
-        pointplane-grabber*) [[ -e /dev/bus/usb ]] || run 3 "$command" ;;  # no camera here
-        pointplane-convert*) [[ -z ${POINTPLANE_DATA:-} ]] || run 0 "$command" ;;
-        *) run 0 "$command" ;;
-    esac
-done < <(sed -nE 's/^\| `(pointplane-[^`]+)`.*/\1/p' "$root/README.md")
+# commands PAGE: of README the first column of its table; of all pages the indented lines. A backslash at
+# the end goes on. pointplane-camera and pointplane-status are comments of rawlogs.
+commands() {
+    sed -nE 's/^\| `(pointplane-[^`]+)`.*/\1/p' "$1"
+    sed -nE 's/^    //p' "$1" | sed -E ':a; /\\$/{N; s/\\\n//; ba}; s/ #.*//' |
+        grep -E '^pointplane-[a-z]+ ' | grep -vE '^pointplane-(camera|status) '
+}
 
-# Of the documents, the indented lines; a backslash at the end goes on.
-while read -r command; do
-    case $command in
-        pointplane-lab*) ;;  # minutes, of sequences that are not here; tests/lab has it
-        *) run 0 "$command" ;;
-    esac
-done < <(sed -nE 's/^    //p' "$root/docs/evaluation.md" | sed -E ':a; /\\$/{N; s/\\\n//; ba}; s/ #.*//' |
-    grep -E '^pointplane-')
+for page in README docs/evaluation docs/config docs/simulation docs/grabber docs/rawlogs; do
+    before=$count
+    while read -r command; do
+        case $command in
+            pointplane-simulate*) run 0 "$command --duration 1.5 --size 320x240" ;;  # 18 s otherwise
+            pointplane-grabber*) [[ -e /dev/bus/usb ]] || run 3 "$command" ;;  # no camera here
+            pointplane-convert\ tum* | *fr1_xyz*) [[ -z ${POINTPLANE_DATA:-} ]] || run 0 "$command" ;;
+            # Recordings that are not here: tests/apps has such ones.
+            pointplane-convert*) ;;
+            # Minutes, of sequences that are not here; tests/lab has it.
+            pointplane-lab*) ;;
+            *) run 0 "$command" ;;
+        esac
+    done < <(commands "$root/$page.md")
+    ((count > before)) || [[ -z ${POINTPLANE_DATA:-} ]] || { echo "$page: no commands"; failed=1; }
+done
 
 # Each tutorial from its beginning, in a folder of its own.
 for tutorial in "$root"/docs/tutorials/*.md; do
@@ -64,15 +76,7 @@ for tutorial in "$root"/docs/tutorials/*.md; do
     mkdir "$name" && cd "$name" || exit 1
     if grep -q rgbd_dataset_freiburg1_xyz "$tutorial"; then
         [[ -n ${POINTPLANE_DATA:-} ]] || { cd ..; continue; }
-        # Two seconds of it are enough here.
-        mkdir rgbd_dataset_freiburg1_xyz
-        for file in "$POINTPLANE_DATA"/tum_fr1_xyz_part/*; do
-            ln -s "$file" rgbd_dataset_freiburg1_xyz/
-        done
-        for list in rgb depth; do
-            rm rgbd_dataset_freiburg1_xyz/$list.txt
-            head -75 "$POINTPLANE_DATA/tum_fr1_xyz_part/$list.txt" >rgbd_dataset_freiburg1_xyz/$list.txt
-        done
+        ln -s ../rgbd_dataset_freiburg1_xyz .
     fi
     before=$count
     while read -r command; do

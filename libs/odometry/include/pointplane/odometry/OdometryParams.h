@@ -43,9 +43,9 @@ struct PipelineParams
         v("degeneracy",
           degeneracy,
           "-",
-          "what to do if a frame does not tell all six directions, like one of a single "
-          "wall: fuse (the predicted motion tells the others) or gate (the whole frame is "
-          "predicted, as in the paper)");
+          "what to do if a frame does not show all six directions of the motion, as when "
+          "only one wall is in view: fuse (take the others from the predicted motion) or "
+          "gate (predict the whole frame, as in the paper)");
         v("gateSigma",
           gateSigma,
           "m, rad",
@@ -54,8 +54,9 @@ struct PipelineParams
         v("leastAgreement",
           leastAgreement,
           "-",
-          "fraction of the surfaces in view that the depth image must show where the "
-          "motion puts them; if it shows less, the frame is predicted; 0 = no check");
+          "check of the result: the depth image must show at least this fraction of the "
+          "known surfaces where the motion puts them; else the frame is predicted; 0 = no "
+          "check");
         v("searchImages",
           searchImages,
           "-",

@@ -46,8 +46,8 @@ class ReferenceWindow
             v("maxPlaces",
               maxPlaces,
               "-",
-              "number of older key frames, apart from each other, in which a lost camera can "
-              "find itself again; about 2 MB each at 640 x 480");
+              "number of older key frames that are kept, so that a lost camera can find its "
+              "place again; about 2 MB each at 640 x 480");
         }
         /** \throws std::invalid_argument naming the key */
         void check() const;

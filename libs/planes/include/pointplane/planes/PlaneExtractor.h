@@ -73,7 +73,7 @@ class PlaneExtractor
             v("correlatedPixels",
               correlatedPixels,
               "px",
-              "number of pixels that err as one: factor on a plane's covariance");
+              "neighbouring pixels share errors: factor on a plane's covariance");
         }
         /** \throws std::invalid_argument naming the key */
         void check() const;

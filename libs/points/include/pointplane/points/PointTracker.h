@@ -57,7 +57,7 @@ class PointTracker
             v("maxNoisePx",
               maxNoisePx,
               "px",
-              "a direction counts as not measured if the image's noise moves a point by more "
+              "a point counts only in directions in which the image's noise moves it by less "
               "than this");
             v("windowPx", windowPx, "px", "side of the patch that is searched for");
             v("numLevels", numLevels, "-", "levels of the image pyramid");
@@ -74,7 +74,8 @@ class PointTracker
             v("depthVarianceFactor",
               depthVarianceFactor,
               "-",
-              "factor on the variance of a corner's inverse depth: depth is worse at texture");
+              "factor on the variance of a corner's inverse depth, because depth is worse at "
+              "texture");
         }
         /** \throws std::invalid_argument naming the key */
         void check() const;

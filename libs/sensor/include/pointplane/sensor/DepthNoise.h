@@ -83,8 +83,8 @@ struct DepthNoise
         v("sigmaInverseDepth",
           sigmaInverseDepth,
           "1/m",
-          "noise of the inverse depth where it is not learnt: sigma_Z = this * Z^2 "
-          "(default: Khoshelham's for a Kinect)");
+          "noise of depth where it is not learnt: sigma_Z = this * Z^2 (default: a Kinect, "
+          "by Khoshelham)");
         v("sigmaDepth", sigmaDepth, "m", "if given: noise that is the same at all depths");
         v("sigmaRelative",
           sigmaRelative,

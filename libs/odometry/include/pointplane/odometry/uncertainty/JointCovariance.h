@@ -46,39 +46,41 @@ class JointCovariance
             v("noise",
               noise,
               "-",
-              "factor on the variance of a frame's own points and planes (1 = as learnt)");
+              "noise of one frame's points and planes: factor on the variance that was learnt");
             v("viewSigma",
               viewSigma,
               "-",
-              "error that all features of a frame share, alike in frames that see the scene from "
-              "the same place: standard deviation as a fraction of the scene's distance");
+              "error that all features of a frame share, because of where the camera stands: "
+              "standard deviation, as a fraction of the scene's distance; frames from the same "
+              "place err alike");
             v("motion",
               motion,
               "-",
-              "factor on the variance of how the motion changes; small, because the solver is "
-              "told of more, so that it believes jerks");
+              "uncertainty of the predicted motion: factor on the variance of how the motion "
+              "changes; it matters where images do not show the motion");
             v("vignetting",
               vignetting,
               "-",
-              "how much darker the image's corners are than its centre (standard deviation); "
-              "where shading tells the motion, it looks like motion");
+              "how much darker the image's corners may be than its centre (standard deviation, "
+              "fraction of the brightness); the odometry can take this for motion");
             v("principalPoint",
               principalPoint,
               "px",
-              "how well the camera is calibrated: standard deviation of cx and cy");
+              "error of the calibration: standard deviation of cx and cy");
             v("focalLength",
               focalLength,
               "-",
-              "the same of fx and fy together, as a fraction of them");
+              "error of the calibration: standard deviation of fx and fy together, as a "
+              "fraction");
             v("depthScale",
               depthScale,
               "-",
-              "standard deviation of the scale of all depths, as a fraction");
+              "error of the depth camera: standard deviation of the scale of all depths, as a "
+              "fraction");
             v("history",
               history,
               "frames",
-              "how many frames back the motion is known with its own covariance (--since "
-              "raises it)");
+              "covariances of motions are kept for this many frames back (--since raises it)");
         }
         /** \throws std::invalid_argument naming the key */
         void check() const;

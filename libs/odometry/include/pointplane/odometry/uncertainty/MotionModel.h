@@ -43,7 +43,7 @@ class MotionModel
             v("sigmaAcceleration",
               sigmaAcceleration,
               "m/s^2",
-              "acceleration of a jerk that was not foreseen (standard deviation)");
+              "sudden acceleration that is still followed (standard deviation)");
             v("sigmaAngularAcceleration",
               sigmaAngularAcceleration,
               "rad/s^2",

@@ -36,8 +36,7 @@ class NoiseScale
             v("pointFactor",
               pointFactor,
               "-",
-              "factor on the variance of points when they are weighed against the predicted "
-              "motion");
+              "factor on the variance of points; larger = trust the predicted motion more");
             v("planeFactor", planeFactor, "-", "the same of planes");
         }
         /** \throws std::invalid_argument naming the key */

@@ -31,8 +31,8 @@ class ShutterCalibrator
             v("correct",
               correct,
               "-",
-              "correct for motion while an image is exposed; false: an image counts as one "
-              "instant, whatever the recording says (as in the paper)");
+              "correct for the camera's motion while it takes an image, row by row; false: all "
+              "rows count as taken at once, whatever the recording says (as in the paper)");
             v("readoutColour",
               readoutColour,
               "s",
@@ -55,7 +55,8 @@ class ShutterCalibrator
             v("varianceFactor",
               varianceFactor,
               "-",
-              "so many frames count as one, because frames repeat each other's errors");
+              "this many frames teach as much as one, because neighbouring frames have the same "
+              "errors");
         }
         /** \throws std::invalid_argument naming the key */
         void check() const;
