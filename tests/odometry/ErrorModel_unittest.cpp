@@ -67,6 +67,19 @@ TEST_F(ErrorModelTest, aFrameErrsByItsView)
     EXPECT_NEAR(learn().viewSigma[0], 2 * out.viewSigma[0], 1e-15);
 }
 
+TEST_F(ErrorModelTest, aSmoothErrorOfDepthIsPassedOn)
+{
+    analysis.sensitivity.patches.setConstant(2);
+    analysis.sensitivity.referencePatches[1].setConstant(3);
+    ErrorModel model(params);
+    ErrorModel::Measured frame{{&reference}, estimate, analysis, 1e-9, Matrix12d::Zero()};
+    frame.bend = 0.1;
+    const JointCovariance::Measurement out = model.learn(frame);
+    EXPECT_NEAR(out.bendVariance, 0.01, 1e-15);
+    EXPECT_EQ(out.patches(0, 5), 2);
+    EXPECT_EQ(out.referencePatches.at(1)(0, 5), 3);
+}
+
 /** Points and planes that a frame does not have say nothing of what it errs by. */
 TEST_F(ErrorModelTest, onlyTheKindsThatAFrameHasCount)
 {

@@ -16,6 +16,8 @@ namespace pointplane
 {
 namespace
 {
+using PatchVector = Eigen::Matrix<double, kNumPatches, 1>;
+
 constexpr double kFrame = 1.0 / 30;
 
 const Eigen::Isometry3d kAtRest = Eigen::Isometry3d::Identity();
@@ -145,6 +147,44 @@ TEST(JointCovariance, aFramesOwnErrorIsNotAveragedByManyReferences)
     // 4 of frame 3 and 4 of frame 1; what frame 2 errs by is in its pose, too, and cancels.
     EXPECT_THAT(seenFromElsewhere(0), isTimesIdentity(8));
     EXPECT_THAT(seenFromElsewhere(0.9), isTimesIdentity(8));
+}
+
+/** A frame that is measured against one reference, with an error of 2 patches' scale and no other.
+ */
+JointCovariance::Measurement bentAgainst(int reference)
+{
+    JointCovariance::Measurement out;
+    out.references[reference] << Matrix6d::Identity(), Matrix6d::Zero();
+    out.bendVariance = 0.25;
+    out.patches(0, 3) = 2;
+    out.referencePatches[reference] = -out.patches;
+    return out;
+}
+
+/** What a reference's image errs by is the same in all frames that are compared with it. */
+TEST(JointCovariance, smoothErrorsOfAReferenceAreCommon)
+{
+    JointCovariance joint = started();
+    for (int frame = 2; frame <= 6; ++frame)
+    {
+        joint.measure(frame, kAtRest, kFrame, bentAgainst(1));
+        joint.keep({1});
+        EXPECT_NEAR(joint.latest()(0, 0), 2 * 4 * 0.25, 1e-12) << "both images";
+        EXPECT_NEAR(joint.latest()(1, 1), 0, 1e-12);
+    }
+    EXPECT_NEAR(joint.relative(3, kAtRest)(0, 0), 2 * 4 * 0.25, 1e-12) << "without the reference";
+}
+
+/** By what a frame erred when it was measured, it errs the other way as a reference. */
+TEST(JointCovariance, smoothErrorsFromFrameToFrameDoNotAddUp)
+{
+    JointCovariance joint = started();
+    for (int frame = 2; frame <= 12; ++frame)
+    {
+        joint.measure(frame, kAtRest, kFrame, bentAgainst(frame - 1));
+        joint.keep({frame});
+        EXPECT_NEAR(joint.latest()(0, 0), 2 * 4 * 0.25, 1e-12);
+    }
 }
 
 /** Where nothing but the motion model tells the pose, an error of the velocity goes on. */
@@ -375,6 +415,13 @@ TEST(JointCovariance, monteCarlo)
         m.camera.bottomRightCorner<6, 3>().setConstant(0.4);
         m.cameraGain = 0.8 * CameraMatrix::Identity();
         m.cameraNoise = setup.covariance<kNumCameraErrors>(0.01, 0.1);
+        m.bendVariance = 0.3;
+        m.patches = 0.2 * setup.vector<12>() * setup.vector<kNumPatches>().transpose();
+        for (const int reference : {0, k - 1})
+        {
+            m.referencePatches[reference] =
+                0.2 * setup.vector<12>() * setup.vector<kNumPatches>().transpose();
+        }
         joint.measure(k, poses.back(), 0.5, m);
         joint.keep({0, k - 1, k});
         measurements.push_back(m);
@@ -387,6 +434,11 @@ TEST(JointCovariance, monteCarlo)
     {
         std::vector<Vector6d> pose{sampler.sample(startCov)};
         const std::vector<Vector6d> view = sampledViews(kFrames, sampler);
+        std::vector<PatchVector> bends;
+        for (int k = 0; k < kFrames; ++k)
+        {
+            bends.emplace_back(std::sqrt(0.3) * sampler.vector<kNumPatches>());
+        }
         Vector6d velocity = Vector6d::Zero();
         CameraVector camera = sampler.sample(cameraCov);
         for (int k = 1; k < kFrames; ++k)
@@ -406,6 +458,11 @@ TEST(JointCovariance, monteCarlo)
                     change *
                     (toBase * pose[reference] +
                      m.viewSigma.cwiseProduct(view[static_cast<size_t>(k)] - view[reference]));
+            }
+            shared += m.patches * bends[static_cast<size_t>(k)];
+            for (const auto& [frame, change] : m.referencePatches)
+            {
+                shared += change * bends[static_cast<size_t>(frame)];
             }
             shared += sampler.sample(m.noise);
             pose.push_back(Ad * shared.head<6>());

@@ -15,6 +15,8 @@ namespace pointplane
 {
 namespace
 {
+using PatchVector = Eigen::Matrix<double, kNumPatches, 1>;
+
 struct Solved
 {
     PoseEstimate estimate;
@@ -50,6 +52,38 @@ PoseProblem makeProblem(unsigned seed)
     predicted.cov = world.sampler().covariance<12>(1e-5, 1e-4);
     out.prior = MotionPrior::from(predicted);
     return out;
+}
+
+/** The same with a smooth error of depth: each point is in one patch of each image. */
+PoseProblem makeBentProblem(unsigned seed)
+{
+    PoseProblem out = makeProblem(seed);
+    for (size_t i = 0; i < out.points.size(); ++i)
+    {
+        PointPair& pair = out.points[i];
+        pair.dRef_dCamera.col(kDepthScale) = pair.ref.mean;
+        pair.dCur_dCamera.col(kDepthScale) = pair.cur.mean;
+        pair.refPatch = static_cast<int>(i) % 3;
+        pair.curPatch = static_cast<int>(i) % 5;
+    }
+    return out;
+}
+
+/** Scales the depth of the points in each patch of the current image, and of one reference's. */
+void bend(
+    PoseProblem& problem,
+    const PatchVector& current,
+    int reference = 0,
+    const PatchVector& ofReference = PatchVector::Zero())
+{
+    for (PointPair& pair : problem.points)
+    {
+        pair.cur.mean += current[pair.curPatch] * pair.dCur_dCamera.col(kDepthScale);
+        if (pair.reference == reference)
+        {
+            pair.ref.mean += ofReference[pair.refPatch] * pair.dRef_dCamera.col(kDepthScale);
+        }
+    }
 }
 
 /** Squared change of residuals over the features' covariance, for each pair. */
@@ -205,6 +239,70 @@ TEST(Sensitivity, toErrorsOfTheCamera)
             << k;
         EXPECT_GT(expected.head<6>().norm(), 1e-4);
     }
+}
+
+TEST(Sensitivity, toTheScaleOfDepthInPatches)
+{
+    const PoseProblem problem = makeBentProblem(87);
+    const Solved solved = solve(problem);
+    const Sensitivity& of = solved.analysis.sensitivity;
+    for (const int patch : {0, 2, 4})
+    {
+        const PatchVector scale = 0.001 * PatchVector::Unit(patch);
+        PoseProblem bent = problem;
+        bend(bent, scale);
+        EXPECT_THAT(
+            change(solved.estimate, solve(bent).estimate),
+            test::IsMatrixNear(Vector12d(of.patches * scale), 1e-5))
+            << patch;
+        bent = problem;
+        bend(bent, PatchVector::Zero(), 2, scale);
+        EXPECT_THAT(
+            change(solved.estimate, solve(bent).estimate),
+            test::IsMatrixNear(Vector12d(of.referencePatches.at(2) * scale), 1e-5))
+            << patch;
+    }
+    EXPECT_GT((of.patches * 0.001 * PatchVector::Unit(2)).norm(), 1e-4);
+    EXPECT_TRUE(of.patches.rightCols<11>().isZero(0)) << "patches without points";
+}
+
+/** All patches of all images scaled alike: an error of the camera. */
+TEST(Sensitivity, toAllPatchesIsThatToTheScaleOfDepth)
+{
+    const Sensitivity of = solve(makeBentProblem(88)).analysis.sensitivity;
+    Vector12d sum = of.patches * PatchVector::Ones();
+    for (const auto& [reference, change] : of.referencePatches)
+    {
+        sum += change * PatchVector::Ones();
+    }
+    EXPECT_THAT(sum, test::IsMatrixNear(Vector12d(of.camera.col(kDepthScale)), 1e-9));
+    EXPECT_GT(sum.norm(), 1e-3);
+}
+
+/** Points of a patch err together, and do not average. */
+TEST(Sensitivity, errorsOfPatchesAreAsLargeAsTold)
+{
+    constexpr int kRuns = 1000;
+    constexpr double kBend = 0.002;
+    const PoseProblem problem = makeBentProblem(89);
+    const Solved solved = solve(problem);
+    test::GaussianSampler sampler(90);
+    std::vector<Vector6d> errors;
+    for (int run = 0; run < kRuns; ++run)
+    {
+        PoseProblem bent = problem;
+        bend(bent, kBend * sampler.vector<kNumPatches>());
+        errors.push_back(change(solved.estimate, solve(bent).estimate).head<6>());
+    }
+    const Matrix12d told = kBend * kBend * solved.analysis.sensitivity.patches *
+                           solved.analysis.sensitivity.patches.transpose();
+    // Five patches with points span five directions; the sixth is made definite alike.
+    const Matrix6d floor = 1e-3 * told.topLeftCorner<6, 6>().trace() / 6 * Matrix6d::Identity();
+    EXPECT_LT(
+        test::whitenedDifference(
+            Matrix6d(test::sampleCovariance(errors) + floor),
+            Matrix6d(told.topLeftCorner<6, 6>() + floor)),
+        0.3);
 }
 
 /** Features that err by the camera alone: where motion and camera are told apart, the residuals say

@@ -39,6 +39,7 @@ Features FrontEnd::extract(const RgbdFrame& frame, FrameDiagnostics& diagnostics
     pointStage_.setNoise(depthNoise_.noise());
     imageAligner_.setNoise(depthNoise_.noise());
     diagnostics.depthNoise = depthNoise_.noise();
+    out.bend = depthNoise_.noise().sigmaRelative;
     const auto points = [&]
     {
         const Stopwatch watch;

@@ -179,7 +179,8 @@ void Odometry::Impl::measure(const Features& current, Alignment& alignment, Odom
          dt,
          track.motionNoise(dt),
          track.acceleration2(),
-         errors.shutter().complete(current.frame.shutter)});
+         errors.shutter().complete(current.frame.shutter),
+         current.bend});
     showPairs(alignment.associations, &analysis, shown);
     shown.moving = Aligner::findMoving(frontEnd, current, track, errors, alignment);
     const bool isKeyframe =

@@ -6,6 +6,7 @@
 #include <pointplane/odometry/uncertainty/camera_errors.h>
 #include <pointplane/pose/residuals.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace pointplane
@@ -21,6 +22,17 @@ int cellOf(const Eigen::Vector2d& uv_px)
     constexpr int kCellsPerRow = 10000;
     return static_cast<int>(std::floor(uv_px.y() / kSameCorner)) * kCellsPerRow +
            static_cast<int>(std::floor(uv_px.x() / kSameCorner));
+}
+
+/** Number of the patch of the image that the pixel is in. */
+int patchOf(const Eigen::Vector2d& uv_px, const PinholeCamera& camera)
+{
+    const auto part = [](double at_px, int size_px)
+    {
+        return std::clamp(
+            static_cast<int>(kPatchesPerSide * (at_px + 0.5) / size_px), 0, kPatchesPerSide - 1);
+    };
+    return kPatchesPerSide * part(uv_px.y(), camera.height) + part(uv_px.x(), camera.width);
 }
 }  // namespace
 
@@ -73,6 +85,11 @@ void PairBuilder::build(
             pair.reference = reference.id;
             pair.inReference = track.ref;
             pair.feature = cellOf(cur.uv_px);
+            if (current_.bend > 0)
+            {
+                pair.refPatch = patchOf(ref.uv_px, camera);
+                pair.curPatch = patchOf(cur.uv_px, camera);
+            }
             points.push_back(pair);
         }
     }

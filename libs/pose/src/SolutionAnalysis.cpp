@@ -74,9 +74,34 @@ Sensitivity SolutionAnalysis::sensitivity() const
             *all -= change;
         }
     }
+    addPatches(out);
     out.points = propagate(H_inverse_, currentNoise(problem_.points, 0));
     out.planes = propagate(H_inverse_, currentNoise(problem_.planes, problem_.points.size()));
     return out;
+}
+
+/** With all depths of a patch larger by the part s, a point P of it becomes (1 + s) P. */
+void SolutionAnalysis::addPatches(Sensitivity& out) const
+{
+    for (size_t i = 0; i < problem_.points.size(); ++i)
+    {
+        const PointPair& pair = problem_.points[i];
+        if (pair.refPatch < 0 || pair.curPatch < 0)
+        {
+            continue;
+        }
+        const Matrix123d influence = equations_.influence(i);
+        const Eigen::Vector3d ofRef = pair.dRef_dCamera.col(kDepthScale);
+        out.referencePatches.emplace(pair.reference, MotionByPatches::Zero())
+            .first->second.col(pair.refPatch) -= influence * ofRef;
+        out.patches.col(pair.curPatch) +=
+            influence * (ofRef - equations_.residual(i).ofCamera.col(kDepthScale));
+    }
+    out.patches = (H_inverse_ * out.patches).eval();
+    for (auto& [reference, change] : out.referencePatches)
+    {
+        change = (H_inverse_ * change).eval();
+    }
 }
 
 /** Covariance of the gradient by the current frame's features, as propagated. A feature that is

@@ -46,6 +46,7 @@ class SolutionAnalysis
     /** \param offset of the pairs' first residual */
     template <class Pairs>
     [[nodiscard]] Groups byReference(const Pairs& pairs, size_t offset) const;
+    void addPatches(Sensitivity& out) const;
     template <class Pairs>
     [[nodiscard]] Matrix12d currentNoise(const Pairs& pairs, size_t offset) const;
     template <class Pairs>

@@ -77,6 +77,9 @@ JointCovariance::Measurement ErrorModel::errorsOf(
     const double ofPlanes = std::max(1.0, frame.analysis.planeVariance / usual.planes);
     out.references = of.references;
     out.camera = of.camera;
+    out.bendVariance = frame.bend * frame.bend;
+    out.patches = of.patches;
+    out.referencePatches = of.referencePatches;
     out.noise = params_.noise *
                     (ofPoints * white.points * of.points + ofPlanes * white.planes * of.planes) +
                 accelerationWhileExposed(of, frame.shutter, frame.acceleration2);

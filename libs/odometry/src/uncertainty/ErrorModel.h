@@ -15,7 +15,7 @@ namespace pointplane
 {
 /** Where errors of a measured pose come from, and how large they are. To first order
  *
- *     x = sum_r K_r (X_r + b - b_r) + K_0 (predicted motion) + B k + e
+ *     x = sum_r (K_r (X_r + b - b_r) + C_r s_r) + C s + K_0 (predicted motion) + B k + e
  *
  * x is the error of pose and velocity; K_r, K_0 and B are how the solution follows each term
  * (Sensitivity in PoseAnalysis). The terms:
@@ -24,6 +24,8 @@ namespace pointplane
  * - b, b_r: what all features of this frame, and of reference r, err by together, because depth,
  *   lens and scene are not quite what they are modelled as. A Gaussian field over views:
  *   view_errors. Its size follows the residuals: NoiseScale, ResidualVariogram.
+ * - s, s_r: smooth error of the depth images, by which neighbouring points err together: a scale of
+ *   depth in each patch, new in each image. None with structured light.
  * - Predicted motion: the previous pose and velocity, and white acceleration: MotionModel, which
  *   Track owns.
  * - k: errors of the camera that all frames share: vignetting, principal point, focal length,
@@ -57,6 +59,7 @@ class ErrorModel
         Matrix12d motionNoise;  //!< of its prediction, by what the motion model adds in dt
         Vector6d acceleration2{Vector6d::Zero()};  //!< MotionModel::acceleration2()
         ShutterModel shutter{0, 0, 0};             //!< ShutterCalibrator::complete()
+        double bend{0};                            //!< DepthNoise::sigmaRelative
     };
 
     /** Learns from the frame. \return what its estimate's errors come from */

@@ -91,6 +91,10 @@ Eigen::MatrixXd JointCovariance::dependence(
         A.middleCols<kSize>(find(Kind::View, reference)) -= byView;
         A.middleCols<kSize>(find(Kind::View, frame)) += byView;
     }
+    for (const auto& [reference, change] : measurement.referencePatches)
+    {
+        A.middleCols<kNumPatches>(find(Kind::Bend, reference)) += change;
+    }
     A.middleCols<kNumCameraErrors>(find(Kind::Camera, 0)) += measurement.camera;
     A.topRows<kSize>() = (Ad * A.topRows<kSize>()).eval();
     return A;
@@ -101,9 +105,11 @@ void JointCovariance::measure(
 {
     const Matrix6d Ad = adjoint(T_world_prev);
     addViews(frame, measurement.views);
+    addBends(measurement);
 
-    // Pose and velocity, camera.
-    constexpr Eigen::Index camera = 2 * kSize, size = camera + kNumCameraErrors;
+    // Pose and velocity, camera, and the smooth error of the depth image, if there is one.
+    constexpr Eigen::Index camera = 2 * kSize, bend = camera + kNumCameraErrors;
+    const Eigen::Index size = bend + (measurement.bendVariance > 0 ? kNumPatches : 0);
     Eigen::MatrixXd A = Eigen::MatrixXd::Zero(size, cov_.cols());
     A.topRows<2 * kSize>() = dependence(frame, Ad, dt, measurement);
     A.block<kNumCameraErrors, kNumCameraErrors>(camera, find(Kind::Camera, 0)) =
@@ -113,9 +119,16 @@ void JointCovariance::measure(
     Eigen::MatrixXd Q = Eigen::MatrixXd::Zero(size, size);
     Q.topLeftCorner<2 * kSize, 2 * kSize>() =
         propagate(toWorld, Matrix12d(measurement.noise + measurement.priorNoise));
-    Q.bottomRightCorner<kNumCameraErrors, kNumCameraErrors>() = measurement.cameraNoise;
-
-    const std::vector<Block> added{{Kind::Pose, frame}, {Kind::Velocity, 0}, {Kind::Camera, 0}};
+    Q.block<kNumCameraErrors, kNumCameraErrors>(camera, camera) = measurement.cameraNoise;
+    std::vector<Block> added{{Kind::Pose, frame}, {Kind::Velocity, 0}, {Kind::Camera, 0}};
+    if (measurement.bendVariance > 0)
+    {
+        added.push_back({Kind::Bend, frame});
+        Eigen::MatrixXd ofBend = Eigen::MatrixXd::Zero(size, kNumPatches);
+        ofBend.topRows<2 * kSize>() = toWorld * measurement.patches;
+        ofBend.bottomRows<kNumPatches>().setIdentity();
+        Q += measurement.bendVariance * ofBend * ofBend.transpose();
+    }
     prepend(added, A, Q);
     std::vector<std::size_t> kept;
     for (std::size_t k = 0; k < blocks_.size(); ++k)
@@ -141,6 +154,21 @@ void JointCovariance::addViews(int frame, const Views& views)
         if (!has(Kind::View, frames[k]))
         {
             addView(frames, k, views.correlation);
+        }
+    }
+}
+
+/** Of references that were not measured: the first frame, and places that were recalled. */
+void JointCovariance::addBends(const Measurement& measurement)
+{
+    for (const auto& [frame, change] : measurement.referencePatches)
+    {
+        if (!has(Kind::Bend, frame))
+        {
+            prepend(
+                {{Kind::Bend, frame}},
+                Eigen::MatrixXd::Zero(kNumPatches, cov_.cols()),
+                measurement.bendVariance * Eigen::MatrixXd::Identity(kNumPatches, kNumPatches));
         }
     }
 }
@@ -190,7 +218,7 @@ void JointCovariance::keep(const std::vector<int>& references, const std::vector
             isWanted = numPoses++ <= params_.history || frame == previous_ || isReference ||
                        contains(poses, frame);
         }
-        else if (kind == Kind::View)
+        else if (kind == Kind::View || kind == Kind::Bend)
         {
             isWanted = isReference;
         }

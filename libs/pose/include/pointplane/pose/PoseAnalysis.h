@@ -34,6 +34,9 @@ struct Sensitivity
     Matrix12d points{Matrix12d::Zero()}, planes{Matrix12d::Zero()};
     /** Change with errors of the camera, which all features share. */
     MotionByCamera camera{MotionByCamera::Zero()};
+    /** Change with the scale of depth in each patch of the current image and of the references. */
+    MotionByPatches patches{MotionByPatches::Zero()};
+    std::map<int, MotionByPatches> referencePatches;
 };
 
 /** What the residuals say of the camera's errors, once pose and velocity have been eliminated

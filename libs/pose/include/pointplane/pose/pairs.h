@@ -15,6 +15,12 @@ using CameraVector = Eigen::Matrix<double, kNumCameraErrors, 1>;
 using CameraMatrix = Eigen::Matrix<double, kNumCameraErrors, kNumCameraErrors>;
 using ByCamera = Eigen::Matrix<double, 3, kNumCameraErrors>;         //!< a feature or residual
 using MotionByCamera = Eigen::Matrix<double, 12, kNumCameraErrors>;  //!< pose and velocity
+constexpr int kDepthScale = 4;  //!< its place among the errors of the camera
+
+/** A smooth error of depth scales the depths of each patch of an image by a factor of its own. */
+constexpr int kPatchesPerSide = 4;
+constexpr int kNumPatches = kPatchesPerSide * kPatchesPerSide;
+using MotionByPatches = Eigen::Matrix<double, 12, kNumPatches>;  //!< pose and velocity
 
 /** The same point seen twice.
  *
@@ -30,6 +36,7 @@ struct PointPair
     int reference{0};                         //!< which of the frames that cur is compared with
     int inReference{-1};                      //!< which of that frame's points ref is
     int feature{-1};                          //!< pairs of equal ones err together; -1: of its own
+    int refPatch{-1}, curPatch{-1};           //!< of their images; -1: depth has no smooth error
 };
 
 /** The same plane seen twice. */

@@ -12,7 +12,7 @@
 namespace pointplane
 {
 /** One Gaussian of all errors that go on from frame to frame: those of the latest poses, of the
- * velocity, of the camera, and of the views of the reference frames.
+ * velocity, of the camera, and of the views and depth images of the references.
  *
  * Frames are compared with the same references again and again. So their errors do not add up as
  * those of independent increments would. The method is stochastic cloning (Roumeliotis and Burdick
@@ -106,6 +106,9 @@ class JointCovariance
         MotionByCamera camera{MotionByCamera::Zero()};  //!< change with errors of the camera
         Vector6d viewSigma{Vector6d::Zero()};           //!< of errors by the view (viewSigma())
         Views views;
+        double bendVariance{0};  //!< of the scale of depth in each patch of an image
+        MotionByPatches patches{MotionByPatches::Zero()};   //!< change with that of this image
+        std::map<int, MotionByPatches> referencePatches;    //!< with that of the references
         CameraMatrix cameraGain{CameraMatrix::Identity()};  //!< the camera's errors after the frame
         CameraMatrix cameraNoise{CameraMatrix::Zero()};     //!< are gain * before + noise
     };
@@ -157,7 +160,8 @@ class JointCovariance
         Pose,
         Velocity,
         Camera,
-        View  //!< of a reference: error by its view, in units of Measurement::viewSigma
+        Bend,  //!< of a reference: scale of depth in each patch of its image
+        View   //!< of a reference: error by its view, in units of Measurement::viewSigma
     };
     struct Block
     {
@@ -165,7 +169,7 @@ class JointCovariance
         int frame;
         [[nodiscard]] Eigen::Index size() const
         {
-            return kind == Kind::Camera ? kNumCameraErrors : 6;
+            return kind == Kind::Camera ? kNumCameraErrors : kind == Kind::Bend ? kNumPatches : 6;
         }
     };
 
@@ -174,6 +178,7 @@ class JointCovariance
     [[nodiscard]] Eigen::Index find(Kind kind, int frame) const;
     [[nodiscard]] Matrix6d at(Eigen::Index row, Eigen::Index column) const;
     void addViews(int frame, const Views& views);
+    void addBends(const Measurement& measurement);
     void addView(const std::vector<int>& frames, std::size_t added, const Eigen::MatrixXd& C);
     [[nodiscard]] Eigen::MatrixXd dependence(
         int frame, const Matrix6d& Ad, double dt, const Measurement& measurement) const;
