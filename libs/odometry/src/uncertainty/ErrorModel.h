@@ -15,13 +15,13 @@ namespace pointplane
 {
 /** Where errors of a measured pose come from, and how large they are. To first order
  *
- *     x = sum_r (K_r (X_r + b - b_r) + C_r s_r) + C s + K_0 (predicted motion) + B k + e
+ *     x = sum_r (K_r (X_r + v - v_r) + C_r s_r) + C s + K_0 (predicted motion) + B k + e
  *
  * x is the error of pose and velocity; K_r, K_0 and B are how the solution follows each term
  * (Sensitivity in PoseAnalysis). The terms:
  *
  * - X_r: error of the pose of reference r.
- * - b, b_r: what all features of this frame, and of reference r, err by together, because depth,
+ * - v, v_r: what all features of this frame, and of reference r, err by together, because depth,
  *   lens and scene are not quite what they are modelled as. A Gaussian field over views:
  *   view_errors. Its size follows the residuals: NoiseScale, ResidualVariogram.
  * - s, s_r: smooth error of the depth images, by which neighbouring points err together: a scale of

@@ -27,7 +27,7 @@ class JointCovariance
     {
         std::string model{"joint"};
         double noise{1.0};
-        double viewSigma{0.0004};
+        double viewSigma{0.00045};
         double motion{0.07};
         double vignetting{0.15};
         double principalPoint{0.3};
