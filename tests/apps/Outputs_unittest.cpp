@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // No output destroys anything: of pointplane-odometry, whose outputs are all others' outputs, too.
+#include <pointplane/mrpt_io/OutputFile.h>
 #include <pointplane/mrpt_io/errors.h>
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <functional>
 #include <future>
 #include <string>
 #include <system_error>
@@ -286,6 +288,49 @@ TEST_F(Outputs, devicesStayDevices)
     EXPECT_TRUE(fs::is_character_file(device.path));
     EXPECT_TRUE(fs::is_symlink(dir_ / "link"));
     EXPECT_GT(device.close(), 1000U);
+}
+
+/** Also where nobody has named it: what an output is written to until it is complete. */
+TEST_F(Outputs, aPartialNameThatIsSomethingElseIsLeftAlone)
+{
+    const std::string precious = dir_ / "precious", partial = out_ + ".partial";
+    writeBytes(precious, "precious");
+    const std::vector<std::function<void()>> kinds{
+        [&] { fs::create_symlink("precious", partial); },
+        [&] { fs::create_symlink("nothing", partial); },
+        [&] { fs::create_hard_link(precious, partial); },
+        [&] { ASSERT_EQ(::mkfifo(partial.c_str(), 0600), 0); },
+        [&] { fs::create_directory(partial); }};
+    for (std::size_t k = 0; k < kinds.size(); ++k)
+    {
+        kinds[k]();
+        const auto before = files();
+        for (const std::string& option : kOptions)
+        {
+            const AppRun outcome = run({in_, option, out_});
+            EXPECT_EQ(outcome.code, kExitEnvironment) << k << option;
+            EXPECT_THAT(outcome.err, HasSubstr("cannot create " + partial)) << k << option;
+            EXPECT_EQ(files(), before) << k << option;
+        }
+        EXPECT_EQ(readBytes(precious), "precious") << k;
+        fs::remove(partial);
+    }
+}
+
+TEST_F(Outputs, twoProgramsDoNotWriteOneFile)
+{
+    OutputFile first(out_);
+    first.write("first", 5);
+    for (const std::string& option : kOptions)
+    {
+        const AppRun outcome = run({in_, option, out_});
+        EXPECT_EQ(outcome.code, kExitEnvironment) << option;
+        EXPECT_THAT(outcome.err, HasSubstr("another program is writing it")) << option;
+    }
+    first.commit();
+    EXPECT_EQ(readBytes(out_), "first");
+    EXPECT_EQ(run({in_, "--trajectory", out_}).code, kExitOk);
+    EXPECT_NE(readBytes(out_), "first");
 }
 
 TEST_F(Outputs, aReplacedFileKeepsItsPermissions)

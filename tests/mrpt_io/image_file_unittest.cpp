@@ -108,7 +108,7 @@ TEST_F(ImageFile, aMissingFolderIsNamedNotTheFile)
     EXPECT_EQ(problem("text"), (dir_ / "image") + ": is not an image, or damaged");
 }
 
-TEST_F(ImageFile, aFullDiskLeavesNoPartOfAnImage)
+TEST_F(ImageFile, aFullDiskLeavesNoPartOfAnImageAndTheEarlierOne)
 {
     cv::Mat large(200, 200, CV_8UC1);
     cv::randu(large, 0, 256);
@@ -118,15 +118,19 @@ TEST_F(ImageFile, aFullDiskLeavesNoPartOfAnImage)
         16,
         [&]
         {
+            test::writeBytes(path, "earlier");
             try
             {
                 writeImageFile(path, large);
             }
             catch (const EnvironmentError& e)
             {
-                const bool named =
-                    std::string(e.what()).find(path + ": No space") != std::string::npos;
-                return named && !std::filesystem::exists(path) ? 0 : 1;
+                const std::string message = e.what();
+                const bool named = message.find(path) != std::string::npos &&
+                                   message.find(": No space") != std::string::npos;
+                const bool kept = test::readBytes(path) == "earlier" &&
+                                  !std::filesystem::exists(path + ".partial");
+                return named && kept ? 0 : 1;
             }
             return 2;
         });

@@ -7,8 +7,10 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <utility>
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -44,6 +46,76 @@ namespace fs = std::filesystem;
     }
     return path;
 }
+[[nodiscard]] EnvironmentError cannot(const std::string& action, const std::string& path)
+{
+    return EnvironmentError("cannot " + action + " " + path + ": " + std::strerror(errno));
+}
+
+/** Closes what is not taken over. */
+class Descriptor
+{
+ public:
+    explicit Descriptor(int fd) : fd_(fd) {}
+    ~Descriptor()
+    {
+        if (fd_ >= 0)
+        {
+            ::close(fd_);
+        }
+    }
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+    [[nodiscard]] int get() const { return fd_; }
+    [[nodiscard]] int release() { return std::exchange(fd_, -1); }
+
+ private:
+    int fd_;
+};
+
+/** Opens a partial file for this program alone, empty, and without following a link: what has this
+ * name and is something else, or another name of something else, is not ours to write to.
+ * \return -1 if another program has just completed it */
+[[nodiscard]] int tryOpenPartial(const std::string& path)
+{
+    Descriptor file(
+        ::open(path.c_str(), O_WRONLY | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666));
+    struct stat info = {};
+    const bool isOpen = file.get() >= 0 && ::fstat(file.get(), &info) == 0;
+    if (isOpen ? !S_ISREG(info.st_mode) || info.st_nlink > 1 : errno == ELOOP || errno == ENXIO)
+    {
+        throw EnvironmentError(
+            "cannot create " + path + ": something else has this name; remove it");
+    }
+    if (!isOpen)
+    {
+        throw cannot("create", path);
+    }
+    if (::flock(file.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    {
+        throw EnvironmentError("cannot create " + path + ": another program is writing it");
+    }
+    struct stat named = {};
+    if (::stat(path.c_str(), &named) != 0 || named.st_ino != info.st_ino ||
+        named.st_dev != info.st_dev)
+    {
+        return -1;
+    }
+    if (::ftruncate(file.get(), 0) != 0)
+    {
+        throw cannot("create", path);
+    }
+    return file.release();
+}
+
+[[nodiscard]] int openPartial(const std::string& path)
+{
+    int fd = -1;
+    while (fd < 0)
+    {
+        fd = tryOpenPartial(path);
+    }
+    return fd;
+}
 }  // namespace
 
 OutputTarget outputTarget(const std::string& path)
@@ -60,8 +132,8 @@ OutputTarget outputTarget(const std::string& path)
 OutputFile::OutputFile(const std::string& path) : path_(path), target_(outputTarget(path))
 {
     // A standard stream's own writes follow ours.
-    const int mode = target_.isReplaced ? O_CREAT | O_TRUNC : O_APPEND;
-    fd_ = ::open(writtenPath().c_str(), O_WRONLY | O_CLOEXEC | mode, 0666);
+    fd_ = target_.isReplaced ? openPartial(writtenPath())
+                             : ::open(target_.path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
     if (fd_ < 0)
     {
         fail("create");
@@ -81,11 +153,7 @@ OutputFile::~OutputFile()
     }
 }
 
-void OutputFile::fail(const char* action) const
-{
-    throw EnvironmentError(
-        std::string("cannot ") + action + " " + writtenPath() + ": " + std::strerror(errno));
-}
+void OutputFile::fail(const char* action) const { throw cannot(action, writtenPath()); }
 
 void OutputFile::write(const void* data, std::size_t size)
 {
@@ -117,15 +185,19 @@ void OutputFile::commit()
     {
         fail("write");
     }
-    const int fd = fd_;
-    fd_ = -1;
-    if (::close(fd) != 0)
-    {
-        fail("write");
-    }
+    commitUnsynced();
+}
+
+void OutputFile::commitUnsynced()
+{
+    // Before it is closed: until then, no other program writes to it.
     if (target_.isReplaced && std::rename(writtenPath().c_str(), target_.path.c_str()) != 0)
     {
         fail("rename");
+    }
+    if (::close(std::exchange(fd_, -1)) != 0)
+    {
+        fail("write");
     }
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/mrpt_io/OutputFile.h>
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/image_file.h>
 
@@ -150,19 +151,16 @@ void writeImageFile(const std::string& path, const cv::Mat& image, const std::ve
     {
         throw EnvironmentError("cannot write " + path + ": " + e.err);
     }
-    std::ofstream file(path, std::ios::binary | std::ios::trunc);
-    file.write(
-        reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    file.close();
-    if (!file)
+    OutputFile file(path);
+    try
     {
-        const std::string why = std::strerror(errno);
-        std::error_code ignored;
-        if (fs::is_regular_file(path, ignored))
-        {
-            fs::remove(path, ignored);
-        }
-        throw EnvironmentError("cannot write " + path + ": " + why);
+        file.write(bytes.data(), bytes.size());
+        file.commitUnsynced();
+    }
+    catch (const EnvironmentError&)
+    {
+        file.discard();
+        throw;
     }
 }
 }  // namespace pointplane

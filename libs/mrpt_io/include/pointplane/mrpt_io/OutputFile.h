@@ -26,7 +26,9 @@ struct OutputTarget
 class OutputFile
 {
  public:
-    /** Creates or truncates the partial file; one that is replaced keeps its permissions. */
+    /** Creates or truncates the partial file; one that is replaced keeps its permissions. A partial
+     * file that another program is writing, or that is a link or anything else than a file, is
+     * refused. */
     explicit OutputFile(const std::string& path);
     /** Leaves the partial file if neither commit() nor discard() was called. */
     ~OutputFile();
@@ -36,6 +38,8 @@ class OutputFile
     void write(const void* bytes, std::size_t size);
     /** Waits until the disk has everything, and renames the file. */
     void commit();
+    /** Renames it at once: for pictures, of which a power failure may take the latest. */
+    void commitUnsynced();
     /** Removes the partial file; nothing after commit(). */
     void discard() noexcept;
 

@@ -13,8 +13,8 @@ namespace pointplane
  * \throws InputError naming the file, or the folder that is missing */
 [[nodiscard]] cv::Mat readImageFile(const std::string& path, int flags);
 
-/** Writes the whole file, or none. \param options of cv::imwrite
- * \throws EnvironmentError naming the file */
+/** Writes the whole file (OutputFile), or leaves an earlier one as it was. \param options of
+ * cv::imwrite \throws EnvironmentError naming the file */
 void writeImageFile(
     const std::string& path, const cv::Mat& image, const std::vector<int>& options = {});
 }  // namespace pointplane
