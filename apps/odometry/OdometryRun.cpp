@@ -15,11 +15,11 @@
 
 #include "FrameSource.h"
 #include "OutputGuard.h"
+#include "OverlaySink.h"
 #include "ProgressBar.h"
 #include "RawlogSink.h"
 #include "Worker.h"
 #include "map_sinks.h"
-#include "overlay.h"
 #include "text_sinks.h"
 
 namespace pointplane
@@ -150,6 +150,7 @@ class Run
                     }
                 }
             });
+        const Closer endsReader{read};  // where there is no memory for another thread
         Worker writer(
             [&]
             {
@@ -159,6 +160,7 @@ class Run
                     write(*item);
                 }
             });
+        const Closer endsWriter{done};
         Worker estimatorThread(
             [&]
             {

@@ -8,7 +8,7 @@
 
 namespace pointplane
 {
-/** Runs `work` on a thread of its own and keeps its exception. */
+/** Runs `work` on a thread of its own and keeps its exception. Its end is waited for. */
 class Worker
 {
  public:
@@ -27,6 +27,10 @@ class Worker
               })
     {
     }
+    ~Worker() { join(); }
+    Worker(const Worker&) = delete;
+    Worker& operator=(const Worker&) = delete;
+
     void join()
     {
         if (thread_.joinable())

@@ -4,7 +4,6 @@
 #include <opencv2/core/mat.hpp>
 
 #include <optional>
-#include <string>
 
 #include "FrameRecord.h"
 
@@ -30,27 +29,4 @@ struct CameraSpeed
     std::size_t frameIndex,
     double seconds,
     const std::optional<CameraSpeed>& speed);
-
-/** Writes a picture of every N-th frame: <folder>/000042.jpg. */
-class OverlaySink : public Sink
-{
- public:
-    /** \throws EnvironmentError if the folder cannot be created */
-    OverlaySink(const std::string& folder, std::size_t every);
-
-    void add(const OutputItem& item) override;
-    void close() override {}
-    void discard() noexcept override {}  // each picture is complete
-    [[nodiscard]] std::string description() const override;
-    [[nodiscard]] bool needsFeatures() const override { return true; }
-
- private:
-    [[nodiscard]] std::optional<CameraSpeed> speedAt(const OutputItem& item);
-
-    std::string folder_;
-    std::size_t every_;
-    std::size_t numFrames_{0}, numPictures_{0};
-    std::optional<double> firstStamp_, latestStamp_;  //!< [s]
-    Eigen::Isometry3d latestPose_{Eigen::Isometry3d::Identity()};
-};
 }  // namespace pointplane

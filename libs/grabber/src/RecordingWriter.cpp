@@ -40,6 +40,19 @@ RecordingWriter::RecordingWriter(RecordingOptions options, const ObservationBuil
     POINTPLANE_CHECK(options_.numThreads > 0, "numThreads is " << options_.numThreads);
     POINTPLANE_CHECK(options_.queueFrames > 0, "queueFrames is " << options_.queueFrames);
     openSegment(0);
+    try
+    {
+        startThreads();
+    }
+    catch (...)  // no memory for another one: those that run would end the program
+    {
+        joinThreads();
+        throw;
+    }
+}
+
+void RecordingWriter::startThreads()
+{
     workersRunning_ = options_.numThreads;
     for (int i = 0; i < options_.numThreads; ++i)
     {
@@ -257,7 +270,7 @@ void RecordingWriter::syncSegment()
     file_->sync();
 }
 
-void RecordingWriter::finish()
+void RecordingWriter::joinThreads()
 {
     queue_.close();
     for (auto& thread : threads_)
@@ -265,6 +278,11 @@ void RecordingWriter::finish()
         thread.join();
     }
     threads_.clear();
+}
+
+void RecordingWriter::finish()
+{
+    joinThreads();
     if (error_)
     {
         std::rethrow_exception(std::exchange(error_, nullptr));

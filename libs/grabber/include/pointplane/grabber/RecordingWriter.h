@@ -102,6 +102,8 @@ class RecordingWriter
     void writeLoop();
     void appendPending();
     void syncSegment();
+    void startThreads();
+    void joinThreads();
     void guarded(void (RecordingWriter::*work)());
 
     const RecordingOptions options_;

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "OverlaySink.h"
+
+#include <pointplane/mrpt_io/errors.h>
+#include <pointplane/mrpt_io/image_file.h>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include <cstdio>
+#include <filesystem>
+
+namespace pointplane
+{
+OverlaySink::OverlaySink(const std::string& folder, std::size_t every)
+    : folder_(folder), every_(every)
+{
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error)
+    {
+        throw EnvironmentError("cannot create " + folder + ": " + error.message());
+    }
+}
+
+/** Since the frame before. */
+std::optional<CameraSpeed> OverlaySink::speedAt(const OutputItem& item)
+{
+    const double stamp = item.source.converted->frame.stamp;
+    const Eigen::Isometry3d pose = item.frame->motion.cameraPose.mean;
+    const Eigen::Isometry3d motion = latestPose_.inverse() * pose;
+    const double dt = stamp - latestStamp_.value_or(stamp);
+    latestPose_ = pose;
+    latestStamp_ = stamp;
+    if (dt <= 0)
+    {
+        return {};
+    }
+    return CameraSpeed{motion.translation() / dt, Eigen::AngleAxisd(motion.linear()).angle() / dt};
+}
+
+void OverlaySink::add(const OutputItem& item)
+{
+    if (!item.frame)
+    {
+        return;
+    }
+    const RgbdFrame& frame = item.source.converted->frame;
+    const auto speed = speedAt(item);
+    firstStamp_ = firstStamp_.value_or(frame.stamp);
+    if (numFrames_++ % every_ != 0)
+    {
+        return;
+    }
+    char name[32];
+    std::snprintf(name, sizeof(name), "/%06zu.jpg", item.source.frameIndex);
+    const std::string path = folder_ + name;
+    const cv::Mat picture = drawOverlay(
+        frame.gray,
+        frame.depth,
+        *item.frame,
+        item.source.frameIndex,
+        frame.stamp - *firstStamp_,
+        speed);
+    writeImageFile(path, picture, {cv::IMWRITE_JPEG_QUALITY, 90});
+    ++numPictures_;
+}
+
+std::string OverlaySink::description() const
+{
+    return folder_ + ": " + std::to_string(numPictures_) + " pictures";
+}
+}  // namespace pointplane

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "FrameRecord.h"
+#include "overlay.h"
+
+namespace pointplane
+{
+/** Writes a picture of every N-th frame: <folder>/000042.jpg. */
+class OverlaySink : public Sink
+{
+ public:
+    /** \throws EnvironmentError if the folder cannot be created */
+    OverlaySink(const std::string& folder, std::size_t every);
+
+    void add(const OutputItem& item) override;
+    void close() override {}
+    void discard() noexcept override {}  // each picture is complete
+    [[nodiscard]] std::string description() const override;
+    [[nodiscard]] bool needsFeatures() const override { return true; }
+
+ private:
+    [[nodiscard]] std::optional<CameraSpeed> speedAt(const OutputItem& item);
+
+    std::string folder_;
+    std::size_t every_;
+    std::size_t numFrames_{0}, numPictures_{0};
+    std::optional<double> firstStamp_, latestStamp_;  //!< [s]
+    Eigen::Isometry3d latestPose_{Eigen::Isometry3d::Identity()};
+};
+}  // namespace pointplane

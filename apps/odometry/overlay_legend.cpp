@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "overlay_legend.h"
+
+#include <opencv2/imgproc.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include "overlay_marks.h"
+
+namespace pointplane
+{
+namespace
+{
+/** Lines of text below a picture, broken where it ends. */
+class Legend
+{
+ public:
+    explicit Legend(int width) : strip_(2 * kLine, std::max(1, width), CV_8UC3, cv::Scalar()) {}
+
+    /** \param width kept for it, so that the legends of all frames look alike [px] */
+    void add(const std::string& text, int width, const cv::Scalar& colour = kText)
+    {
+        width = widthOf(text, 0, width);
+        make(width);
+        put(text, x_, colour);
+        x_ += width;
+    }
+
+    void addPoint(FeatureUse use, int count, const char* what)
+    {
+        constexpr int kMark = 13;
+        const std::string text = std::to_string(count) + " " + what;
+        const int width = widthOf(text, kMark, kPoint);
+        make(width);
+        drawPoint(use, cv::Point2d(x_ + 5.0, y_ + 0.5 * kLine), strip_);
+        put(text, x_ + kMark, kText);
+        x_ += width;
+    }
+
+    /** The scale of the planes' colours. */
+    void addColours()
+    {
+        constexpr int kBar = 120;
+        add("plane distance known to", 165);
+        char small[32], large[32];
+        std::snprintf(small, sizeof(small), "%.1f", 1e3 * kSmallSigma);
+        std::snprintf(large, sizeof(large), "%.0f mm", 1e3 * kLargeSigma);
+        make(24 + kBar + 60);
+        add(small, 24);
+        const cv::Rect bar = cv::Rect(x_, y_ + 4, kBar, kLine - 8) & cv::Rect({}, strip_.size());
+        if (!bar.empty())
+        {
+            cv::Mat colours;
+            cv::resize(colourMap(), colours, {kBar, bar.height});
+            colours.colRange(0, bar.width).copyTo(strip_(bar));
+        }
+        x_ += kBar + 4;
+        add(large, 56);
+    }
+
+    [[nodiscard]] const cv::Mat& strip() const { return strip_; }
+
+ private:
+    static constexpr int kLine = 18, kPoint = 110, kFont = cv::FONT_HERSHEY_SIMPLEX;
+    static constexpr double kFontScale = 0.4;
+
+    /** What is kept for a text, or what it takes. */
+    [[nodiscard]] static int widthOf(const std::string& text, int indent, int kept)
+    {
+        constexpr int kGap = 8;
+        const cv::Size size = cv::getTextSize(text, kFont, kFontScale, 1, nullptr);
+        return std::max(kept, text.empty() ? 0 : indent + size.width + kGap);
+    }
+
+    void put(const std::string& text, int x, const cv::Scalar& colour)
+    {
+        const cv::Point at(x, y_ + kLine - 5);
+        cv::putText(strip_, text, at, kFont, kFontScale, colour, 1, cv::LINE_AA);
+    }
+
+    /** Room for an item in this line or a new one. */
+    void make(int width)
+    {
+        if (x_ > kLeft && x_ + width > strip_.cols)
+        {
+            x_ = kLeft;
+            y_ += kLine;
+        }
+        if (y_ + kLine > strip_.rows)
+        {
+            cv::copyMakeBorder(
+                strip_, strip_, 0, y_ + kLine - strip_.rows, 0, 0, cv::BORDER_CONSTANT);
+        }
+    }
+
+    static constexpr int kLeft = 4;
+    cv::Mat strip_;
+    int x_{kLeft}, y_{0};
+};
+
+void addStatus(
+    const FrameRecord& record,
+    std::size_t frameIndex,
+    double seconds,
+    const std::optional<CameraSpeed>& speed,
+    Legend& legend)
+{
+    char text[64];
+    std::snprintf(text, sizeof(text), "frame %zu", frameIndex);
+    legend.add(text, 92);
+    std::snprintf(text, sizeof(text), "%.3f s", seconds);
+    legend.add(text, 82);
+    const bool isMeasured = record.motion.status == TrackingStatus::Tracked ||
+                            record.motion.status == TrackingStatus::First;
+    legend.add(toString(record.motion.status), 72, isMeasured ? kUsed : kRejected);
+    legend.add(record.features.isKeyframe ? "KEY FRAME" : "", 90, kArrow);
+    if (speed)
+    {
+        std::snprintf(
+            text,
+            sizeof(text),
+            "-> %.2f m/s (%+.2f forward), %.0f deg/s",
+            speed->translation.norm(),
+            speed->translation.z(),
+            speed->rotation * 180 / M_PI);
+    }
+    legend.add(speed ? text : "", 290, kArrow);
+}
+
+void addCounts(const FrameFeatures& features, Legend& legend)
+{
+    const auto count = [&](FeatureUse use)
+    {
+        return static_cast<int>(std::count_if(
+            features.points.begin(),
+            features.points.end(),
+            [&](const FrameFeatures::Point& p) { return p.use == use; }));
+    };
+    legend.addPoint(FeatureUse::Used, count(FeatureUse::Used), "used");
+    legend.addPoint(FeatureUse::Doubted, count(FeatureUse::Doubted), "doubted");
+    legend.addPoint(FeatureUse::Rejected, count(FeatureUse::Rejected), "rejected");
+    legend.addPoint(FeatureUse::New, count(FeatureUse::New), "new points");
+    char text[64];
+    std::snprintf(
+        text,
+        sizeof(text),
+        "%d of %zu planes used",
+        static_cast<int>(
+            std::count(features.planeUses.begin(), features.planeUses.end(), FeatureUse::Used)),
+        features.planeUses.size());
+    legend.add(text, 150);
+    std::snprintf(text, sizeof(text), "%.0f %% moving", 100 * features.moving.share());
+    legend.add(text, 90, kMoving);
+}
+}  // namespace
+
+cv::Mat overlayLegend(
+    int width,
+    const FrameRecord& record,
+    std::size_t frameIndex,
+    double seconds,
+    const std::optional<CameraSpeed>& speed)
+{
+    Legend legend(width);
+    addStatus(record, frameIndex, seconds, speed, legend);
+    addCounts(record.features, legend);
+    legend.addColours();
+    return legend.strip();
+}
+}  // namespace pointplane
