@@ -5,6 +5,7 @@
 
 #include <opencv2/core.hpp>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
@@ -12,10 +13,13 @@
 #include <memory>
 #include <new>
 #include <system_error>
+#include <vector>
 
 #include <CLI/CLI.hpp>
+#include <fcntl.h>
 #include <pthread.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 namespace pointplane
 {
@@ -29,6 +33,21 @@ struct Call
     std::vector<std::string> args;
     int code{kExitEnvironment};
 };
+
+/** The first file that a program opens must not take the number of a stream that is closed: what is
+ * meant for the terminal would go into that file. */
+void openStandardStreams()
+{
+    int fd = STDIN_FILENO;
+    while (fd >= 0 && fd <= STDERR_FILENO)
+    {
+        fd = ::open("/dev/null", O_RDWR);  // the lowest number that is free
+    }
+    if (fd > STDERR_FILENO)
+    {
+        ::close(fd);
+    }
+}
 
 void* runCall(void* data)
 {
@@ -60,6 +79,13 @@ void runOnOwnStack(Call& call)
     ::pthread_join(thread, nullptr);
 }
 
+/** -o "$OUT" without an OUT is a mistake, not an output that nobody wants. */
+[[nodiscard]] CLI::Validator isNotEmpty()
+{
+    return {
+        [](const std::string& text) { return std::string(text.empty() ? "is empty" : ""); }, ""};
+}
+
 /** Help without the values that CLI11 puts behind the names of flags: --wait{1e9}. */
 class HelpFormatter : public CLI::Formatter
 {
@@ -72,12 +98,25 @@ class HelpFormatter : public CLI::Formatter
     }
 };
 
+/** One line for a terminal, whatever the names and the input hold that it quotes. */
+[[nodiscard]] std::string printable(std::string text)
+{
+    constexpr std::size_t kLongest = 1000;
+    if (text.size() > kLongest)
+    {
+        text = text.substr(0, kLongest) + "...";
+    }
+    std::replace_if(
+        text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
+    return text;
+}
+
 /** Of the current exception. \return the exit code */
 int report(const std::string& program, std::ostream& err)
 {
     const auto say = [&](const std::string& text, int code)
     {
-        err << program << ": " << text << "\n";
+        err << program << ": " << printable(text) << "\n";
         return code;
     };
     try
@@ -87,6 +126,10 @@ int report(const std::string& program, std::ostream& err)
     catch (const EnvironmentError& e)
     {
         return say(e.what(), kExitEnvironment);
+    }
+    catch (const InputError& e)
+    {
+        return say(e.what(), kExitBadInput);
     }
     catch (const std::bad_alloc&)
     {
@@ -116,12 +159,16 @@ int runCommand(
     const std::function<int()>& body)
 {
     app.failure_message([](const CLI::App* a, const CLI::Error& e)
-                        { return a->get_name() + ": " + e.what() + " (see --help)\n"; });
-    const auto formatter = std::make_shared<HelpFormatter>();
-    app.formatter(formatter);
-    for (CLI::App* command : app.get_subcommands({}))
+                        { return a->get_name() + ": " + printable(e.what()) + " (see --help)\n"; });
+    std::vector<CLI::App*> commands = app.get_subcommands({});
+    commands.push_back(&app);
+    for (CLI::App* command : commands)
     {
-        command->formatter(formatter);
+        command->formatter(std::make_shared<HelpFormatter>());
+        for (CLI::Option* option : command->get_options())
+        {
+            option->check(isNotEmpty());
+        }
     }
     try
     {
@@ -140,7 +187,10 @@ int runCommand(
 
 int runProgram(const char* name, Program program, int argc, char** argv)
 {
-    std::signal(SIGXFSZ, SIG_IGN);  // ulimit -f: writing fails instead
+    openStandardStreams();
+    // ulimit -f, and a reader that leaves: writing fails instead.
+    std::signal(SIGXFSZ, SIG_IGN);
+    std::signal(SIGPIPE, SIG_IGN);
     Call call{program, {argv + 1, argv + argc}};
     try
     {

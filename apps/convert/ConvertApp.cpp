@@ -4,7 +4,6 @@
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/rawlog_names.h>
 
-#include <cmath>
 #include <ostream>
 
 #include "BagRecording.h"
@@ -14,6 +13,7 @@
 #include "TextOutput.h"
 #include "TumRecording.h"
 #include "convert_recording.h"
+#include "number_checks.h"
 #include "run_program.h"
 #include <CLI/CLI.hpp>
 
@@ -21,19 +21,6 @@ namespace pointplane
 {
 namespace
 {
-[[nodiscard]] CLI::Validator isScale()
-{
-    return {
-        [](const std::string& text)
-        {
-            double value = 0;
-            const bool good =
-                CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value > 0;
-            return good ? std::string() : "'" + text + "' is not a positive number of units";
-        },
-        "POSITIVE"};
-}
-
 void addOutputOptions(CLI::App& command, RecordingOutput& output)
 {
     command.add_option("-o,--output", output.path, "Rawlog to write")->required();
@@ -63,11 +50,12 @@ void addTumCommand(CLI::App& app, TumOptions& options, RecordingOutput& output)
            "--depth-scale",
            options.depthScale,
            "Depth units per metre (default: the camera's, 5000)")
-        ->check(isScale());
+        ->check(isPositive());
     tum->add_option(
            "--max-difference",
            options.maxDifference,
            "Longest time between colour and depth of a frame [s]")
+        ->check(isNotNegative())
         ->capture_default_str();
     addOutputOptions(*tum, output);
 }
@@ -94,17 +82,20 @@ CLI::App* addFolderCommand(CLI::App& app, FolderOptions& options, RecordingOutpu
             options.depthScale,
             "Depth units per metre (default: the "
             "layout's, else 1000)")
-        ->check(isScale());
-    folder->add_option(
-        "--fps",
-        options.fps,
-        "Frames a second, where images are numbered (default: stamps, else the "
-        "layout's rate, else 30)");
+        ->check(isPositive());
+    folder
+        ->add_option(
+            "--fps",
+            options.fps,
+            "Frames a second, where images are numbered (default: stamps, else the "
+            "layout's rate, else 30)")
+        ->check(isPositive());
     folder
         ->add_option(
             "--max-difference",
             options.maxDifference,
             "Longest time between colour and depth of a frame [s]")
+        ->check(isNotNegative())
         ->capture_default_str();
     addOutputOptions(*folder, output);
     return folder;
@@ -120,7 +111,7 @@ CLI::App* addKlgCommand(CLI::App& app, KlgOptions& options, RecordingOutput& out
            "--depth-scale",
            options.depthScale,
            "Depth units per metre (default: the camera's, 1000)")
-        ->check(isScale());
+        ->check(isPositive());
     klg->add_flag("--bgr", options.bgr, "Its colours are in the order blue, green, red");
     addOutputOptions(*klg, output);
     return klg;
@@ -142,11 +133,12 @@ CLI::App* addBagCommand(CLI::App& app, BagOptions& options, RecordingOutput& out
         std::string(kCameraHelp) + " (default: camera_info of the bag)");
     bag->add_option(
            "--depth-scale", options.depthScale, "Units per metre of 16 bit depth (default: 1000)")
-        ->check(isScale());
+        ->check(isPositive());
     bag->add_option(
            "--max-difference",
            options.maxDifference,
            "Longest time between colour and depth of a frame [s]")
+        ->check(isNotNegative())
         ->capture_default_str();
     addOutputOptions(*bag, output);
     return bag;

@@ -8,6 +8,7 @@
 #include "OutputGuard.h"
 #include "command.h"
 #include "input_options.h"
+#include "number_checks.h"
 #include "result_output.h"
 #include "trajectory_report.h"
 
@@ -35,9 +36,11 @@ void AteCommand::addTo(CLI::App& command)
     command.add_option("groundtruth", groundTruth, "Ground-truth trajectory")->required();
     command.add_option("estimate", estimate, "Estimated trajectory")->required();
     command.add_option("--offset", options.offset, "Add this to the estimate's stamps [s]")
+        ->check(isFinite())
         ->capture_default_str()
         ->group(group);
     command.add_option("--scale", options.scale, "Multiply the estimate's translations by this")
+        ->check(isPositive())
         ->capture_default_str()
         ->group(group);
     command
@@ -46,7 +49,7 @@ void AteCommand::addTo(CLI::App& command)
             options.maxDifference,
             "Longest time between poses that are compared [s]")
         ->capture_default_str()
-        ->check(CLI::PositiveNumber)
+        ->check(isPositive())
         ->group(group);
     const std::map<std::string, Alignment> alignments{
         {"se3", Alignment::Se3}, {"first", Alignment::FirstPose}, {"none", Alignment::None}};
@@ -59,7 +62,7 @@ void AteCommand::addTo(CLI::App& command)
         ->type_name("NAME")
         ->group(group);
     command.add_option("--max-rmse", maxRmse, "Exit with 1 if the RMSE exceeds this [m]")
-        ->check(CLI::NonNegativeNumber)
+        ->check(isNotNegative())
         ->group("Gate");
     command.add_flag("--verbose", verbose, "Print the lines of evaluate_ate.py --verbose instead")
         ->group("Output");

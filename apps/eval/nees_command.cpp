@@ -11,6 +11,7 @@
 #include "command.h"
 #include "input_options.h"
 #include "nees_output.h"
+#include "number_checks.h"
 #include "result_output.h"
 #include "trajectory_report.h"
 
@@ -72,7 +73,7 @@ void NeesCommand::addTo(CLI::App& command)
             options.truthSigmaTranslation,
             "Standard deviation of each ground-truth position, per axis [m]")
         ->capture_default_str()
-        ->check(CLI::NonNegativeNumber)
+        ->check(isNotNegative())
         ->group("Protocol");
     command
         .add_option(
@@ -83,6 +84,7 @@ void NeesCommand::addTo(CLI::App& command)
         ->capture_default_str()
         ->group("Protocol");
     command.add_option("--offset", options.offset, "Add this to the estimate's stamps [s]")
+        ->check(isFinite())
         ->capture_default_str()
         ->group("Protocol");
     command
@@ -92,8 +94,10 @@ void NeesCommand::addTo(CLI::App& command)
             "Take ground truth at the nearest stamp instead of interpolating it")
         ->group("Protocol");
     command.add_option("--min-nees", minNees, "Exit with 1 if a joint NEES per dof is below this")
+        ->check(isNotNegative())
         ->group("Gate");
     command.add_option("--max-nees", maxNees, "Exit with 1 if a joint NEES per dof is above this")
+        ->check(isNotNegative())
         ->group("Gate");
     input.addTo(command);
     output.addTo(command, "increment");

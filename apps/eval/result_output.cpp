@@ -43,7 +43,9 @@ void OutputFiles::write(
 {
     if (!json.empty())
     {
-        writeText(asJson.dump(2) + "\n", json, out);
+        // Names of files may be in any encoding, JSON is in UTF-8.
+        using Handler = nlohmann::ordered_json::error_handler_t;
+        writeText(asJson.dump(2, ' ', false, Handler::replace) + "\n", json, out);
     }
     if (!csv.empty())
     {

@@ -7,6 +7,7 @@
 #include "OutputGuard.h"
 #include "command.h"
 #include "input_options.h"
+#include "number_checks.h"
 #include "result_output.h"
 #include "rpe_options.h"
 #include "trajectory_report.h"
@@ -39,12 +40,12 @@ void RpeCommand::addTo(CLI::App& command)
     options.addTo(command);
     command
         .add_option("--max-rmse", maxRmse, "Exit with 1 if the translation RMSE exceeds this [m]")
-        ->check(CLI::NonNegativeNumber)
+        ->check(isNotNegative())
         ->group("Gate");
     command
         .add_option(
             "--max-rmse-deg", maxRmseDeg, "Exit with 1 if the rotation RMSE exceeds this [deg]")
-        ->check(CLI::NonNegativeNumber)
+        ->check(isNotNegative())
         ->group("Gate");
     command.add_flag("--verbose", verbose, "Print the lines of evaluate_rpe.py --verbose instead")
         ->group("Output");
@@ -160,16 +161,18 @@ void RpeCommandOptions::addTo(CLI::App& command)
         ->group(group);
     command.add_option("--delta", rpe.delta, "Distance between the two poses of a pair")
         ->capture_default_str()
-        ->check(CLI::PositiveNumber)
+        ->check(isPositive())
         ->group(group);
     command.add_option("--delta-unit", unit, "s, m, rad, deg or f (frames)")
         ->capture_default_str()
         ->check(CLI::IsMember({"s", "m", "rad", "deg", "f"}))
         ->group(group);
     command.add_option("--offset", rpe.offset, "Add this to the estimate's stamps [s]")
+        ->check(isFinite())
         ->capture_default_str()
         ->group(group);
     command.add_option("--scale", rpe.scale, "Multiply the estimate's translations by this")
+        ->check(isPositive())
         ->capture_default_str()
         ->group(group);
     command
@@ -178,7 +181,7 @@ void RpeCommandOptions::addTo(CLI::App& command)
             maxPairs,
             "At most so many pairs, drawn at random; 0 = all (default: 10000, with --fixed-delta "
             "all)")
-        ->check(CLI::NonNegativeNumber)
+        ->check(isNotNegative())
         ->group(group);
     command.add_option("--seed", rpe.seed, "Seed of the random draw")
         ->capture_default_str()

@@ -107,8 +107,16 @@ class PathSections
             kStatisticsHeader,
             {statisticsCells("translation [mm]", scaled(ate.translation, 1000))});
         // Covariances are relative to the first pose, so that is where ellipses start from.
+        const bool fromStart =
+            !measured_.covs.empty() && run_.ate.alignment != Alignment::FirstPose;
         const AteResult map =
-            measured_.covs.empty() ? ate : absoluteTrajectoryError(truth_, measured_, aligned());
+            fromStart ? absoluteTrajectoryError(truth_, measured_, aligned()) : ate;
+        if (fromStart)
+        {
+            report.addParagraph(
+                "The paths are aligned at the first pose, where the covariances start. So their "
+                "errors grow from there, and are not those of the table.");
+        }
         addAll(report, pathCharts(truth_, {{"estimate", measured_, map, run_.ate.scale}}));
         report.addChart(positionErrorChart(measured_, ate));
         report.addChart(positionErrorHistogram(ate));
@@ -123,13 +131,10 @@ class PathSections
 
     void addPoses(HtmlReport& report) const
     {
-        addAll(
-            report,
-            poseCharts(
-                truth_,
-                measured_,
-                run_.ate,
-                absoluteTrajectoryError(truth_, measured_, aligned())));
+        const std::vector<Chart> charts = poseCharts(
+            truth_, measured_, run_.ate, absoluteTrajectoryError(truth_, measured_, aligned()));
+        report.addParagraph("Poses in the ground truth's world, aligned at the first one:");
+        addAll(report, charts);
     }
 
     [[nodiscard]] AteOptions aligned() const

@@ -11,6 +11,7 @@
 #include "GrabberOptions.h"
 #include "GrabberRun.h"
 #include "device_list.h"
+#include "number_checks.h"
 #include "run_program.h"
 #include <CLI/CLI.hpp>
 
@@ -68,7 +69,7 @@ void addCameraOptions(CLI::App& app, GrabberOptions& o, Words& words)
            "Wait for a camera to appear (--wait=S: at most S seconds)")
         ->group(group);
     app.add_option("--timeout", o.capture.stallTimeout, "Give up a silent camera after [s]")
-        ->check(CLI::PositiveNumber)
+        ->check(isPositive())
         ->capture_default_str()
         ->group(group);
     app.add_option("--calibration", o.calibration, "Calibration file: ini of rawlog-grabber")
@@ -86,10 +87,10 @@ void addRecordingOptions(CLI::App& app, GrabberOptions& o, Words& words)
     app.add_option("-o,--output", o.output, "Rawlog (or .oni file) to write; never overwritten")
         ->group(group);
     app.add_option("--duration", o.capture.duration, "Stop after so many seconds")
-        ->check(CLI::PositiveNumber)
+        ->check(isPositive())
         ->group(group);
     app.add_option("--frames", o.capture.maxFrames, "Stop after so many frames")
-        ->check(CLI::PositiveNumber)
+        ->check(isPositive())
         ->group(group);
     app.add_option("--warm-up", o.capture.warmUp, "Seconds before recording begins")
         ->check(CLI::Range(0.2, 60.0))
@@ -99,10 +100,10 @@ void addRecordingOptions(CLI::App& app, GrabberOptions& o, Words& words)
            "--max-skew",
            o.capture.maxSkew,
            "Longest time between colour and depth of a frame [s] (default: half a frame)")
-        ->check(CLI::PositiveNumber)
+        ->check(isPositive())
         ->group(group);
     app.add_option("--split-minutes", words.splitMinutes, "Begin a new file every so many minutes")
-        ->check(CLI::PositiveNumber)
+        ->check(isPositive())
         ->group(group);
     app.add_option(
            "--images",
@@ -133,7 +134,7 @@ void addRecordingOptions(CLI::App& app, GrabberOptions& o, Words& words)
         ->capture_default_str()
         ->group(group);
     app.add_option("--min-free-mb", o.minFreeMb, "Stop when the disk has less left [MB]")
-        ->check(CLI::NonNegativeNumber)
+        ->check(isNotNegative())
         ->capture_default_str()
         ->group(group);
 }

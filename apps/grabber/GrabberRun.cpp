@@ -232,7 +232,10 @@ RunState GrabberRun::state() const
 
 void GrabberRun::finishOutputs()
 {
-    preview_.reset();
+    if (const std::string problem = preview_ ? preview_->finish() : ""; !problem.empty())
+    {
+        fail(problem + "; the picture is not the latest");
+    }
     try
     {
         if (writer_)
@@ -249,6 +252,10 @@ void GrabberRun::finishOutputs()
         if (live_)
         {
             live_->finish();
+            if (const std::string problem = live_->stats().problem; !problem.empty())
+            {
+                fail(problem + "; --live-output ends there, the rest went on");
+            }
         }
     }
     catch (const std::exception& e)
@@ -309,10 +316,6 @@ void GrabberRun::printSummary()
     {
         summary.hasLive = true;
         summary.live = live_->stats();
-        if (!summary.live.problem.empty())
-        {
-            summary.notes.push_back("live odometry's rawlog ended early: " + summary.live.problem);
-        }
     }
     print(summary, err_);
 }

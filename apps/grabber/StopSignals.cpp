@@ -25,10 +25,6 @@ void installStopSignals()
     {
         sigaction(number, &action, nullptr);
     }
-    for (const int number : {SIGPIPE, SIGXFSZ})
-    {
-        std::signal(number, SIG_IGN);
-    }
 }
 
 bool stopRequested() { return stopFlag != 0; }

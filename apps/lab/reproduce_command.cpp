@@ -13,6 +13,7 @@
 #include "LabApp.h"
 #include "OutputGuard.h"
 #include "lab_runs.h"
+#include "number_checks.h"
 #include "reproduce_output.h"
 #include "reproduce_plan.h"
 #include "result_output.h"
@@ -71,7 +72,7 @@ void ReproduceCommand::addTo(CLI::App& command)
         .add_option(
             "--corner-duration", cornerDuration, "Length of the simulated corner sequence [s]")
         ->capture_default_str()
-        ->check(CLI::PositiveNumber)
+        ->check(isPositive())
         ->group("Runs");
     command
         .add_option(

@@ -9,6 +9,7 @@
 
 #include "OdometryOptions.h"
 #include "OdometryRun.h"
+#include "number_checks.h"
 #include "run_program.h"
 #include <CLI/CLI.hpp>
 
@@ -62,11 +63,11 @@ void addOutputOptions(CLI::App& app, OdometryOptions& o)
            "--keyframe-distance",
            o.keyframeDistance,
            "Least distance between key frames of the map [m]")
-        ->check(CLI::PositiveNumber)
+        ->check(isPositive())
         ->capture_default_str()
         ->needs(simplemap);
     app.add_option("--keyframe-angle", o.keyframeAngleDeg, "Or least rotation between them [deg]")
-        ->check(CLI::PositiveNumber)
+        ->check(isPositive())
         ->capture_default_str()
         ->needs(simplemap);
     app.add_option(
@@ -93,9 +94,11 @@ void addOutputOptions(CLI::App& app, OdometryOptions& o)
 
 void addRunOptions(CLI::App& app, OdometryOptions& o)
 {
-    app.add_option("--first", o.first, "Skip so many frames at the start")->group("Run");
+    app.add_option("--first", o.first, "Skip so many frames at the start")
+        ->check(isNotNegative())
+        ->group("Run");
     app.add_option("--count", o.count, "Stop after so many frames")
-        ->check(CLI::PositiveNumber)
+        ->check(isPositive())
         ->group("Run");
     app.add_option("--jobs", o.jobs, "1 = one thread; more = read, estimate and write in parallel")
         ->check(CLI::Range(1, 64))
@@ -118,13 +121,13 @@ int run(const OdometryOptions& options, std::ostream& out, std::ostream& err)
     OdometryParams params = loadOdometryParams(options.config, options.settings);
     params.covariance.history = std::max(params.covariance.history, options.since);
     requireInput(options);
+    const RunSummary summary = runOdometry(options, params, err);
     if ((options.output + options.simplemap + options.graph + options.trajectory +
          options.diagnostics + options.overlay)
             .empty())
     {
-        err << "pointplane-odometry: warning: nothing is written (no -o, --trajectory, ...)\n";
+        err << "pointplane-odometry: warning: nothing was written (no -o, --trajectory, ...)\n";
     }
-    const RunSummary summary = runOdometry(options, params, err);
     summary.print(out, options.profile);
     summary.printProblems(err);
     return summary.exitCode();

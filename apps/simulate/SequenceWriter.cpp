@@ -119,6 +119,10 @@ void writeSequence(
     {
         guard.addOutputFolder("images of -o", imagesFolderOf(output.path), "");
     }
+    if (output.masks)
+    {
+        guard.addOutputFolder("masks of -o", masksFolderOf(output.path), "");
+    }
     ScanWriter writer(output.path, output.label, output.external);
     const auto start = fromSeconds(sequence.stamp(0));
     if (!output.hideShutter)

@@ -311,7 +311,7 @@ TEST_F(OdometryApp, optionsWithoutEffectAreNamed)
         EXPECT_THAT(outcome.err, HasSubstr(args[0]));
         EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
     }
-    EXPECT_THAT(run({in_}).err, HasSubstr("warning: nothing is written"));
+    EXPECT_THAT(run({in_}).err, HasSubstr("warning: nothing was written"));
 }
 
 TEST_F(OdometryApp, untrackedFramesSaySoInTheRawlog)

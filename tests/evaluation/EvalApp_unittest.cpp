@@ -196,6 +196,31 @@ TEST_F(EvalApp, namesOfFilesCannotBreakAReport)
     EXPECT_THAT(html, HasSubstr("&lt;!--&lt;script&gt;alert(1)&amp;.txt"));
 }
 
+/** JSON and HTML are in UTF-8, names of files may be in anything. */
+TEST_F(EvalApp, namesInAnyEncodingAreWritten)
+{
+    const std::string latin = writeFile(files, "caf\xe9.txt", straightLine(1.1));
+    const std::string utf8 = writeFile(files, "caf\xc3\xa9.txt", straightLine(1.1));
+    for (const std::vector<std::string>& command :
+         {std::vector<std::string>{"rpe", truth, latin},
+          {"ate", latin, utf8},
+          {"compare", truth, latin, utf8}})
+    {
+        std::vector<std::string> args = command;
+        args.insert(args.end(), {"--json", "-", "--report", files / "r"});
+        const test::AppRun r = run(args);
+        EXPECT_EQ(r.code, 0) << r.err;
+        EXPECT_THAT(nlohmann::json::parse(r.out).dump(), HasSubstr("caf\xef\xbf\xbd.txt"));
+    }
+    for (const char* file : {"r/index.html", "r/path-from-above.svg"})
+    {
+        const std::string text = test::readBytes(files / file);
+        EXPECT_THAT(text, HasSubstr("caf\xc3\xa9.txt"));
+        EXPECT_THAT(text, HasSubstr("caf\xef\xbf\xbd.txt"));
+        EXPECT_EQ(text.find('\xe9'), std::string::npos);
+    }
+}
+
 TEST_F(EvalApp, savesErrorsOneByOne)
 {
     ASSERT_EQ(

@@ -158,3 +158,19 @@ TEST(Thinned, keepsExtremesGapsAndTheLast)
     }
     EXPECT_TRUE(std::is_sorted(keep.begin(), keep.end()));
 }
+
+TEST(XmlEscaped, whatXmlAllowsIsKeptAndTheRestIsMarked)
+{
+    const std::string mark = "\xef\xbf\xbd";
+    EXPECT_EQ(xmlEscaped("a<b>&\"\t"), "a&lt;b&gt;&amp;&quot;\t");
+    const std::string good = "\xc3\xa9 \xe2\x82\xac \xf0\x9f\x98\x80 \xef\xbf\xbd";
+    EXPECT_EQ(xmlEscaped(good), good);
+    EXPECT_EQ(xmlEscaped(std::string("\0\x1b", 2)), mark + mark);
+    EXPECT_EQ(xmlEscaped("\xe9!"), mark + "!");                         // Latin 1
+    EXPECT_EQ(xmlEscaped("\xc3"), mark);                                // cut
+    EXPECT_EQ(xmlEscaped("\x80"), mark);                                // no beginning
+    EXPECT_EQ(xmlEscaped("\xc0\xaf"), mark + mark);                     // longer than need be
+    EXPECT_EQ(xmlEscaped("\xed\xa0\x80"), mark + mark + mark);          // half a pair of UTF-16
+    EXPECT_EQ(xmlEscaped("\xef\xbf\xbf"), mark + mark + mark);          // no character
+    EXPECT_EQ(xmlEscaped("\xf4\x90\x80\x80").size(), 4 * mark.size());  // beyond the last one
+}

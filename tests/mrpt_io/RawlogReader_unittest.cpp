@@ -10,10 +10,14 @@
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <mrpt/serialization/CArchive.h>
 
+#include <fstream>
+#include <future>
+
 #include "TempDir.h"
 #include "rawlog_samples.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 namespace pointplane
 {
@@ -331,6 +335,23 @@ TEST(RawlogReader, badFilesAreNamed)
         "CNothing" +
             std::string(20, '\0'));
     EXPECT_THAT(messageFor(dir / "unknown.rawlog"), testing::HasSubstr("CNothing"));
+}
+
+/** What came out of a pipe is gone: opening it again would wait for ever. */
+TEST(RawlogReader, aPipeIsReadOnce)
+{
+    const TempDir dir;
+    const std::string pipe = dir / "pipe";
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    const auto write = [&pipe](const std::string& bytes)
+    { return std::async(std::launch::async, [&pipe, bytes] { std::ofstream(pipe) << bytes; }); };
+    {
+        const auto writer = write("a text that is not a rawlog");
+        EXPECT_THAT(messageFor(pipe), testing::HasSubstr("is it a rawlog?"));
+    }
+    test::writeObservations(dir / "good.rawlog", 2);
+    const auto writer = write(readBytes(dir / "good.rawlog"));
+    EXPECT_EQ(readAll(pipe).objects.size(), 2U);
 }
 
 TEST(RawlogReader, intrinsicsOfAnotherResolutionAreNotHidden)

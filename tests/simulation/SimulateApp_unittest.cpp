@@ -252,6 +252,17 @@ TEST(SimulateApp, badUsageIsNamedAndLeavesNoFile)
     }
 }
 
+TEST(SimulateApp, whatStandsInTheWayOfMasksIsToldBeforeTheRun)
+{
+    const test::TempDir dir;
+    test::writeBytes(dir / "a_Masks", "precious");
+    const Finished result = run({"corner", "-o", dir / "a.rawlog", "--duration", "0", "--masks"});
+    EXPECT_EQ(result.code, 2);
+    EXPECT_THAT(result.err, testing::HasSubstr("a_Masks is not a folder"));
+    EXPECT_FALSE(std::filesystem::exists(dir / "a.rawlog"));
+    EXPECT_FALSE(std::filesystem::exists(dir / "a.rawlog.partial"));
+}
+
 TEST(SimulateApp, unwritableOutputIsTheEnvironmentsFault)
 {
     const Finished result = run({"corner", "-o", "/no/such/dir/a.rawlog", "--duration", "0"});

@@ -25,6 +25,7 @@ Eigen::Isometry3d interpolated(
 std::size_t nearestIndex(const std::vector<double>& sorted, double value)
 {
     POINTPLANE_CHECK(!sorted.empty(), "nearestIndex of an empty list");
+    value = std::clamp(value, sorted.front(), sorted.back());  // differences to 1e300 are all alike
     std::size_t best = 0;
     double difference = std::abs(sorted[0] - value);
     std::size_t begin = 0;

@@ -99,7 +99,7 @@ void Drawing::layOutLegend()
         {
             continue;
         }
-        const double width = 30 + kLetterWidth * static_cast<double>(name.size());
+        const double width = 36 + kLetterWidth * static_cast<double>(name.size());
         if (x > left_ && x + width > width_)
         {
             x = left_;

@@ -40,30 +40,4 @@ std::string turned(const std::string& text, double x, double y)
         text, x, y, "middle", " transform=\"rotate(-90 " + number(x) + " " + number(y) + ")\"");
 }
 }  // namespace svg
-
-std::string xmlEscaped(const std::string& text)
-{
-    std::string out;
-    for (const char c : text)
-    {
-        switch (c)
-        {
-            case '&':
-                out += "&amp;";
-                break;
-            case '<':
-                out += "&lt;";
-                break;
-            case '>':
-                out += "&gt;";
-                break;
-            case '"':
-                out += "&quot;";
-                break;
-            default:
-                out += c;
-        }
-    }
-    return out;
-}
 }  // namespace pointplane

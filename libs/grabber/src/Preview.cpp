@@ -62,11 +62,17 @@ Preview::Preview(std::string path) : path_(std::move(path))
     thread_ = std::thread([this] { work(); });
 }
 
-Preview::~Preview()
+Preview::~Preview() { (void)finish(); }
+
+std::string Preview::finish()
 {
     stop_ = true;
     latest_.close();
-    thread_.join();
+    if (thread_.joinable())
+    {
+        thread_.join();
+    }
+    return problem_;
 }
 
 void Preview::work()
@@ -78,9 +84,9 @@ void Preview::work()
         {
             writePicture(path_, previewPicture(*pair));
         }
-        catch (const std::exception&)
+        catch (const std::exception& e)
         {
-            // A picture less must not end a recording; a full disk shows there.
+            problem_ = oneLine(e);  // a picture less must not end a recording
         }
         for (int i = 0; i < 10 && !stop_; ++i)
         {

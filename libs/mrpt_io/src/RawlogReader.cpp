@@ -114,6 +114,11 @@ enum class Sum
         {"\xfd"
          "7zXZ",
          "xz-compressed"}};
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(path, error))
+    {
+        return "";  // what was read from a pipe is gone, and opening it again would wait for more
+    }
     std::ifstream file(path, std::ios::binary);
     std::string head(256, '\0');
     file.read(head.data(), static_cast<std::streamsize>(head.size()));

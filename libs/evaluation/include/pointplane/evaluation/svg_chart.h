@@ -17,6 +17,7 @@ namespace pointplane
 /** Style sheet of the charts' classes, for a light or a dark background. */
 [[nodiscard]] std::string chartStyle(bool dark);
 
-/** `text` with &, <, > and " as XML and HTML spell them. */
+/** `text` with &, <, > and " as XML and HTML spell them, and U+FFFD for each byte that is not UTF-8
+ * or that XML does not allow. */
 [[nodiscard]] std::string xmlEscaped(const std::string& text);
 }  // namespace pointplane

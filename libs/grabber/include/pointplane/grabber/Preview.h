@@ -26,11 +26,15 @@ class Preview
 
     void show(const ImagePair& pair) { latest_.put(pair); }
 
+    /** Writes the latest pair. \return why a picture could not be written, or nothing */
+    [[nodiscard]] std::string finish();
+
  private:
     void work();
 
     std::string path_;
     LatestPair latest_;
+    std::string problem_;  // of the thread, until it has ended
     std::atomic<bool> stop_{false};
     std::thread thread_;
 };

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace pointplane
+{
+/** @name Checks of options that are numbers. CLI11's own let nan pass, and name their limits in 300
+ * digits.
+ * @{ */
+[[nodiscard]] CLI::Validator isFinite();
+[[nodiscard]] CLI::Validator isPositive();     //!< and finite
+[[nodiscard]] CLI::Validator isNotNegative();  //!< and finite
+/** @} */
+}  // namespace pointplane
