@@ -135,14 +135,15 @@ const std::vector<PublishedFigures>& publishedFigures()
 
 std::string chosenOn(const std::string& sequence)
 {
-    const std::string planes = "limits of one plane";
     if (sequence == "fr1/xyz")
     {
-        return planes + ", SURF's threshold, the circle's radius";
+        return "limits of one plane, the millimetre, SURF's threshold, the circle's radius";
     }
-    const bool isOther =
-        sequence != "fr3/structure_notexture_far" && sequence != "icl_living_room_kt0";
-    return isOther ? "nothing" : planes;
+    if (sequence == "fr3/structure_notexture_far")
+    {
+        return "limits of one plane, the millimetre";
+    }
+    return sequence == "icl_living_room_kt0" ? "limits of one plane" : "nothing";
 }
 
 std::vector<Variant> planVariants(const std::string& paper, const std::vector<std::string>& alphas)
