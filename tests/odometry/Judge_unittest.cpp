@@ -121,15 +121,73 @@ TEST(Judge, farFromThePredictionOnlyWhatConvincesIsBelieved)
 TEST(Judge, moreEvidenceIsMoreSurfacesAndMorePoints)
 {
     const Alignment good = makeAlignment(kCertain);
+    const auto evidence = [](const Alignment& a) { return Judge::evidence(a, kUsual); };
     Alignment fewer = good;
     fewer.estimate.numPointInliers = 100;
-    EXPECT_LT(Judge::evidence(fewer), Judge::evidence(good));
+    EXPECT_LT(evidence(fewer), evidence(good));
     Alignment less = good;
     less.agreement = {700, 100, 200};
-    EXPECT_LT(Judge::evidence(less), Judge::evidence(good));
+    EXPECT_LT(evidence(less), evidence(good));
     Alignment held = less;
     held.holds = true;
-    EXPECT_GT(Judge::evidence(held), Judge::evidence(good));
+    EXPECT_GT(evidence(held), evidence(good));
+}
+
+/** A motion between that of the still world and that of what moves agrees with neither. */
+TEST(Judge, moreSurfacesDoNotOutweighResidualsOfNoMotion)
+{
+    Alignment right = makeAlignment(kCertain);
+    right.agreement = {600, 0, 400};
+    Alignment between = makeAlignment(kCertain);
+    between.estimate.pointChi2PerDof = 20;
+    EXPECT_LT(Judge::evidence(between, kUsual), Judge::evidence(right, kUsual));
+}
+
+Rivalry rivalryOf(double surfaceFirst, double surfaceSecond)
+{
+    Rivalry out;
+    out.surfaceFirst = surfaceFirst;
+    out.surfaceSecond = surfaceSecond;
+    return out;
+}
+
+TEST(Judge, aMotionThatExplainsHalfAsMuchSurfaceAgainIsTheCameras)
+{
+    const Prediction predicted;
+    EXPECT_EQ(Judge::whyUnsettled(rivalryOf(1.6, 1), predicted), "");
+    EXPECT_THAT(
+        Judge::whyUnsettled(rivalryOf(1.4, 1), predicted), testing::HasSubstr("as much surface"));
+}
+
+TEST(Judge, turningToTheLargerRestTakesTwoFrames)
+{
+    Prediction predicted;
+    EXPECT_THAT(
+        Judge::whyUnsettled(rivalryOf(1, 3), predicted), testing::HasSubstr("another frame"));
+    predicted.followsMeasured = false;
+    EXPECT_EQ(Judge::whyUnsettled(rivalryOf(1, 3), predicted), "");
+    EXPECT_THAT(
+        Judge::whyUnsettled(rivalryOf(1, 1.4), predicted), testing::HasSubstr("as much surface"));
+}
+
+TEST(Judge, anUnsettledMotionIsNotBelieved)
+{
+    Alignment a = makeAlignment(kCertain);
+    const Judge judge{PipelineParams{}};
+    judge.judge(a);
+    a.unsettled = "two motions";
+    judge.contradict(a, kUsual);
+    EXPECT_FALSE(a.holds);
+    EXPECT_EQ(a.reason, "two motions");
+}
+
+TEST(Judge, aNewViewIsNeededWhereMuchHasMoved)
+{
+    Alignment a = makeAlignment(kCertain);
+    EXPECT_FALSE(Judge::needsNewView(a, 0.2)) << "the key frame still shows what is there";
+    a.agreement = {600, 200, 200};
+    EXPECT_TRUE(Judge::needsNewView(a, 0.2));
+    EXPECT_FALSE(Judge::needsNewView(a, 0.01)) << "nothing moves";
 }
 }  // namespace
 }  // namespace pointplane

@@ -133,7 +133,8 @@ Alignment Aligner::align(
         (verifies && !Judge::isConvincing(out, errors.usual())))
     {
         Alignment wide = attempt(scene, start, Search::Wide);
-        if (!verifies || Judge::evidence(wide) > Judge::evidence(out))
+        if (!verifies ||
+            Judge::evidence(wide, errors.usual()) > Judge::evidence(out, errors.usual()))
         {
             out = std::move(wide);
         }
@@ -175,8 +176,28 @@ Alignment Aligner::attempt(const Scene& scene, const Motion& start, Search searc
         out.pointSupport = solver_.pointSupport(out.problem, out.estimate);
     }
     judge_.judge(out);
+    settleRivals(scene, out);
     verify(scene, out);
     return out;
+}
+
+/** Takes another motion than the estimated one if that explains more surface. */
+void Aligner::settleRivals(const Scene& scene, Alignment& alignment) const
+{
+    if (!params_.fuses() || !alignment.holds)
+    {
+        return;
+    }
+    const auto rivalry =
+        findRivalry(solver_, alignment.problem, alignment.estimate, scene.errors.usual());
+    if (!rivalry || (rivalry->firstWins() && rivalry->isClear()))
+    {
+        return;  // what moves has no weight
+    }
+    leaveLoserOut(*rivalry, alignment.associations);
+    estimate(scene, rivalry->winner(), alignment);
+    judge_.judge(alignment);
+    alignment.unsettled = Judge::whyUnsettled(*rivalry, scene.predicted);
 }
 
 /** The motion stays; its covariance is what planes and prediction tell without the points. */
@@ -212,7 +233,8 @@ void Aligner::searchImages(const Scene& scene, Alignment& best) const
             T_prev_world * reference->T_world_cam * motion->T_cur_ref.inverse();
         Alignment other =
             attempt(scene, {T_prev_cur, scene.predicted.motion.mean.velocity}, Search::Wide);
-        if (Judge::evidence(other) > Judge::evidence(best))
+        if (Judge::evidence(other, scene.errors.usual()) >
+            Judge::evidence(best, scene.errors.usual()))
         {
             best = std::move(other);
         }

@@ -13,6 +13,7 @@
 #include "Alignment.h"
 #include "FrontEnd.h"
 #include "Judge.h"
+#include "RivalMotions.h"
 #include "Track.h"
 #include "uncertainty/ErrorModel.h"
 
@@ -62,6 +63,7 @@ class Aligner
     };
 
     [[nodiscard]] Alignment attempt(const Scene& scene, const Motion& start, Search search) const;
+    void settleRivals(const Scene& scene, Alignment& alignment) const;
     void distrustPoints(const Scene& scene, Alignment& alignment) const;
     void searchImages(const Scene& scene, Alignment& best) const;
     [[nodiscard]] static std::vector<Association> associate(

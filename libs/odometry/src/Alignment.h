@@ -25,9 +25,10 @@ struct Alignment
     int numSought{0};             //!< points of the references that should be in view
     /** PoseSolver::pointSupport() where the prediction is uncertain. */
     double pointSupport{std::numeric_limits<double>::infinity()};
-    bool holds{false};   //!< the estimate is to be believed
-    double msPose{0};    //!< time that solving took [ms]
-    std::string reason;  //!< why it does not hold, or how much of it is predicted
+    std::string unsettled;  //!< why another motion may be the camera's (RivalMotions), or empty
+    bool holds{false};      //!< the estimate is to be believed
+    double msPose{0};       //!< time that solving took [ms]
+    std::string reason;     //!< why it does not hold, or how much of it is predicted
 
     [[nodiscard]] size_t numMatches() const
     {

@@ -44,6 +44,14 @@ constexpr double kConfirmingSurfaces = 0.9;
  */
 constexpr double kConvincingRise = 4;
 
+/** Residuals four times as large as in the frames before, squared, are those of no motion: it is
+ * one between what stands still and what moves. */
+constexpr double kNoMotionRise = 16;
+
+/** Of the view: so much stands in the way of what key frames saw behind it only where something
+ * moves. */
+constexpr double kMovedAway = 0.1;
+
 /** A prediction that is less certain than this says nothing of which plane is which: other planes
  * are as near, and as parallel (PlaneMatcher). */
 constexpr double kUncertainRotation = 10 * M_PI / 180, kUncertainTranslation = 0.1;  // [rad], [m]
@@ -115,11 +123,12 @@ std::string Judge::fewPointsAgree(const Alignment& alignment)
     return out.str();
 }
 
-double Judge::evidence(const Alignment& alignment)
+double Judge::evidence(const Alignment& alignment, const NoiseFactors& usual)
 {
     const double surfaces = alignment.agreement.fraction() *
                             std::min(1.0, 1.0 * alignment.agreement.seen() / kEnoughSurfaces);
-    return (alignment.holds ? 1 : 0) + surfaces + pointShare(alignment);
+    const bool isMotion = alignment.estimate.pointChi2PerDof < kNoMotionRise * usual.points;
+    return (alignment.holds ? 1 : 0) + (isMotion ? 1 : 0) + surfaces + pointShare(alignment);
 }
 
 bool Judge::isConvincing(const Alignment& a, const NoiseFactors& usual)
@@ -129,6 +138,27 @@ bool Judge::isConvincing(const Alignment& a, const NoiseFactors& usual)
            a.agreement.fraction() > kConvincingSurfaces &&
            a.estimate.pointChi2PerDof < kConvincingRise * usual.points &&
            a.estimate.planeChi2PerDof < kConvincingRise * usual.planes;
+}
+
+std::string Judge::whyUnsettled(const Rivalry& rivalry, const Prediction& predicted)
+{
+    if (!rivalry.isClear())
+    {
+        return "two motions explain about as much surface: what moves and what stands still cannot "
+               "be told apart";
+    }
+    if (!rivalry.firstWins() && predicted.followsMeasured)
+    {
+        return "the motion so far goes with what moves, and the larger rest contradicts it: "
+               "another "
+               "frame has to confirm that";
+    }
+    return "";
+}
+
+bool Judge::needsNewView(const Alignment& alignment, double movingShare)
+{
+    return movingShare > kMovedAway && alignment.agreement.fraction() < kConvincingSurfaces;
 }
 
 void Judge::judge(Alignment& alignment) const
@@ -180,7 +210,11 @@ void Judge::contradict(Alignment& alignment, const NoiseFactors& usual) const
     std::ostringstream reason;
     const double agreement = alignment.agreement.fraction();
     const double farOff = surprise(alignment.estimate, alignment.predicted.pose);
-    if (alignment.agreement.seen() > 0 && agreement < params_.leastAgreement)
+    if (!alignment.unsettled.empty())
+    {
+        reason << alignment.unsettled;
+    }
+    else if (alignment.agreement.seen() > 0 && agreement < params_.leastAgreement)
     {
         reason << "the depth image shows only " << std::lround(100 * agreement)
                << " % of the surfaces where the motion of " << alignment.numMatches()

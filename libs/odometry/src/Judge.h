@@ -7,6 +7,7 @@
 #include <string>
 
 #include "Alignment.h"
+#include "RivalMotions.h"
 
 namespace pointplane
 {
@@ -26,11 +27,22 @@ class Judge
      * \param usual variance of the residuals so far, over the propagated one */
     void contradict(Alignment& alignment, const NoiseFactors& usual) const;
 
-    /** How much speaks for an alignment, to compare it with others of the same frame. */
-    [[nodiscard]] static double evidence(const Alignment& alignment);
+    /** How much speaks for an alignment, to compare it with others of the same frame.
+     * \param usual variance of the residuals so far, over the propagated one */
+    [[nodiscard]] static double evidence(const Alignment& alignment, const NoiseFactors& usual);
 
     /** Whether it needs no comparison with others, and is believed even far from the prediction. */
     [[nodiscard]] static bool isConvincing(const Alignment& alignment, const NoiseFactors& usual);
+
+    /** Why the winner of two motions is not believed to be the camera's, or empty: its surface is
+     * not clearly larger, or the estimate went with the other one. That one may have been followed
+     * in the frames before, too; so it takes two frames to turn to the winner. */
+    [[nodiscard]] static std::string whyUnsettled(
+        const Rivalry& rivalry, const Prediction& predicted);
+
+    /** Whether so much has moved in front of the camera that only a new key frame can tell a right
+     * motion from a wrong one. \param movingShare MovingRegions::share() */
+    [[nodiscard]] static bool needsNewView(const Alignment& alignment, double movingShare);
 
     /** Whether points that may agree by chance decide a direction. */
     [[nodiscard]] static bool restsOnChance(const Alignment& alignment);

@@ -106,7 +106,9 @@ void Odometry::Impl::place(const RgbdFrame& frame, OdometryResult& result)
     }
 
     Alignment alignment = aligner.align(frontEnd, current, track, errors, result.diagnostics);
-    if (!alignment.holds)
+    // What cannot be told in this frame, later frames may tell with the same references.
+    const bool isSettled = alignment.unsettled.empty();
+    if (!alignment.holds && isSettled)
     {
         if (const auto place = aligner.recognise(frontEnd, current, track))
         {
@@ -114,7 +116,7 @@ void Odometry::Impl::place(const RgbdFrame& frame, OdometryResult& result)
             alignment = aligner.align(frontEnd, current, track, errors, result.diagnostics);
         }
     }
-    if (!alignment.holds && track.restartAtUnmatched())
+    if (!alignment.holds && isSettled && track.restartAtUnmatched())
     {
         // None of the references is in view any more; the latest frame did not find them either.
         alignment = aligner.align(frontEnd, current, track, errors, result.diagnostics);
@@ -184,7 +186,8 @@ void Odometry::Impl::measure(const Features& current, Alignment& alignment, Odom
     showPairs(alignment.associations, &analysis, shown);
     shown.moving = Aligner::findMoving(frontEnd, current, track, errors, alignment);
     const bool isKeyframe =
-        track.needsKeyframe(motion.mean.T_prev_cur, track.overlap(alignment.associations));
+        track.needsKeyframe(motion.mean.T_prev_cur, track.overlap(alignment.associations)) ||
+        Judge::needsNewView(alignment, shown.moving.share());
     Reference reference = referenceOf(current);
     shown.isKeyframe = isKeyframe;
     if (isKeyframe)

@@ -68,8 +68,10 @@ double ReferenceWindow::overlap(const std::vector<Association>& associations) co
         if (isNewest(*a.reference))
         {
             out = std::min(
-                fraction(a.points.size(), a.reference->points.points.size()),
-                fraction(a.planes.size(), a.reference->planes.planes.size()));
+                fraction(
+                    a.points.size() + a.movingPoints.size(), a.reference->points.points.size()),
+                fraction(
+                    a.planes.size() + a.movingPlanes.size(), a.reference->planes.planes.size()));
         }
     }
     return out;

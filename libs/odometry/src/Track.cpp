@@ -65,6 +65,7 @@ Prediction Track::prediction(double stamp)
 {
     Prediction out;
     out.dt = stamp - previous().stamp;
+    out.followsMeasured = latestStamp_ <= previous().stamp;
     if (out.dt > maxGap_)
     {
         motion_.reset();
@@ -122,7 +123,9 @@ void Track::measure(Measured measured)
     window_.refinePreviousVelocity(previousVelocity);
     for (const Association& association : measured.associations)
     {
-        window_.notePoints(association.reference->id, association.points);
+        std::vector<PointTrack> found = association.points;
+        found.insert(found.end(), association.movingPoints.begin(), association.movingPoints.end());
+        window_.notePoints(association.reference->id, found);
     }
     history_.measure(
         previous().T_world_cam, measured.motion.mean.T_prev_cur, measured.dt, measured.errors);

@@ -20,10 +20,11 @@ namespace pointplane
 /** What is known of a frame's motion since the previous one before it is measured. */
 struct Prediction
 {
-    double dt{0};           //!< [s] since the previous frame
-    MotionGaussian motion;  //!< if velocities change as they did so far
-    PoseGaussian pose;      //!< the same, with the chance of a jerk
-    MotionPrior prior;      //!< of both, what the solver uses
+    double dt{0};                //!< [s] since the previous frame
+    bool followsMeasured{true};  //!< the latest frame was measured: it is the previous one
+    MotionGaussian motion;       //!< if velocities change as they did so far
+    PoseGaussian pose;           //!< the same, with the chance of a jerk
+    MotionPrior prior;           //!< of both, what the solver uses
 };
 
 /** Where the camera has been so far: poses with their joint covariance, its velocity, and the

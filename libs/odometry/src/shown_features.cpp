@@ -105,6 +105,15 @@ void showPairs(
                 {track.cur.uv_px,
                  analysis ? useOf(analysis->pointResiduals.at(i++).weight) : FeatureUse::Rejected});
         }
+        for (const PlaneMatch& match : association.movingPlanes)
+        {
+            FeatureUse& use = shown.planeUses.at(static_cast<size_t>(match.cur));
+            use = std::min(use, FeatureUse::Rejected);
+        }
+        for (const PointTrack& track : association.movingPoints)
+        {
+            shown.points.push_back({track.cur.uv_px, FeatureUse::Rejected});
+        }
     }
     keepEachOnce(shown.points);
 }

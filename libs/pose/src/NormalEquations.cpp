@@ -180,6 +180,16 @@ void NormalEquations::add(FeatureSum& sum, size_t i) const
     }
 }
 
+PairNorms NormalEquations::norms() const
+{
+    PairNorms out;
+    for (size_t i = 0; i < residuals_.size(); ++i)
+    {
+        (isPoint(i) ? out.points : out.planes).push_back(residuals_[i].squaredNorm);
+    }
+    return out;
+}
+
 double NormalEquations::relativeMedian(size_t begin, size_t end) const
 {
     std::vector<double> norms;

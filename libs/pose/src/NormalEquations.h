@@ -49,6 +49,8 @@ class NormalEquations
     [[nodiscard]] double pointVariance() const;
     [[nodiscard]] double planeVariance() const;
 
+    [[nodiscard]] PairNorms norms() const;
+
     /** Adds one residual to a sum. */
     void add(FeatureSum& sum, size_t i) const;
 

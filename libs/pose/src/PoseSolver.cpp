@@ -218,7 +218,15 @@ PoseEstimate PoseSolver::solve(const PoseProblem& problem, const Motion& start) 
     out.pointChi2PerDof = p.weightSum > 0 ? p.weightedChi2 / (3 * p.weightSum) : 0;
     out.planeChi2PerDof = m.weightSum > 0 ? m.weightedChi2 / (3 * m.weightSum) : 0;
     out.numPointInliers = p.numInliers;
+    out.norms = equations.norms();
     return out;
+}
+
+PairNorms PoseSolver::norms(const PoseProblem& problem, const Motion& motion) const
+{
+    NormalEquations equations(settings_, problem);
+    equations.evaluate(motion);
+    return equations.norms();
 }
 
 double PoseSolver::pointSupport(const PoseProblem& problem, const PoseEstimate& solution) const

@@ -42,5 +42,8 @@ struct Association
     const Reference* reference{nullptr};
     std::vector<PlaneMatch> planes;
     std::vector<PointTrack> points;
+    /** Found again as well, but they go with what moves: the pose does not depend on them. */
+    std::vector<PlaneMatch> movingPlanes;
+    std::vector<PointTrack> movingPoints;
 };
 }  // namespace pointplane

@@ -27,6 +27,12 @@ struct PoseProblem
     NoiseFactors noise;
 };
 
+/** Squared Mahalanobis norms of residuals, in the order of the pairs. */
+struct PairNorms
+{
+    std::vector<double> points, planes;
+};
+
 /** What the solver found. */
 struct PoseEstimate
 {
@@ -40,6 +46,7 @@ struct PoseEstimate
     int numPointInliers{0};     //!< points with a Tukey weight above 1/2
     int iterations{0};
     bool converged{false};
+    PairNorms norms;  //!< of the pairs' residuals at the motion
 };
 
 /** Estimates a motion from pairs of uncertain points and planes. Levenberg-Marquardt on SE(3)
@@ -137,6 +144,12 @@ class PoseSolver
      * \return infinity if there is no such direction */
     [[nodiscard]] double pointSupport(
         const PoseProblem& problem, const PoseEstimate& solution) const;
+
+    /** How far the pairs are from where a motion puts them. */
+    [[nodiscard]] PairNorms norms(const PoseProblem& problem, const Motion& motion) const;
+
+    /** Points farther off than this many robust sigmas have no weight; 0 = all have. */
+    [[nodiscard]] double tukeySigmas() const { return settings_.params.tukeySigmas; }
 
     /** Parameters with their words as enumerators. */
     struct Settings

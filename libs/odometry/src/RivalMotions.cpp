@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "RivalMotions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+#include <utility>
+
+namespace pointplane
+{
+namespace
+{
+/** Fewer points than this, or a smaller part of all, are wrong matches, not a motion. */
+constexpr int kLeastPoints = 20;
+constexpr double kLeastShare = 0.1;
+
+/** Of the points that disagree with the first motion, so many agree about the second one. */
+constexpr double kCoherent = 0.5;
+
+/** So many of the points tell two motions apart: of a single motion fewer seem to. */
+constexpr double kTelling = 1.0 / 3;
+
+/** Variance of the residuals of points with their motion, over the usual one: it is larger where
+ * images are blurred, which is not a second motion. */
+constexpr double kMostVariance = 2;
+
+/** Areas whose ratio is smaller do not tell which of two motions is the camera's. */
+constexpr double kClearly = 1.5;
+
+/** Side of the cells of the view that points stand for, over their depth: 3 degrees. */
+constexpr double kCell = 0.05;
+
+/** Squared norms up to which pairs agree. */
+struct Limits
+{
+    double points, planes;
+};
+
+template <class Pairs, class Keep>
+Pairs chosen(const Pairs& pairs, Keep keep)
+{
+    Pairs out;
+    for (size_t i = 0; i < pairs.size(); ++i)
+    {
+        if (keep(i))
+        {
+            out.push_back(pairs[i]);
+        }
+    }
+    return out;
+}
+
+struct SecondMotion
+{
+    Motion motion;
+    int reference{0};  //!< whose points tell it
+};
+
+/** Motion of the points that disagree with an estimate, of the reference that most of them are of:
+ * what moves has another place in each reference, so it has one motion only for one of them.
+ * \param limit squared norm up to which points agree */
+std::optional<SecondMotion> secondMotion(
+    const PoseSolver& solver,
+    const PoseProblem& problem,
+    const PoseEstimate& estimate,
+    double limit)
+{
+    struct Count
+    {
+        int disagree{0}, all{0};
+    };
+    std::map<int, Count> counts;
+    const auto disagrees = [&](size_t i) { return estimate.norms.points[i] > limit; };
+    for (size_t i = 0; i < problem.points.size(); ++i)
+    {
+        Count& count = counts[problem.points[i].reference];
+        ++count.all;
+        count.disagree += disagrees(i) ? 1 : 0;
+    }
+    const auto most = std::max_element(
+        counts.begin(),
+        counts.end(),
+        [](const auto& a, const auto& b) { return a.second.disagree < b.second.disagree; });
+    if (most == counts.end() || most->second.disagree < kLeastPoints ||
+        most->second.disagree < kLeastShare * most->second.all)
+    {
+        return {};
+    }
+    const auto isOfRest = [&](size_t i)
+    { return disagrees(i) && problem.points[i].reference == most->first; };
+    const PoseProblem rest{chosen(problem.points, isOfRest), {}, problem.prior, problem.noise};
+    const SecondMotion out{solver.solve(rest, estimate.motion.mean).motion.mean, most->first};
+    const PairNorms norms = solver.norms(rest, out.motion);
+    const auto numAgree = std::count_if(
+        norms.points.begin(), norms.points.end(), [&](double norm) { return norm <= limit; });
+    if (numAgree < kLeastPoints ||
+        static_cast<double>(numAgree) < kCoherent * most->second.disagree)
+    {
+        return {};
+    }
+    return out;
+}
+
+std::vector<Side> sides(
+    const std::vector<double>& first, const std::vector<double>& second, double limit)
+{
+    std::vector<Side> out(first.size());
+    for (size_t i = 0; i < first.size(); ++i)
+    {
+        const bool inFirst = first[i] <= limit, inSecond = second[i] <= limit;
+        out[i] = inFirst ? (inSecond ? Side::Both : Side::First)
+                         : (inSecond ? Side::Second : Side::Neither);
+    }
+    return out;
+}
+
+/** Whether enough points of a reference tell two motions apart, of those that agree with any. */
+bool areDistinct(
+    const std::vector<PointPair>& points, const std::vector<Side>& sides, int reference)
+{
+    double tell = 0, both = 0, second = 0;
+    for (size_t i = 0; i < points.size(); ++i)
+    {
+        if (points[i].reference == reference)
+        {
+            both += sides[i] == Side::Both ? 1 : 0;
+            second += sides[i] == Side::Second ? 1 : 0;
+            tell += sides[i] == Side::First || sides[i] == Side::Second ? 1 : 0;
+        }
+    }
+    return tell >= kTelling * (tell + both) && second >= kLeastPoints;
+}
+
+/** Surface of the cells of the view in which points are on one side: [m^2]. */
+std::pair<double, double> surfaces(
+    const std::vector<PointPair>& points, const std::vector<Side>& sides)
+{
+    struct Cell
+    {
+        double first{0}, second{0}, depth{0};
+    };
+    std::map<std::pair<int, int>, Cell> cells;
+    for (size_t i = 0; i < points.size(); ++i)
+    {
+        const Eigen::Vector3d& p = points[i].cur.mean;
+        if (sides[i] != Side::First && sides[i] != Side::Second)
+        {
+            continue;
+        }
+        Cell& cell = cells[{
+            static_cast<int>(std::floor(p.x() / p.z() / kCell)),
+            static_cast<int>(std::floor(p.y() / p.z() / kCell))}];
+        (sides[i] == Side::First ? cell.first : cell.second) += 1;
+        cell.depth += p.z();
+    }
+    std::pair<double, double> out{0, 0};
+    for (const auto& [at, cell] : cells)
+    {
+        const double count = cell.first + cell.second;
+        const double side = kCell * cell.depth / count;
+        out.first += side * side * cell.first / count;
+        out.second += side * side * cell.second / count;
+    }
+    return out;
+}
+}  // namespace
+
+bool Rivalry::isClear() const
+{
+    return std::max(surfaceFirst, surfaceSecond) >=
+           kClearly * std::min(surfaceFirst, surfaceSecond);
+}
+
+std::optional<Rivalry> findRivalry(
+    const PoseSolver& solver,
+    const PoseProblem& problem,
+    const PoseEstimate& estimate,
+    const NoiseFactors& usual)
+{
+    const double limit2 = solver.tukeySigmas() * solver.tukeySigmas();
+    const Limits limits{limit2 * std::max(1.0, usual.points), limit2 * std::max(1.0, usual.planes)};
+    Rivalry out;
+    out.first = estimate.motion.mean;
+    const auto second =
+        limit2 > 0 ? secondMotion(solver, problem, estimate, limits.points) : std::nullopt;
+    if (!second)
+    {
+        return {};
+    }
+    out.second = second->motion;
+    const auto split = [&]
+    {
+        const PairNorms first = solver.norms(problem, out.first);
+        const PairNorms other = solver.norms(problem, out.second);
+        out.points = sides(first.points, other.points, limits.points);
+        out.planes = sides(first.planes, other.planes, limits.planes);
+    };
+    const auto refined = [&](Side own, const Motion& start)
+    {
+        const auto goes = [own](Side side) { return side == own || side == Side::Both; };
+        const PoseProblem ofOwn{
+            chosen(problem.points, [&](size_t i) { return goes(out.points[i]); }),
+            chosen(problem.planes, [&](size_t i) { return goes(out.planes[i]); }),
+            problem.prior,
+            problem.noise};
+        return solver.solve(ofOwn, start);
+    };
+    const auto areTwo = [&] { return areDistinct(problem.points, out.points, second->reference); };
+    split();
+    if (!areTwo())
+    {
+        return {};
+    }
+    const PoseEstimate first = refined(Side::First, out.first);
+    const PoseEstimate other = refined(Side::Second, out.second);
+    out.first = first.motion.mean;
+    out.second = other.motion.mean;
+    split();
+    if (!areTwo() || std::max(first.pointChi2PerDof, other.pointChi2PerDof) >
+                         kMostVariance * std::max(1.0, usual.points))
+    {
+        return {};
+    }
+    std::tie(out.surfaceFirst, out.surfaceSecond) = surfaces(problem.points, out.points);
+    return out;
+}
+
+void leaveLoserOut(const Rivalry& rivalry, std::vector<Association>& associations)
+{
+    const Side loser = rivalry.firstWins() ? Side::Second : Side::First;
+    auto plane = rivalry.planes.begin();
+    auto point = rivalry.points.begin();
+    for (Association& association : associations)
+    {
+        const auto split = [](auto& own, auto& moving, auto isLeftOut)
+        {
+            auto end = own.begin();
+            for (auto& pair : own)
+            {
+                if (isLeftOut())
+                {
+                    moving.push_back(pair);
+                }
+                else
+                {
+                    *end++ = pair;
+                }
+            }
+            own.erase(end, own.end());
+        };
+        split(association.planes, association.movingPlanes, [&] { return *plane++ == loser; });
+        split(
+            association.points,
+            association.movingPoints,
+            [&]
+            {
+                const Side side = *point++;
+                return side == loser || side == Side::Neither;
+            });
+    }
+}
+}  // namespace pointplane
