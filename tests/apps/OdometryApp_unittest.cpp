@@ -417,10 +417,15 @@ TEST_F(OdometryApp, unwritableOutputIsExitCode3)
         EXPECT_THAT(
             outcome.err, HasSubstr("cannot write /nonexistent/x: No such file or directory"));
     }
-    std::filesystem::create_symlink("/dev/full", dir_ / "full.rawlog.partial");
-    const Outcome outcome = run({in_, "-o", dir_ / "full.rawlog"});
-    EXPECT_EQ(outcome.code, kExitEnvironment);
-    EXPECT_THAT(outcome.err, HasSubstr("No space left on device"));
+    std::filesystem::create_symlink("/dev/full", dir_ / "full.rawlog");
+    const Outcome full = run({in_, "-o", dir_ / "full.rawlog"});
+    EXPECT_EQ(full.code, kExitEnvironment);
+    EXPECT_THAT(full.err, HasSubstr("No space left on device"));
+    std::filesystem::create_symlink(dir_ / "other", dir_ / "taken.rawlog.partial");
+    const Outcome taken = run({in_, "-o", dir_ / "taken.rawlog"});
+    EXPECT_EQ(taken.code, kExitEnvironment);
+    EXPECT_THAT(taken.err, HasSubstr("taken.rawlog.partial: something else has this name"));
+    EXPECT_FALSE(std::filesystem::exists(dir_ / "other")) << "written through the link";
 }
 
 TEST_F(OdometryApp, damagedInputIsDoneUpToTheDamage)
