@@ -1,0 +1,83 @@
+#!/usr/bin/env bash
+# Writes the last table of docs/consistency.md: what becomes of the covariances if a number of the
+# error model is half or twice as large.
+# usage: POINTPLANE_DATA=DIR benchmarks/numbers_table.sh BUILD
+set -euo pipefail
+shopt -s inherit_errexit
+readonly usage='usage: POINTPLANE_DATA=DIR benchmarks/numbers_table.sh BUILD'
+build=$(realpath "${1:?$usage}")
+data=$(realpath "${POINTPLANE_DATA:?POINTPLANE_DATA must name the folder with the sequences}")
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+bin=$build/bin
+for program in "$bin"/pointplane-{convert,odometry,eval}; do
+    [[ -x $program ]] || {
+        echo "error: $program is not built" >&2
+        exit 2
+    }
+done
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+source benchmarks/quietly.sh
+
+# The noise of the ground truth is that of the first table of docs/consistency.md.
+readonly sequences=(
+    'tum_fr1_xyz_part 0.089,0.057,0.045' 'tum_fr1_rpy_part 0.103,0.161,0.055'
+    'tum_fr3_structure_notexture_far_part 0.140,0.060,0.065' 'icl_living_room_kt0_part'
+    'kinect1_fixed_person_part'
+)
+readonly keys=(
+    Covariance.{noise,viewSigma,motion,vignetting,principalPoint,focalLength,depthScale}
+    NoiseScale.timeConstant
+)
+
+# value_of SECTION.KEY: what config.ini says.
+value_of() {
+    awk -F' = ' -v section="[${1%.*}]" -v key="${1#*.}" \
+        '/^\[/ {here = $0 == section} here && $1 == key {split($2, v, " "); print v[1]}' config.ini
+}
+
+# cell SEQUENCE [NOISE] [OPTION]...: NEES over "1 frame / 1 s".
+cell() {
+    local name=$1 truth=()
+    shift
+    if [[ ${1:-} == 0.* ]]; then
+        truth=(--gt-sigma-trans 0.0001 --gt-sigma-rot-deg "$1")
+        shift
+    fi
+    quietly "$bin/pointplane-odometry" -c config.ini "$work/$name.rawlog" --quiet --jobs 1 \
+        --only-poses --since 31 -o "$work/poses.rawlog" "$@"
+    "$bin/pointplane-eval" nees "$work/$name.groundtruth.txt" "$work/poses.rawlog" \
+        --body-from-gt optical --csv - "${truth[@]}" |
+        awk -F, '$4 == "joint" {v[++n] = $5} END {printf "%.2f / %.2f", v[1], v[n]}'
+    rm "$work/poses.rawlog"
+}
+
+# row NAME VALUE [OPTION]...: one cell a sequence.
+row() {
+    local out="| $1 | $2 |" sequence name_and_noise text
+    shift 2
+    for sequence in "${sequences[@]}"; do
+        read -ra name_and_noise <<<"$sequence"
+        text=$(cell "${name_and_noise[@]}" "$@")
+        out+=" $text |"
+    done
+    echo "$out"
+}
+
+for sequence in "${sequences[@]}"; do
+    quietly "$bin/pointplane-convert" tum "$data/${sequence%% *}" -o "$work/${sequence%% *}.rawlog" --quiet
+done
+{
+    echo "| number | value | fr1/xyz | fr1/rpy | fr3 | ICL | fixed Kinect |"
+    echo "|---|---|---|---|---|---|---|"
+    row "all as in config.ini" ""
+    for key in "${keys[@]}"; do
+        value=$(value_of "$key")
+        for factor in 0.5 2; do
+            changed=$(awk -v v="$value" -v f="$factor" 'BEGIN {printf "%g", v * f}')
+            row "\`$key\`" "$changed" --set "$key=$changed"
+        done
+    done
+} >"$work/table"
+sed -i -e "/^<!-- numbers begin -->$/,/^<!-- numbers end -->$/{/^<!-- numbers begin -->$/{p;r $work/table
+};/^<!-- numbers end -->$/p;d}" docs/consistency.md
