@@ -98,8 +98,9 @@ class HelpFormatter : public CLI::Formatter
     }
 };
 
-/** One line for a terminal, whatever the names and the input hold that it quotes. */
-[[nodiscard]] std::string printable(std::string text)
+/** For a terminal, whatever the names and the input hold that it quotes: one line, unless the text
+ * is one of our own in several lines. */
+[[nodiscard]] std::string printable(std::string text, bool keepsLines = false)
 {
     constexpr std::size_t kLongest = 1000;
     if (text.size() > kLongest)
@@ -107,7 +108,11 @@ class HelpFormatter : public CLI::Formatter
         text = text.substr(0, kLongest) + "...";
     }
     std::replace_if(
-        text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
+        text.begin(),
+        text.end(),
+        [keepsLines](unsigned char c)
+        { return (c < 0x20 || c == 0x7f) && !(keepsLines && c == '\n'); },
+        '?');
     return text;
 }
 
@@ -125,7 +130,9 @@ int report(const std::string& program, std::ostream& err)
     }
     catch (const EnvironmentError& e)
     {
-        return say(e.what(), kExitEnvironment);
+        // Which cameras there are, and what to do about it, is a list.
+        err << program << ": " << printable(e.what(), true) << "\n";
+        return kExitEnvironment;
     }
     catch (const InputError& e)
     {
