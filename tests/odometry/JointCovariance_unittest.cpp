@@ -3,6 +3,7 @@
 #include <pointplane/core/se3.h>
 #include <pointplane/odometry/uncertainty/JointCovariance.h>
 
+#include <algorithm>
 #include <map>
 #include <stdexcept>
 #include <vector>
@@ -302,6 +303,31 @@ TEST(JointCovariance, predictedFramesAndANewWindow)
     EXPECT_THAT(joint.latest(), isTimesIdentity(7));
     EXPECT_THAT(joint.relative(3, kAtRest), isTimesIdentity(1));
     EXPECT_THROW(joint.measure(5, kAtRest, kFrame, against(1)), std::exception);
+}
+
+/** Frames a moment apart at one place, in any number: nothing is divided by next to nothing. */
+TEST(JointCovariance, viewsThatAreAlmostTheSameAreNoTrouble)
+{
+    JointCovariance joint = started();
+    JointCovariance::Measurement measurement;
+    measurement.viewSigma.setConstant(2);
+    for (int frame = 2; frame <= 8; ++frame)
+    {
+        const int n = std::min(frame - 1, 4);
+        measurement.references.clear();
+        measurement.views.frames.clear();
+        for (int k = 1; k <= n; ++k)
+        {
+            measurement.references[frame - k] << Matrix6d::Identity() / n, Matrix6d::Zero();
+            measurement.views.frames.push_back(frame - k);
+        }
+        measurement.views.correlation = Eigen::MatrixXd::Constant(n + 1, n + 1, 1 - 1e-9);
+        measurement.views.correlation.diagonal().setOnes();
+        joint.measure(frame, kAtRest, kFrame, measurement);
+        EXPECT_LT(joint.latest().norm(), 1e-6) << frame;
+        EXPECT_GE(joint.latest().trace(), 0) << frame;
+        joint.keep(measurement.views.frames);
+    }
 }
 
 /** A place that is compared with again: its pose was kept. Of the error by its view, the other

@@ -163,7 +163,8 @@ TEST(Judge, turningToTheLargerRestTakesTwoFrames)
 {
     Prediction predicted;
     EXPECT_THAT(
-        Judge::whyUnsettled(rivalryOf(1, 3), predicted), testing::HasSubstr("another frame"));
+        Judge::whyUnsettled(rivalryOf(1, 3), predicted),
+        testing::HasSubstr("the next frame has to confirm"));
     predicted.followsMeasured = false;
     EXPECT_EQ(Judge::whyUnsettled(rivalryOf(1, 3), predicted), "");
     EXPECT_THAT(

@@ -44,12 +44,12 @@ constexpr double kConfirmingSurfaces = 0.9;
  */
 constexpr double kConvincingRise = 4;
 
-/** Residuals four times as large as in the frames before, squared, are those of no motion: it is
- * one between what stands still and what moves. */
+/** Residuals four times as large as in the frames before, squared: such a motion is none of
+ * anything in view, but lies between that of the still world and that of what moves. */
 constexpr double kNoMotionRise = 16;
 
-/** Of the view: so much stands in the way of what key frames saw behind it only where something
- * moves. */
+/** Share of the view in which something stands where key frames looked through: more than holes of
+ * the depth image and thin things make, so something moves. */
 constexpr double kMovedAway = 0.1;
 
 /** A prediction that is less certain than this says nothing of which plane is which: other planes
@@ -144,14 +144,13 @@ std::string Judge::whyUnsettled(const Rivalry& rivalry, const Prediction& predic
 {
     if (!rivalry.isClear())
     {
-        return "two motions explain about as much surface: what moves and what stands still cannot "
-               "be told apart";
+        return "two motions explain about as much surface each: which of them is the camera's "
+               "cannot be told";
     }
     if (!rivalry.firstWins() && predicted.followsMeasured)
     {
-        return "the motion so far goes with what moves, and the larger rest contradicts it: "
-               "another "
-               "frame has to confirm that";
+        return "most of the surface in view contradicts the features that were followed so far: "
+               "the next frame has to confirm its motion";
     }
     return "";
 }

@@ -98,13 +98,13 @@ void ReferenceWindow::refinePreviousVelocity(const Vector6d& velocity)
     }
 }
 
-void ReferenceWindow::notePoints(int id, const std::vector<PointTrack>& tracks)
+void ReferenceWindow::notePoints(const Association& association)
 {
     for (Reference& keyframe : keyframes_)
     {
-        if (keyframe.id == id)
+        if (keyframe.id == association.reference->id)
         {
-            keyframe.points.note(tracks);
+            keyframe.points.note(association.points, association.movingPoints);
         }
     }
 }

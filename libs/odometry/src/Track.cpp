@@ -123,9 +123,7 @@ void Track::measure(Measured measured)
     window_.refinePreviousVelocity(previousVelocity);
     for (const Association& association : measured.associations)
     {
-        std::vector<PointTrack> found = association.points;
-        found.insert(found.end(), association.movingPoints.begin(), association.movingPoints.end());
-        window_.notePoints(association.reference->id, found);
+        window_.notePoints(association);
     }
     history_.measure(
         previous().T_world_cam, measured.motion.mean.T_prev_cur, measured.dt, measured.errors);

@@ -3,16 +3,20 @@
 
 namespace pointplane
 {
-void PointReference::note(const std::vector<PointTrack>& tracks)
+void PointReference::note(
+    const std::vector<PointTrack>& tracks, const std::vector<PointTrack>& others)
 {
     misses.resize(points.size(), 0);
     for (int& count : misses)
     {
         ++count;
     }
-    for (const PointTrack& track : tracks)
+    for (const std::vector<PointTrack>* found : {&tracks, &others})
     {
-        misses[static_cast<size_t>(track.ref)] = 0;
+        for (const PointTrack& track : *found)
+        {
+            misses[static_cast<size_t>(track.ref)] = 0;
+        }
     }
 }
 

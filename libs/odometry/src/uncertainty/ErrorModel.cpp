@@ -27,6 +27,34 @@ double commonLevel(const NoiseFactors& noise, const NoiseFactors& drift, const S
     }
     return std::sqrt(ofPoints * ofPlanes);
 }
+
+/** How alike the views of the references and of the frame are. */
+JointCovariance::Views viewsOf(const ErrorModel::Measured& frame)
+{
+    JointCovariance::Views out;
+    std::vector<Eigen::Isometry3d> poses;
+    std::vector<double> stamps;
+    for (const Reference* reference : frame.references)
+    {
+        out.frames.push_back(reference->id);
+        poses.push_back(reference->T_world_cam);
+        stamps.push_back(reference->stamp);
+    }
+    poses.push_back(poses.front() * frame.estimate.motion.mean.T_prev_cur);
+    stamps.push_back(stamps.front() + frame.dt);
+    const auto n = static_cast<Eigen::Index>(poses.size());
+    out.correlation = Eigen::MatrixXd::Identity(n, n);
+    for (size_t i = 0; i < poses.size(); ++i)
+    {
+        for (size_t k = 0; k < i; ++k)
+        {
+            const auto row = static_cast<Eigen::Index>(i), column = static_cast<Eigen::Index>(k);
+            out.correlation(row, column) = out.correlation(column, row) =
+                viewCorrelation(poses[i].inverse() * poses[k], stamps[i] - stamps[k]);
+        }
+    }
+    return out;
+}
 }  // namespace
 
 ErrorModel::ErrorModel(const OdometryParams& params)
@@ -89,43 +117,12 @@ JointCovariance::Measurement ErrorModel::errorsOf(
         out.prior.rightCols<6>().setZero();  // the velocity is a new one for each frame
     }
     out.priorNoise = params_.motion * propagate(of.prior, frame.motionNoise);
-    errorsByView(frame, out);
-    return out;
-}
-
-void ErrorModel::errorsByView(const Measured& frame, JointCovariance::Measurement& out) const
-{
     const double level =
         commonLevel(noise_.levels(), variogram_.levels().drift, frame.analysis.sensitivity);
     out.viewSigma = viewSigma(
         params_.viewSigma * std::sqrt(level),
         frame.estimate.infoPoints + frame.estimate.infoPlanes);
-
-    struct View
-    {
-        Eigen::Isometry3d T_world_cam;
-        double stamp;
-    };
-    std::vector<View> views;
-    for (const Reference* reference : frame.references)
-    {
-        out.views.frames.push_back(reference->id);
-        views.push_back({reference->T_world_cam, reference->stamp});
-    }
-    const View& previous = views.front();
-    views.push_back(
-        {previous.T_world_cam * frame.estimate.motion.mean.T_prev_cur, previous.stamp + frame.dt});
-
-    const auto n = static_cast<Eigen::Index>(views.size());
-    out.views.correlation.resize(n, n);
-    for (Eigen::Index i = 0; i < n; ++i)
-    {
-        for (Eigen::Index k = 0; k < n; ++k)
-        {
-            const View &a = views[static_cast<size_t>(i)], &b = views[static_cast<size_t>(k)];
-            out.views.correlation(i, k) =
-                viewCorrelation(a.T_world_cam.inverse() * b.T_world_cam, a.stamp - b.stamp);
-        }
-    }
+    out.views = viewsOf(frame);
+    return out;
 }
 }  // namespace pointplane

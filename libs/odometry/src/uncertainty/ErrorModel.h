@@ -68,7 +68,6 @@ class ErrorModel
  private:
     [[nodiscard]] JointCovariance::Measurement errorsOf(
         const Measured& frame, const NoiseFactors& usual) const;
-    void errorsByView(const Measured& frame, JointCovariance::Measurement& out) const;
 
     JointCovariance::TParams params_;
     bool isJoint_, fuses_;

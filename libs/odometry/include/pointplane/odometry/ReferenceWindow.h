@@ -78,7 +78,7 @@ class ReferenceWindow
     void refinePreviousVelocity(const Vector6d& velocity);
 
     /** Counts which points of a frame in the window were found again. */
-    void notePoints(int id, const std::vector<PointTrack>& tracks);
+    void notePoints(const Association& association);
 
     /** Makes a frame the previous one and, if wanted, the newest key frame. */
     void add(Reference frame, bool isKeyframe);

@@ -32,7 +32,7 @@ struct PointReference
     std::vector<int> misses;  //!< tracking: frames in a row without each point
 
     /** Counts misses: which points were found again in a frame. */
-    void note(const std::vector<PointTrack>& tracks);
+    void note(const std::vector<PointTrack>& tracks, const std::vector<PointTrack>& others = {});
 
     /** Whether to search for a point now. One that has been missing for some frames is searched for
      * only now and then, in turns with others, because a search in vain takes longest. */
