@@ -9,15 +9,8 @@ build=$(realpath "${1:?$usage}")
 seeds=${2:-3}
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 bin=$build/bin
-for program in "$bin"/pointplane-{simulate,odometry,eval}; do
-    [[ -x $program ]] || {
-        echo "error: $program is not built" >&2
-        exit 2
-    }
-done
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-source benchmarks/quietly.sh
+source benchmarks/tables.sh
+need_built "$bin"/pointplane-{simulate,odometry,eval}
 
 # row CAMERA SCENE MOTION_SCALE: of all seeds. With 0, the camera stands still.
 row() {
@@ -54,5 +47,4 @@ row() {
         row "$camera" desk 0
     done
 } >"$work/table"
-sed -i -e "/^<!-- table begin -->$/,/^<!-- table end -->$/{/^<!-- table begin -->$/{p;r $work/table
-};/^<!-- table end -->$/p;d}" docs/cameras.md
+replace docs/cameras.md table "$work/table"

@@ -13,15 +13,8 @@ data=$(realpath "${POINTPLANE_DATA:?POINTPLANE_DATA must name the folder with th
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 bin=$build/bin
 ground_truth=$build/benchmarks/ground_truth/benchmark_ground_truth
-for program in "$bin"/pointplane-{convert,simulate,odometry,eval} "$ground_truth"; do
-    [[ -x $program ]] || {
-        echo "error: $program is not built (cmake -DPOINTPLANE_BUILD_BENCHMARKS=ON)" >&2
-        exit 2
-    }
-done
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-source benchmarks/quietly.sh
+source benchmarks/tables.sh
+need_built "$bin"/pointplane-{convert,simulate,odometry,eval} "$ground_truth"
 
 # options_of VARIANT: what it sets.
 options_of() {
@@ -160,5 +153,4 @@ done | xargs -P "$(nproc)" -L 1 bash -c '
         echo "$row"
     done
 } >"$work/tables"
-sed -i -e "/^<!-- tables begin -->$/,/^<!-- tables end -->$/{/^<!-- tables begin -->$/{p;r $work/tables
-};/^<!-- tables end -->$/p;d}" docs/consistency.md
+replace docs/consistency.md tables "$work/tables"

@@ -9,15 +9,8 @@ build=$(realpath "${1:?$usage}")
 data=$(realpath "${POINTPLANE_DATA:?POINTPLANE_DATA must name the folder with the sequences}")
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 bin=$build/bin
-for program in "$bin"/pointplane-{convert,odometry,eval}; do
-    [[ -x $program ]] || {
-        echo "error: $program is not built" >&2
-        exit 2
-    }
-done
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-source benchmarks/quietly.sh
+source benchmarks/tables.sh
+need_built "$bin"/pointplane-{convert,odometry,eval}
 
 # The noise of the ground truth is that of the first table of docs/consistency.md.
 readonly sequences=(
@@ -79,5 +72,4 @@ done
         done
     done
 } >"$work/table"
-sed -i -e "/^<!-- numbers begin -->$/,/^<!-- numbers end -->$/{/^<!-- numbers begin -->$/{p;r $work/table
-};/^<!-- numbers end -->$/p;d}" docs/consistency.md
+replace docs/consistency.md numbers "$work/table"

@@ -6,18 +6,7 @@ shopt -s inherit_errexit
 bin=$(realpath "${1:?usage: POINTPLANE_DATA=DIR benchmarks/paper_table.sh BIN_DIR}")
 data=$(realpath "${POINTPLANE_DATA:?POINTPLANE_DATA must name the folder with the sequences}")
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-
-# replace PAGE NAME FILE: the lines between <!-- NAME:begin --> and <!-- NAME:end -->.
-replace() {
-    if [[ $(grep -cE "<!-- $2:(begin|end) -->" "$1") != 2 ]]; then
-        echo "error: $1 has lost its lines $2:begin and $2:end" >&2
-        exit 1
-    fi
-    sed -i -e "/<!-- $2:begin -->/,/<!-- $2:end -->/{/$2:begin/{p;r $3
-};/$2:end/p;d}" "$1"
-}
+source benchmarks/tables.sh
 
 # The paper's four sequences, whole or in part, and three that are not in it.
 sequences=()

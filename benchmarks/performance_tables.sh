@@ -7,15 +7,9 @@ build=$(realpath "${1:?usage: POINTPLANE_DATA=DIR benchmarks/performance_tables.
 shift
 data=$(realpath "${POINTPLANE_DATA:?must name the folder with the sequences}")
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+source benchmarks/tables.sh
 page=docs/performance.md
 parts=${*:-speed planes memory}
-
-replace() { # section, file with the new text
-    sed -i -e "/<!-- $1:begin -->/,/<!-- $1:end -->/{/$1:begin/{p;r $2
-};/$1:end/p;d}" "$page"
-}
 
 for part in $parts; do
     case $part in
@@ -24,11 +18,11 @@ for part in $parts; do
         ;;
     planes)
         { echo && "$build/benchmarks/planes/benchmark_planes" && echo; } >"$work/planes.md"
-        replace planes "$work/planes.md"
+        replace "$page" planes "$work/planes.md"
         ;;
     memory)
         { echo && benchmarks/memory.sh "$build/bin" && echo; } >"$work/memory.md"
-        replace memory "$work/memory.md"
+        replace "$page" memory "$work/memory.md"
         ;;
     *)
         echo "performance_tables.sh: unknown part '$part' (speed, planes, memory)" >&2

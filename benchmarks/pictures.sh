@@ -6,9 +6,7 @@ set -euo pipefail
 bin=$(realpath "${1:?usage: POINTPLANE_DATA=DIR benchmarks/pictures.sh BIN_DIR}")
 data=$(realpath "${POINTPLANE_DATA:?must name the folder with the sequences}")
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-source benchmarks/quietly.sh
+source benchmarks/tables.sh
 
 quietly "$bin/pointplane-convert" tum "$data/tum_fr1_xyz_part" -o "$work/in.rawlog" --quiet
 quietly "$bin/pointplane-odometry" -c config.ini "$work/in.rawlog" -o "$work/out.rawlog" --only-poses \

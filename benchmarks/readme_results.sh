@@ -3,8 +3,7 @@
 # docs/accuracy.md. usage: benchmarks/readme_results.sh
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+source benchmarks/tables.sh
 
 # One line per sequence: NAME|chosen on it (yes, other seeds, no)|ours mm|ours deg|fast mm|fast deg|peer mm|peer deg|its name|NEES 1|NEES 1 s
 awk -F ' *[|] *' '
@@ -48,12 +47,7 @@ rows() { # yes, other seeds or no; heading
     rows no "not chosen on these, except as *decisions* below says"
     echo
 } >"$work/results"
-if [[ $(grep -cE '<!-- results:(begin|end) -->' README.md) != 2 ]]; then
-    echo "error: README.md has lost its lines results:begin and results:end" >&2
-    exit 1
-fi
-sed -i -e "/<!-- results:begin -->/,/<!-- results:end -->/{/results:begin/{p;r $work/results
-};/results:end/p;d}" README.md
+replace README.md results "$work/results"
 
 # Bars on a logarithmic scale, ours above the best peer's.
 awk -F '|' '

@@ -43,9 +43,8 @@ struct PipelineParams
         v("degeneracy",
           degeneracy,
           "-",
-          "what to do if a frame does not show all six directions of the motion, as when "
-          "only one wall is in view: fuse (take the others from the predicted motion) or "
-          "gate (predict the whole frame, as in the paper)");
+          "if a frame does not show the whole motion, like one of a single wall: fuse (predict "
+          "the rest) or gate (predict all of it, as in the paper)");
         v("gateSigma",
           gateSigma,
           "m, rad",
@@ -54,9 +53,8 @@ struct PipelineParams
         v("leastAgreement",
           leastAgreement,
           "-",
-          "check of the result: the depth image must show at least this fraction of the "
-          "known surfaces where the motion puts them; else the frame is predicted; 0 = no "
-          "check");
+          "fraction of the known surfaces that the depth image must show where the motion puts "
+          "them; else the frame is predicted; 0 = no check");
         v("searchImages",
           searchImages,
           "-",

@@ -50,9 +50,8 @@ class JointCovariance
             v("viewSigma",
               viewSigma,
               "-",
-              "error that all features of a frame share, because of where the camera stands: "
-              "standard deviation, as a fraction of the scene's distance; frames from the same "
-              "place err alike");
+              "error that all features of a frame share, by where the camera stands: standard "
+              "deviation, as a fraction of the scene's distance");
             v("motion",
               motion,
               "-",
