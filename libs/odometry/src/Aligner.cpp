@@ -17,15 +17,6 @@ namespace
 /** Search radius when too little is found again around the prediction, over the usual one. */
 constexpr double kWideSearch = 5;
 
-/** Surfaces of a place that agree when it is recognised. By key points alone the motion is
- * centimetres off: less is asked than of an estimate, and twice what a wrong motion shows. What is
- * recalled is then aligned and judged like any reference. */
-constexpr double kRecognised = 0.6;
-
-/** About half of the time between two frames at 30 Hz, by which the stamp of a depth image may be
- * off where a source gives both images one stamp [s]. */
-constexpr double kTimeSigma = 0.015;
-
 /** Points of a reference that are due and in view of a camera. */
 int numInView(
     const Reference& reference, const RgbdFrame& frame, const Eigen::Isometry3d& T_cur_ref)
@@ -74,7 +65,8 @@ DepthMotion depthMotion(
         untilDepth(reference.velocity, shutter.complete(reference.shutter).depthDelay);
     const double speed = motion.velocity.head<3>().norm() + reference.velocity.head<3>().norm();
     const double rate = motion.velocity.tail<3>().norm() + reference.velocity.tail<3>().norm();
-    return {T_depth_cur * T_cur_ref * T_ref_depth, kTimeSigma * speed, kTimeSigma * rate};
+    const double time = shutter.sigmaPrior();
+    return {T_depth_cur * T_cur_ref * T_ref_depth, time * speed, time * rate};
 }
 
 void tell(const Alignment& alignment, FrameDiagnostics& diagnostics)
@@ -108,7 +100,7 @@ Aligner::Aligner(const OdometryParams& params)
       searchesAhead_(params.pipeline.searchesAhead()),
       minOverlap_(params.reference.keyframeMinOverlap),
       solver_(params.poseSolver),
-      judge_(params.pipeline)
+      judge_(params)
 {
 }
 
@@ -171,11 +163,11 @@ Alignment Aligner::attempt(const Scene& scene, const Motion& start, Search searc
         out.associations = associate(scene, coarse.T_prev_cur, 1);
         estimate(scene, coarse, out);
     }
-    if (params_.fuses() && Judge::isUncertain(scene.predicted.pose))
+    judge_.judge(out);
+    if (params_.fuses() && out.isUnforeseen)
     {
         out.pointSupport = solver_.pointSupport(out.problem, out.estimate);
     }
-    judge_.judge(out);
     settleRivals(scene, out);
     verify(scene, out);
     return out;
@@ -255,8 +247,8 @@ std::optional<int> Aligner::recognise(
     for (auto place = track.places().rbegin(); place != track.places().rend(); ++place)
     {
         const auto motion = frontEnd.alignImages(*place, current);
-        if (motion &&
-            frontEnd.compare(*place, current, motion->T_cur_ref, 0).fraction() > kRecognised)
+        if (motion && frontEnd.compare(*place, current, motion->T_cur_ref, 0).fraction() >
+                          params_.leastAgreement)
         {
             return place->id;
         }

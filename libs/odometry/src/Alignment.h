@@ -21,9 +21,10 @@ struct Alignment
     PoseProblem problem;  //!< the pairs that they make
     PoseEstimate estimate;
     int observableDirections{0};  //!< of 6, measured better than predicted
+    bool isUnforeseen{false};     //!< the prediction does not tell which feature is which
     Agreement agreement;          //!< of the surfaces seen before with this frame's depth image
     int numSought{0};             //!< points of the references that should be in view
-    /** PoseSolver::pointSupport() where the prediction is uncertain. */
+    /** PoseSolver::pointSupport() of an unforeseen motion. */
     double pointSupport{std::numeric_limits<double>::infinity()};
     std::string unsettled;  //!< why another motion may be the camera's (RivalMotions), or empty
     bool holds{false};      //!< the estimate is to be believed

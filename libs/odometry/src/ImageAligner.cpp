@@ -7,21 +7,21 @@
 #include <cmath>
 #include <random>
 
+#include "few_points.h"
+#include "surface_comparison.h"
+
 namespace pointplane
 {
 namespace
 {
 constexpr int kMaxPoints = 600;
+
+/** Motions of three points that are tried: with a fifth of the pairs right, 98 of 100 times one is.
+ */
 constexpr int kMaxTrials = 500;
 
-/** With fewer, chance agrees as well. */
-constexpr int kLeastInliers = 8;
-
-/** How far a point may be from where a motion puts it: of the image's width, and of its distance
- * beside the sensor's noise. */
+/** How far a point may be from where a motion puts it, as a part of the image's width. */
 constexpr double kPixelFraction = 0.006;
-constexpr double kDepthFraction = 0.02;
-constexpr double kSigmas = 4;
 
 PointDetector::TParams detectorParams()
 {
@@ -69,11 +69,8 @@ class Judge
             const double du = camera_.fx * (p.x() / p.z() - q.x() / q.z());
             const double dv = camera_.fy * (p.y() / p.z() - q.y() / q.z());
             const double inverse = std::abs(1 / p.z() - 1 / q.z());
-            const double tolerance =
-                widening * std::hypot(
-                               kSigmas * M_SQRT2 * noise_.sigmaZ(q.z()) / (q.z() * q.z()),
-                               kDepthFraction / q.z());
-            if (du * du + dv * dv < most * most && inverse < tolerance)
+            const double same = M_SQRT2 * widening * sameDepth(noise_, q.z()) / (q.z() * q.z());
+            if (du * du + dv * dv < most * most && inverse < same)
             {
                 out.push_back(i);
             }
@@ -90,8 +87,7 @@ class Judge
             const double before = (pairs_.ref[a] - pairs_.ref[b]).norm();
             const double now = (pairs_.cur[a] - pairs_.cur[b]).norm();
             const double z = std::max(pairs_.cur[a].z(), pairs_.cur[b].z());
-            const double tolerance = z * std::hypot(kSigmas * noise_.sigmaZ(z) / z, kDepthFraction);
-            if (std::abs(before - now) > 2 * tolerance || before < 0.05 * z)
+            if (std::abs(before - now) > 2 * sameDepth(noise_, z) || before < 0.05 * z)
             {
                 return false;
             }
@@ -162,7 +158,7 @@ std::optional<ImageMotion> ImageAligner::align(
     const DescribedPoints& current,
     const PinholeCamera& camera) const
 {
-    if (reference.points.size() < kLeastInliers || current.points.size() < kLeastInliers)
+    if (reference.points.size() < kFewPoints || current.points.size() < kFewPoints)
     {
         return {};
     }
@@ -183,7 +179,7 @@ std::optional<ImageMotion> ImageAligner::align(
         pairs.cur.push_back(current.points[static_cast<size_t>(match.cur)].p_cam.mean);
     }
     const size_t n = pairs.ref.size();
-    if (n < kLeastInliers)
+    if (n < kFewPoints)
     {
         return {};
     }
@@ -213,7 +209,7 @@ std::optional<ImageMotion> ImageAligner::align(
             best = std::move(found);
         }
     }
-    if (best.size() < kLeastInliers)
+    if (best.size() < kFewPoints)
     {
         return {};
     }
@@ -228,7 +224,7 @@ std::optional<ImageMotion> ImageAligner::align(
         T = judge.fit(found);
         best = found;
     }
-    if (best.size() < kLeastInliers)
+    if (best.size() < kFewPoints)
     {
         return {};
     }

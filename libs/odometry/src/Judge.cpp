@@ -10,6 +10,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "few_points.h"
+
 namespace pointplane
 {
 namespace
@@ -17,15 +19,8 @@ namespace
 /** Fewer matches than this in total cannot fix a pose [P17, section Pose estimation]. */
 constexpr int kMinMatches = 3;
 
-/** Fewer points than this may agree by chance; a plane is worth three. */
-constexpr int kFewPoints = 8;
-
 /** Points that should be in view: of fewer, a share says little. */
-constexpr int kHandful = 20;
-
-/** Where the prediction does not tell which point is which, the share of those in view by which
- * they confirm a motion: half of them do not agree on a wrong one. */
-constexpr double kConfirmingPoints = 0.5;
+constexpr int kHandful = 2 * kFewPoints;
 
 /** Standard deviations from the predicted motion beyond which an estimate has to be convincing by
  * itself. Cameras in hands stay below three, at any frame rate: the prediction knows how little it
@@ -35,10 +30,6 @@ constexpr double kMostSurprise = 5;
 /** Of the surfaces in view, nine tenths agree with a right motion and a third with one that is
  * wrong by 5 cm or 5 deg (docs/theory.md, "Verdict"): so much is between. */
 constexpr double kConvincingSurfaces = 0.75;
-
-/** Where points do not confirm it, so much must agree of the surfaces: nine tenths do with a right
- * motion. */
-constexpr double kConfirmingSurfaces = 0.9;
 
 /** Residuals up to twice as large as in the frames before, squared: a wrong motion disagrees more.
  */
@@ -51,10 +42,6 @@ constexpr double kNoMotionRise = 16;
 /** Share of the view in which something stands where key frames looked through: more than holes of
  * the depth image and thin things make, so something moves. */
 constexpr double kMovedAway = 0.1;
-
-/** A prediction that is less certain than this says nothing of which plane is which: other planes
- * are as near, and as parallel (PlaneMatcher). */
-constexpr double kUncertainRotation = 10 * M_PI / 180, kUncertainTranslation = 0.1;  // [rad], [m]
 
 /** How many directions the measurements know better than the motion model does. */
 int observableDirections(const Matrix6d& information, const Matrix6d& priorCovariance)
@@ -83,30 +70,34 @@ double pointShare(const Alignment& a)
     return static_cast<double>(a.estimate.numPointInliers) / std::max(a.numSought, kHandful);
 }
 
-/** Whether the prediction or most points in view tell that a motion is right. */
-bool isConfirmed(const Alignment& a)
-{
-    return !Judge::isUncertain(a.predicted.pose) || pointShare(a) > kConfirmingPoints;
-}
+/** Whether the prediction tells that a motion is right, or most points in view: those do not agree
+ * on a wrong one. */
+bool isConfirmed(const Alignment& a) { return !a.isUnforeseen || pointShare(a) > 0.5; }
 
 /** Whether it rests on planes that may be others: points in view should agree, and do not. */
 bool isOfDoubtfulPlanes(const Alignment& a)
 {
     return !isConfirmed(a) && a.numSought >= kHandful && a.estimate.numPointInliers < kFewPoints &&
-           a.agreement.fraction() <= kConfirmingSurfaces;
+           a.agreement.fraction() <= kConvincingSurfaces;
 }
 }  // namespace
 
-Judge::Judge(const PipelineParams& params) : params_(params), fuses_(params.fuses()) {}
+Judge::Judge(const OdometryParams& params)
+    : params_(params.pipeline),
+      fuses_(params.pipeline.fuses()),
+      sameDistance_(params.planeMatcher.maxDistance),
+      sameAngle_(params.planeMatcher.maxNormalAngleDeg * M_PI / 180)
+{
+}
 
 /** The paper counts points and planes; with a prediction to fuse with, any of them helps. */
 int Judge::minMatches() const { return fuses_ ? 1 : kMinMatches; }
 
-bool Judge::isUncertain(const PoseGaussian& predicted)
+bool Judge::isUncertain(const PoseGaussian& predicted) const
 {
     const Vector6d variances = predicted.cov.diagonal();
-    return variances.head<3>().maxCoeff() > kUncertainTranslation * kUncertainTranslation ||
-           variances.tail<3>().maxCoeff() > kUncertainRotation * kUncertainRotation;
+    return variances.head<3>().maxCoeff() > sameDistance_ * sameDistance_ ||
+           variances.tail<3>().maxCoeff() > sameAngle_ * sameAngle_;
 }
 
 bool Judge::restsOnChance(const Alignment& a)
@@ -166,6 +157,7 @@ void Judge::judge(Alignment& alignment) const
     const PoseGaussian& predicted = alignment.predicted.pose;
     alignment.observableDirections =
         observableDirections(estimate.infoPoints + estimate.infoPlanes, predicted.cov);
+    alignment.isUnforeseen = isUncertain(predicted);
     const auto matches = static_cast<int>(alignment.numMatches());
     const double sigma = maxSigma(estimate.pose().cov);
     alignment.holds = false;

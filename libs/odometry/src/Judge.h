@@ -15,12 +15,13 @@ namespace pointplane
 class Judge
 {
  public:
-    explicit Judge(const PipelineParams& params);
+    explicit Judge(const OdometryParams& params);
 
     /** Fewest matches to estimate a motion from. */
     [[nodiscard]] int minMatches() const;
 
-    /** By what the estimate says of itself: sets `holds`, `observableDirections`, `reason`. */
+    /** By what the estimate says of itself: sets `holds`, `observableDirections`, `isUnforeseen`,
+     * `reason`. */
     void judge(Alignment& alignment) const;
 
     /** The last word: surfaces that should be in view and are not; matches that might be any.
@@ -50,14 +51,15 @@ class Judge
     /** The reason of a frame that is not believed because of that. */
     [[nodiscard]] static std::string fewPointsAgree(const Alignment& alignment);
 
-    /** Whether a predicted pose says nothing of which feature is which. */
-    [[nodiscard]] static bool isUncertain(const PoseGaussian& predicted);
-
-    /** So many surfaces are enough to compare. */
-    static constexpr int kEnoughSurfaces = 500;
+    /** So many surfaces are enough to compare: of a tenth of the view (PixelGrid). */
+    static constexpr int kEnoughSurfaces = 480;
 
  private:
+    /** Whether a predicted pose does not tell which feature is which. */
+    [[nodiscard]] bool isUncertain(const PoseGaussian& predicted) const;
+
     PipelineParams params_;
     bool fuses_;
+    double sameDistance_, sameAngle_;  //!< planes that near and that parallel may be mixed up
 };
 }  // namespace pointplane

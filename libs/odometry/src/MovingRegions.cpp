@@ -9,9 +9,6 @@ namespace pointplane
 {
 namespace
 {
-/** Cells along the longer side of the image: a hand at 2 m is one. */
-constexpr int kSamples = 40;
-
 /** Of the eight cells around a moving one, so many move too: fewer are the noise of edges. */
 constexpr int kMovingNeighbours = 2;
 
@@ -64,7 +61,7 @@ MovingRegions findMovingRegions(
     {
         depths.emplace_back(*view.frame, view.T_earlier_cur, noise, view.slack_m, view.slackShare);
     }
-    const PixelGrid grid(current.depth.size(), kSamples);
+    const PixelGrid grid(current.depth.size(), PixelGrid::kSamples / 2);  // a hand at 2 m is a cell
     cv::Mat_<std::uint8_t> cells(grid.size, static_cast<std::uint8_t>(Untold));
     MovingRegions out;
     for (int row = 0; row < grid.size.height; ++row)

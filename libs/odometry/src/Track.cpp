@@ -14,15 +14,6 @@
 
 namespace pointplane
 {
-namespace
-{
-/** First frame's covariance: strictly positive definite, yet nothing. */
-constexpr double kFirstSigma = 1e-6;
-
-/** Elapsed between two frames whose stamps do not tell. */
-constexpr double kUnknownStep = 1.0 / 30;  // [s]
-}  // namespace
-
 Track::Track(const OdometryParams& params)
     : maxGap_(params.pipeline.maxGap),
       fuses_(params.pipeline.fuses()),
@@ -93,7 +84,7 @@ MotionPrior Track::priorFrom(const MotionGaussian& motion, const PoseGaussian& p
 PoseGaussian Track::restart(Reference frame, const PinholeCamera& camera)
 {
     PoseGaussian increment;
-    increment.cov = Matrix6d::Identity() * (kFirstSigma * kFirstSigma);
+    increment.cov = Matrix6d::Identity() * (kExactSigma * kExactSigma);
     if (started_)
     {
         increment = predict(frame.stamp);
@@ -152,7 +143,7 @@ PoseGaussian Track::predict(double stamp, std::optional<Reference> unmatched)
 {
     const double step = stamp - latestStamp_;
     const bool known = started_ && step >= 0 && std::isfinite(step);
-    const double dt = known ? std::max(step, 1e-3) : kUnknownStep;
+    const double dt = known ? std::max(step, 1e-3) : MotionModel::kUsualStep;
     if (dt > maxGap_)
     {
         motion_.reset();

@@ -5,15 +5,9 @@
 
 namespace pointplane
 {
-namespace
-{
-/** Along the longer side of the image. */
-constexpr int kSamples = 80;
-}  // namespace
-
 SurfaceSamples::SurfaceSamples(const RgbdFrame& frame)
 {
-    const PixelGrid grid(frame.depth.size(), kSamples);
+    const PixelGrid grid(frame.depth.size());
     for (int row = 0; row < grid.size.height; ++row)
     {
         for (int column = 0; column < grid.size.width; ++column)

@@ -12,6 +12,18 @@
 
 namespace pointplane
 {
+/** Depth cameras err by as much of the distance, differently in different parts of the image. */
+constexpr double kDistortion = 0.02;
+
+/** A deviation of so many standard deviations is none. */
+constexpr double kSigmas = 4;
+
+/** How far a reading may be from a surface at depth z [m]. */
+inline double sameDepth(const DepthNoise& noise, double z)
+{
+    return std::hypot(kSigmas * noise.sigmaZ(z), kDistortion * z);
+}
+
 /** Readings of some pixels of a depth image. */
 struct DepthRange
 {
@@ -96,19 +108,11 @@ class ComparedDepth
                                               : Verdict::Agrees;
     }
 
-    /** Depth cameras err by as much of the distance, differently in different parts of the image.
-     */
-    static constexpr float kDistortion = 0.02F;
-
  private:
-    /** A deviation of so many standard deviations of the sensor's noise is none. */
-    static constexpr float kSigmas = 4;
-
-    /** Deviation in depth that is none, at depth z [m]. */
     [[nodiscard]] float tolerance(float z) const
     {
-        const auto sigma = static_cast<float>(noise_.sigmaZ(static_cast<double>(z)));
-        return std::hypot(kSigmas * sigma, kDistortion * z) + slack_ + slackShare_ * z;
+        return static_cast<float>(sameDepth(noise_, static_cast<double>(z))) + slack_ +
+               slackShare_ * z;
     }
 
     const cv::Mat& depth_;
@@ -120,8 +124,10 @@ class ComparedDepth
 /** A thin grid of pixels over an image, none at the border. */
 struct PixelGrid
 {
-    /** \param samples along the longer side */
-    PixelGrid(const cv::Size& image, int samples)
+    /** Along the longer side. */
+    static constexpr int kSamples = 80;
+
+    explicit PixelGrid(const cv::Size& image, int samples = kSamples)
         : step(std::max(1, std::max(image.width, image.height) / samples)),
           first(std::max(1, step / 2)),
           size(count(image.width), count(image.height))
@@ -152,7 +158,7 @@ inline Eigen::Vector3f surfaceAt(const RgbdFrame& frame, const cv::Point& pixel)
     if (z > 0)
     {
         const DepthRange range = rangeAround(frame.depth, pixel.x, pixel.y);
-        if (range.farthest - range.nearest < 2 * ComparedDepth::kDistortion * z)
+        if (range.farthest - range.nearest < static_cast<float>(2 * kDistortion) * z)
         {
             const Eigen::Vector2d xy = frame.camera.normalisedOfDepth(
                 {static_cast<double>(pixel.x), static_cast<double>(pixel.y)});

@@ -6,12 +6,6 @@
 
 namespace pointplane
 {
-namespace
-{
-/** As good as certain, and still far from the limits of double precision. */
-constexpr double kFixedSigma = 1e-6;  // [m/s, rad/s]
-}  // namespace
-
 MotionPrior MotionPrior::from(const MotionGaussian& predicted)
 {
     MotionPrior out;
@@ -32,7 +26,7 @@ MotionPrior MotionPrior::fixedVelocity(const Motion& motion)
     MotionPrior out;
     out.mean = motion;
     out.velocityGivenPose.bottomRightCorner<6, 6>().diagonal().setConstant(
-        1 / (kFixedSigma * kFixedSigma));
+        1 / (kExactSigma * kExactSigma));
     return out;
 }
 

@@ -95,10 +95,9 @@ class Descent
                 se3Exp(step.head<6>()) * motion_.T_prev_cur, motion_.velocity + step.tail<6>()};
             accepted = step.allFinite() &&
                        equations_.costAt(candidate) + prior_.cost(candidate) <= cost * (1 + 1e-12);
-            converged_ = (step.head<3>().norm() < kStepTolerance &&
-                          step.segment<3>(3).norm() < kStepTolerance) ||
-                         (!accepted && lambda_ > kMostDamped);
-            lambda_ = accepted ? std::max(kLeastDamped, lambda_ * 0.1) : lambda_ * 10;
+            converged_ = step.head<3>().norm() < kStepTolerance &&
+                         step.segment<3>(3).norm() < kStepTolerance;
+            lambda_ *= accepted ? 0.1 : 10;
             if (accepted)
             {
                 motion_ = {orthonormalised(candidate.T_prev_cur), candidate.velocity};
@@ -112,8 +111,6 @@ class Descent
     [[nodiscard]] bool converged() const { return converged_; }
 
  private:
-    static constexpr double kLeastDamped = 1e-9, kMostDamped = 1e7;
-
     [[nodiscard]] bool isDone() const { return converged_ || iterations_ >= maxIterations_; }
 
     NormalEquations& equations_;

@@ -8,8 +8,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "views.h"
-
 namespace pointplane
 {
 namespace
@@ -59,9 +57,11 @@ JointCovariance::Views viewsOf(const ErrorModel::Measured& frame)
 
 ErrorModel::ErrorModel(const OdometryParams& params)
     : params_(params.covariance),
+      reference_(params.reference),
       isJoint_(params.covariance.isJoint()),
       fuses_(params.pipeline.fuses()),
       noise_(params.noiseScale),
+      variogram_(params.noiseScale.timeConstant),
       shutter_(params.shutter)
 {
 }
@@ -75,7 +75,7 @@ JointCovariance::Measurement ErrorModel::learn(const Measured& frame)
         variogram_.update(
             frame.analysis,
             frame.references.front()->T_world_cam.linear(),
-            numViews(frame.estimate.motion.mean.T_prev_cur),
+            reference_.numViews(frame.estimate.motion.mean.T_prev_cur),
             frame.dt,
             noise_.residuals());
     }

@@ -70,6 +70,7 @@ class ErrorModel
         const Measured& frame, const NoiseFactors& usual) const;
 
     JointCovariance::TParams params_;
+    ReferenceWindow::TParams reference_;
     bool isJoint_, fuses_;
     NoiseScale noise_;
     ResidualVariogram variogram_;

@@ -12,28 +12,16 @@ namespace pointplane
 {
 namespace
 {
-constexpr double kFramePeriod = 1.0 / 30;
-
-/** Until a velocity has been measured: as fast as hands move. */
-constexpr double kUnknownVelocity = 0.5;         // [m/s]
-constexpr double kUnknownAngularVelocity = 1.0;  // [rad/s]
-
 /** After a longer time nothing more can become unknown; stamps may be any number. */
 constexpr double kLongestStep = 24 * 3600.0;
 
-/** Random walk to start with, over the least one. */
-constexpr double kInitialWalk = 10;
+/** For so long hands push one way [s]. An unknown velocity is what a sudden acceleration makes in this
+ * time. */
+constexpr double kPush = 0.05;
 
-/** Standard deviation by which smoothed velocities wander. Hands make it a few times as large; but
- * where they shake, what lies between two increments errs, too. */
-constexpr double kWander = 0.01;         // [m/s]
-constexpr double kAngularWander = 0.01;  // [rad/s]
-
-/** Two increments together, over which acceleration may be taken for constant. */
-constexpr double kLongestIncrements = 0.2;  // [s]
-
-/** Of a velocity that decays, all that can become unknown of it in the end. */
-constexpr double kLongestCoasting = 1.0;
+/** Standard deviation by which smoothed velocities wander [m/s, rad/s]. Hands make it a few times
+ * as large; but where they shake, what lies between two increments errs, too. */
+constexpr double kWander = 0.01;
 
 /** One value for each half of a tangent vector. */
 Vector6d perAxis(double translation, double rotation)
@@ -84,10 +72,7 @@ Matrix12d MotionModel::covarianceAfter(double t, const Matrix6d& cov) const
 Matrix6d MotionModel::jerk(double dt) const
 {
     const double t = std::min(dt, kLongestStep);
-    return perAxis(params_.sigmaAcceleration, params_.sigmaAngularAcceleration)
-               .cwiseAbs2()
-               .asDiagonal() *
-           std::pow(t, 4);
+    return sudden().cwiseAbs2().asDiagonal() * std::pow(t, 4);
 }
 
 void MotionModel::follow(const Eigen::Isometry3d& T_prev_cur, double dt)
@@ -129,7 +114,7 @@ Vector6d MotionModel::update(const MotionGaussian& measured, double dt)
     learnAcceleration(increment);
     const Vector6d out = betweenIncrements(increment, smoothed);
     atIncrementsEnd_.reset();
-    if (increment_ && increment_->dt + t < kLongestIncrements)
+    if (increment_ && increment_->dt + t < 4 * kPush)
     {
         atIncrementsEnd_ = increment.velocity +
                            (increment.velocity - increment_->velocity) * t / (increment_->dt + t);
@@ -165,8 +150,7 @@ void MotionModel::followIncrements()
  * has jerked. */
 Vector6d MotionModel::betweenIncrements(const Increment& next, const Vector6d& smoothed) const
 {
-    constexpr double kJerk = 0.5;  // [m/s, rad/s]
-    if (!increment_ || increment_->dt + next.dt > kLongestIncrements)
+    if (!increment_ || increment_->dt + next.dt > 4 * kPush)
     {
         return smoothed;
     }
@@ -174,12 +158,13 @@ Vector6d MotionModel::betweenIncrements(const Increment& next, const Vector6d& s
     const double dt = last.dt + next.dt;
     const Vector6d between = (next.dt * last.velocity + last.dt * next.velocity) / dt;
     const Vector6d apart = between - smoothed;
-    if (apart.head<3>().norm() > kJerk || apart.tail<3>().norm() > kJerk)
+    if (apart.head<3>().norm() > next.dt * params_.sigmaAcceleration ||
+        apart.tail<3>().norm() > next.dt * params_.sigmaAngularAcceleration)
     {
         return smoothed;
     }
     const Vector6d variances = (last.variance + next.variance) / (dt * dt);
-    const Vector6d wander = perAxis(kWander, kAngularWander).cwiseAbs2();
+    const Vector6d wander = Vector6d::Constant(kWander * kWander);
     const Vector6d noise = perAxis(variances.head<3>().mean(), variances.tail<3>().mean());
     return smoothed + wander.cwiseQuotient(wander + noise).cwiseProduct(apart);
 }
@@ -190,6 +175,11 @@ void MotionModel::adapt(const Vector6d& meanSquare, double dt)
     const double rate = 1 - std::exp(-dt / params_.timeConstant);
     const Vector6d target = perAxis(meanSquare.head<3>().mean(), meanSquare.tail<3>().mean());
     density_ = (density_ + rate * (target - density_)).cwiseMax(smallestDensity());
+}
+
+Vector6d MotionModel::sudden() const
+{
+    return perAxis(params_.sigmaAcceleration, params_.sigmaAngularAcceleration);
 }
 
 Vector6d MotionModel::smallestDensity() const
@@ -203,9 +193,9 @@ void MotionModel::coast(double dt)
     atIncrementsEnd_.reset();
     // [P17, section Pose estimation]. What decays is uncertain by as much as it decays; the rest is
     // white acceleration.
-    const Vector6d decayed = (1 - std::pow(params_.decay, dt / kFramePeriod)) * velocity_;
+    const Vector6d decayed = (1 - std::pow(params_.decay, dt / kUsualStep)) * velocity_;
     velocity_ -= decayed;
-    const double t = std::min(dt, kLongestCoasting - coasting_);
+    const double t = std::min(dt, params_.timeConstant - coasting_);
     coasting_ += t;
     cov_.diagonal() += t * density_ + decayed.cwiseAbs2();
 }
@@ -216,8 +206,9 @@ void MotionModel::reset()
     increment_.reset();
     atIncrementsEnd_.reset();
     coasting_ = 0;
-    density_ = kInitialWalk * kInitialWalk * smallestDensity();
-    cov_ = perAxis(kUnknownVelocity, kUnknownAngularVelocity).cwiseAbs2().asDiagonal();
+    const Vector6d velocity = kPush * sudden();
+    cov_ = velocity.cwiseAbs2().asDiagonal();
+    density_ = (velocity.cwiseAbs2() / kPush).cwiseMax(smallestDensity());
     measuredCov_.setZero();
 }
 }  // namespace pointplane

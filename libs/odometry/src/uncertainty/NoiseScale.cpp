@@ -7,17 +7,7 @@
 
 namespace pointplane
 {
-namespace
-{
-/** A few odd frames must neither make features certain nor worthless. */
-constexpr double kMinVariance = 0.1, kMaxVariance = 100;
-
-/** Before anything is known: for the solver, which should not believe too much at first, and for
- * the covariances that are told, where it counts as the mean of so many frames. */
-constexpr double kCautiousVariance = 4;
-constexpr double kQuickVariance = 3;
-constexpr int kInitialFrames = 3;
-}  // namespace
+double NoiseScale::plausible(double variance) { return std::clamp(variance, 0.1, 100.0); }
 
 void NoiseScale::TParams::check() const
 {
@@ -31,8 +21,8 @@ NoiseScale::NoiseScale(const TParams& params) : params_(params)
     params_.check();
     if (params_.adaptive)
     {
-        pointResiduals_.cautious = planeResiduals_.cautious = kCautiousVariance;
-        pointResiduals_.quick = planeResiduals_.quick = kQuickVariance;
+        pointResiduals_.cautious = planeResiduals_.cautious = kFirstVariance;
+        pointResiduals_.quick = planeResiduals_.quick = kFirstVariance;
     }
 }
 
@@ -63,10 +53,10 @@ void NoiseScale::Average::follow(double variance, double dt, double timeConstant
     if (variance > 0)
     {
         ++numFrames;
-        const double target = std::clamp(variance, kMinVariance, kMaxVariance);
+        const double target = plausible(variance);
         const double rate = 1 - std::exp(-dt / timeConstant);
         cautious += rate * (target - cautious);
-        quick += std::max(rate, 1.0 / (numFrames + kInitialFrames)) * (target - quick);
+        quick += std::max(rate, 1.0 / (numFrames + kFirstFrames)) * (target - quick);
     }
 }
 

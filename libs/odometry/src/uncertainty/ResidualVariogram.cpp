@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/odometry/uncertainty/NoiseScale.h>
 #include <pointplane/odometry/uncertainty/ResidualVariogram.h>
 #include <pointplane/pose/median_variance.h>
 
@@ -13,32 +14,22 @@ namespace pointplane
 {
 namespace
 {
-/** Residuals are compared with those of the frame before and of so many frames before. */
+/** Residuals are compared with those of the frame before and of so many frames before. Within a
+ * view: farther apart, errors have nothing in common any more, and do not grow with the way. */
 constexpr size_t kLag = 10;
-constexpr size_t kLeastLag = 2;
 
-/** Farther apart in views, errors have nothing in common any more: they do not grow with the way.
- */
-constexpr double kMostViews = 1.5;
-
-constexpr double kTimeConstant = 2;  // [s] of both levels
-
-/** A frame with fewer features in common says nothing: their median is chance. */
-constexpr size_t kLeastPoints = 6, kLeastPlanes = 2;
+/** Fewer features in common have no median. */
+constexpr size_t kLeastFeatures = 2;
 
 /** A feature that the estimate follows shows nothing of its own noise. */
 constexpr double kLeastShare = 0.2;
 
-/** Before anything is known: parts of the residuals' variance, as if two frames and 0.3 views had
- * said so; by hand. */
-constexpr double kFirstStep = 0.3, kFirstWhite = 0.2, kFirstDrift = 0.4;
-constexpr double kFirstFrames = 2, kFirstViews = 0.3;
+/** Before anything is known, each level is this part of the residuals' variance; as if so many
+ * views had said so. */
+constexpr double kFirstPart = 0.3, kFirstViews = 0.3;
 
-/** Levels are small differences at times: not below a part of what they are differences of. */
-constexpr double kLeastWhite = 0.1, kLeastDrift = 0.05;
-
-/** A few odd frames must neither make features certain nor worthless. */
-constexpr double kMinVariogram = 0.003, kMaxVariogram = 1000;
+/** Levels are small differences at times: not below this part of the residuals' variance. */
+constexpr double kLeastPart = 0.05;
 
 }  // namespace
 
@@ -50,11 +41,11 @@ void ResidualVariogram::update(
     const NoiseFactors& residuals)
 {
     views_.push_front(views);
-    const double kept = std::exp(-dt / kTimeConstant);
+    const double kept = std::exp(-dt / timeConstant_);
     Snapshot points = snapshot(analysis.pointResiduals, R_world_prev, points_.white);
     Snapshot planes = snapshot(analysis.planeResiduals, R_world_prev, planes_.white);
-    update(points_, std::move(points), kLeastPoints, kept, residuals.points);
-    update(planes_, std::move(planes), kLeastPlanes, kept, residuals.planes);
+    update(points_, std::move(points), kept, residuals.points);
+    update(planes_, std::move(planes), kept, residuals.planes);
     views_.resize(std::min(views_.size(), kLag));
 }
 
@@ -80,8 +71,7 @@ ResidualVariogram::Snapshot ResidualVariogram::snapshot(
 
 /** Half of the squared difference, over the propagated variance: from the median, as there are
  * wrong matches. */
-std::optional<double> ResidualVariogram::variogram(
-    const Snapshot& now, const Snapshot& then, size_t least)
+std::optional<double> ResidualVariogram::variogram(const Snapshot& now, const Snapshot& then)
 {
     std::vector<double> squared;
     squared.reserve(now.size());
@@ -105,11 +95,11 @@ std::optional<double> ResidualVariogram::variogram(
             squared.push_back(norm2);
         }
     }
-    if (squared.size() < least)
+    if (squared.size() < kLeastFeatures)
     {
         return {};
     }
-    return std::clamp(medianVariance(squared), kMinVariogram, kMaxVariogram);
+    return NoiseScale::plausible(medianVariance(squared));
 }
 
 bool ResidualVariogram::shareReference(const Snapshot& now, const Snapshot& then)
@@ -128,8 +118,7 @@ bool ResidualVariogram::shareReference(const Snapshot& now, const Snapshot& then
         });
 }
 
-void ResidualVariogram::update(
-    Kind& kind, Snapshot now, size_t least, double kept, double residuals) const
+void ResidualVariogram::update(Kind& kind, Snapshot now, double kept, double residuals) const
 {
     size_t lag = std::min(kind.past.size(), kLag);
     const auto wayTo = [&](size_t n)
@@ -137,12 +126,12 @@ void ResidualVariogram::update(
         return std::accumulate(
             views_.begin() + 1, views_.begin() + static_cast<std::ptrdiff_t>(n), 0.0);
     };
-    while (lag > kLeastLag && wayTo(lag) > kMostViews)
+    while (lag > 2 && wayTo(lag) > 1)
     {
         --lag;
     }
-    auto step = lag > 0 ? variogram(now, kind.past.front(), least) : std::optional<double>();
-    if (lag > 0 && now.size() >= least && !shareReference(now, kind.past.front()))
+    auto step = lag > 0 ? variogram(now, kind.past.front()) : std::optional<double>();
+    if (lag > 0 && now.size() >= kLeastFeatures && !shareReference(now, kind.past.front()))
     {
         step = residuals;  // of references that are new, residuals are what has changed since
     }
@@ -151,8 +140,7 @@ void ResidualVariogram::update(
         kind.weight = kept * kind.weight + 1;
         kind.step = kept * kind.step + *step;
         kind.views = kept * kind.views + views_.front();
-        const auto far =
-            lag >= kLeastLag ? variogram(now, kind.past[lag - 1], least) : std::optional<double>();
+        const auto far = lag >= 2 ? variogram(now, kind.past[lag - 1]) : std::optional<double>();
         if (far)
         {
             // The slope by least squares: frames at rest say nothing of it.
@@ -162,14 +150,13 @@ void ResidualVariogram::update(
         }
     }
     kind.drift = std::max(
-        kLeastDrift * residuals,
-        (kind.growth + kFirstDrift * residuals * kFirstViews * kFirstViews) /
+        kLeastPart * residuals,
+        (kind.growth + kFirstPart * residuals * kFirstViews * kFirstViews) /
             (kind.farther + kFirstViews * kFirstViews));
-    const double frames = kind.weight + kFirstFrames;
-    const double first = kFirstFrames * residuals;
     kind.white = std::max(
-        kLeastWhite * (kind.step + kFirstStep * first) / frames,
-        (kind.step - kind.drift * kind.views + kFirstWhite * first) / frames);
+        kLeastPart * residuals,
+        (kind.step - kind.drift * kind.views + kFirstPart * residuals * NoiseScale::kFirstFrames) /
+            (kind.weight + NoiseScale::kFirstFrames));
     kind.past.push_front(std::move(now));
     if (kind.past.size() > kLag)
     {

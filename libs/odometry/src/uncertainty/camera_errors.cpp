@@ -9,7 +9,7 @@ namespace
 {
 /** What cameras of one model differ by, where nobody calibrated this one: focal length, and the
  * principal point over the width of the image. */
-constexpr double kNominalFocalLength = 0.02, kNominalCentre = 0.015;
+constexpr double kNominal = 0.02;
 }  // namespace
 
 CameraMatrix cameraCovariance(
@@ -21,8 +21,8 @@ CameraMatrix cameraCovariance(
     double centre = calibration.principalPoint, focalLength = calibration.focalLength;
     if (camera.isNominal)
     {
-        centre = std::max(centre, kNominalCentre * camera.width);
-        focalLength = std::max(focalLength, kNominalFocalLength);
+        centre = std::max(centre, kNominal * camera.width);
+        focalLength = std::max(focalLength, kNominal);
     }
     CameraVector sigmas;
     sigmas << calibration.vignetting, centre, centre, focalLength, calibration.depthScale, time,

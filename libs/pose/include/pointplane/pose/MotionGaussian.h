@@ -22,6 +22,10 @@ struct MotionGaussian
     [[nodiscard]] PoseGaussian pose() const { return {mean.T_prev_cur, cov.topLeftCorner<6, 6>()}; }
 };
 
+/** Standard deviation of what is known exactly [m, rad, m/s, rad/s]: still far from the limits of
+ * double precision. */
+constexpr double kExactSigma = 1e-6;
+
 /** What is known of a motion without the current frame.
  *
  * Its error is e = [log(T_mean T^-1); V_mean - V], with first half e_T. The information of the

@@ -53,6 +53,9 @@ class MotionModel
         void check() const;
     };
 
+    /** Between frames whose stamps do not tell, and the time that `decay` is given for [s]. */
+    static constexpr double kUsualStep = 1.0 / 30;
+
     /** \throws std::invalid_argument naming the key */
     explicit MotionModel(const TParams& params);
 
@@ -104,6 +107,7 @@ class MotionModel
     [[nodiscard]] Matrix12d covarianceAfter(double t, const Matrix6d& cov) const;
     void adapt(const Vector6d& meanSquare, double dt);
     [[nodiscard]] Vector6d smallestDensity() const;
+    [[nodiscard]] Vector6d sudden() const;  //!< acceleration, per axis
     /** What moved the camera from frame to frame. */
     struct Increment
     {
@@ -121,7 +125,7 @@ class MotionModel
     Vector6d density_;
     Vector6d acceleration2_{Vector6d::Zero()};
     int numAccelerations_{0};  //!< that acceleration2_ was learnt from
-    double coasting_;          //!< time since the latest measurement, counted up to a limit [s]
+    double coasting_;          //!< time since the latest measurement, at most timeConstant [s]
     std::optional<Increment> increment_;       //!< the latest
     std::optional<Vector6d> atIncrementsEnd_;  //!< velocity, by the latest two of them
 };

@@ -43,6 +43,14 @@ class NoiseScale
         void check() const;
     };
 
+    /** Variance before anything is known, as if so many frames had said it. */
+    static constexpr double kFirstVariance = 4;
+    static constexpr int kFirstFrames = 3;
+
+    /** What a frame says, between a tenth and a hundred times the propagated variance: a few odd
+     * frames must neither make features certain nor worthless. */
+    [[nodiscard]] static double plausible(double variance);
+
     /** \throws std::invalid_argument naming the key */
     explicit NoiseScale(const TParams& params);
 
@@ -70,8 +78,8 @@ class NoiseScale
     /** What single frames say, averaged. */
     struct Average
     {
-        double cautious{1};  //!< from the initial value on with the time constant
-        double quick{1};     //!< at first the mean of all frames
+        double cautious{1};  //!< from the first value on with the time constant, for the solver
+        double quick{1};     //!< at first the mean of all frames, for covariances
         int numFrames{0};
         void follow(double variance, double dt, double timeConstant);
     };

@@ -27,6 +27,9 @@ class ResidualVariogram
         NoiseFactors drift;  //!< g, per view (numViews())
     };
 
+    /** \param timeConstant over which both levels are learnt [s] */
+    explicit ResidualVariogram(double timeConstant) : timeConstant_(timeConstant) {}
+
     /** Learns from a measured frame.
      * \param R_world_prev orientation of the previous frame, in which its residuals are
      * \param views since the measured frame before, `dt` [s] earlier
@@ -66,11 +69,11 @@ class ResidualVariogram
         const std::vector<FeatureResidual>& residuals,
         const Eigen::Matrix3d& R_world_prev,
         double ownWhite) const;
-    [[nodiscard]] static std::optional<double> variogram(
-        const Snapshot& now, const Snapshot& then, size_t least);
+    [[nodiscard]] static std::optional<double> variogram(const Snapshot& now, const Snapshot& then);
     [[nodiscard]] static bool shareReference(const Snapshot& now, const Snapshot& then);
-    void update(Kind& kind, Snapshot now, size_t least, double kept, double residuals) const;
+    void update(Kind& kind, Snapshot now, double kept, double residuals) const;
 
+    double timeConstant_;
     Kind points_, planes_;
     std::deque<double> views_;  //!< between neighbouring frames, the latest first
 };

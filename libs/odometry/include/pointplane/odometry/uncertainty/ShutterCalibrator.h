@@ -72,6 +72,9 @@ class ShutterCalibrator
     /** 1 for each of the three times that is estimated, 0 for each that the source knows. */
     [[nodiscard]] Eigen::Vector3d estimated(const ShutterModel& source) const;
 
+    /** How far the times of a source that does not know them may be off [s]. */
+    [[nodiscard]] double sigmaPrior() const { return params_.sigmaPrior; }
+
     /** How the error of the estimate changes with a frame: it is gain times the one before, plus
      * noise. */
     struct Change
