@@ -15,8 +15,8 @@ namespace
 /** After a longer time nothing more can become unknown; stamps may be any number. */
 constexpr double kLongestStep = 24 * 3600.0;
 
-/** For so long hands push one way [s]. An unknown velocity is what a sudden acceleration makes in this
- * time. */
+/** For so long hands push one way [s]. An unknown velocity is what a sudden acceleration makes in
+ * this time. */
 constexpr double kPush = 0.05;
 
 /** Standard deviation by which smoothed velocities wander [m/s, rad/s]. Hands make it a few times
