@@ -130,6 +130,7 @@ const PapersValue kNamed[] = {
     {"Matching: overlap of at least 50 %", "PlaneMatcher.minOverlap", "0.5"},
     {"Matching: normals within 10 degrees", "PlaneMatcher.maxNormalAngleDeg", "10"},
     {"Matching: distances within 10 cm", "PlaneMatcher.maxDistance", "0.1"},
+    {"Matching: the minimum plane-to-plane distance", "PlaneMatcher.secondNearest", "false"},
     {"Matching: small frame-to-frame motion", "Pipeline.searchAround", "previous"},
     {"Matching: consecutive frames", "Reference.reference", "adjacent"},
     {"Matching: one search", "Reference.keyframeMinOverlap", "0"},

@@ -134,6 +134,33 @@ TEST(PlaneMatcher, eachPlaneIsMatchedOnceNearestFirst)
     EXPECT_EQ(self[1].cur, 1);
 }
 
+/** A plane whose nearest candidate matches another. To the paper the second nearest is none, as it
+ * is not "the plane candidate with the minimum plane-to-plane distance". */
+TEST(PlaneMatcher, theSecondNearestIsNoMatchInThePaper)
+{
+    const PlaneSet ref = PlaneSetMaker()
+                             .add(tilted(2), 2, {0, 0, 320, 480})
+                             .add(tilted(0), 2, {320, 0, 320, 480})
+                             .set;
+    const PlaneSet cur = PlaneSetMaker()
+                             .add(tilted(0), 2.01, {160, 0, 320, 480})  // the nearest of both
+                             .add(tilted(7), 2.00, {0, 0, 160, 480})    // the second of the first
+                             .set;
+    PlaneMatcher::TParams params;
+    params.secondNearest = false;
+    const auto papers = PlaneMatcher(params).match(ref, cur, kCamera, kStill);
+    ASSERT_EQ(papers.size(), 1U);
+    EXPECT_EQ(papers[0].ref, 1);
+    EXPECT_EQ(papers[0].cur, 0);
+
+    const auto ours = PlaneMatcher({}).match(ref, cur, kCamera, kStill);
+    ASSERT_EQ(ours.size(), 2U);
+    EXPECT_EQ(ours[0].ref, 0);
+    EXPECT_EQ(ours[0].cur, 1);
+    EXPECT_EQ(ours[1].ref, 1);
+    EXPECT_EQ(ours[1].cur, 0);
+}
+
 TEST(PlaneMatcher, predictedMotionIsTakenOut)
 {
     // 0.3 m towards the plane, turned by 12 degrees: another plane by the paper's test.

@@ -157,11 +157,14 @@ std::vector<PlaneMatch> PlaneMatcher::match(
     {
         const auto r = static_cast<size_t>(candidate.match.ref);
         const auto c = static_cast<size_t>(candidate.match.cur);
-        if (!refTaken[r] && !curTaken[c])
+        const bool isFree = !refTaken[r] && !curTaken[c];
+        if (isFree)
         {
-            refTaken[r] = curTaken[c] = true;
             matches.push_back(candidate.match);
+            curTaken[c] = true;
         }
+        // [P17, section Matching]: the candidate at the least distance is selected, no other.
+        refTaken[r] = refTaken[r] || isFree || !params_.secondNearest;
     }
     std::sort(
         matches.begin(),

@@ -18,9 +18,9 @@ struct PlaneMatch
 
 /** Matches planes of two frames [P17, section Matching]. Their segments must overlap by at least
  * half of the smaller one, and their normals and distances must be alike. Of several candidates,
- * the one at the smallest plane-to-plane distance |d'N' - dN| wins [P17 Eq. 7]. The reference is
- * first moved by the predicted motion; with the identity this is the paper's test between adjacent
- * frames. */
+ * the one at the smallest plane-to-plane distance |d'N' - dN| wins [P17 Eq. 7], and each plane has
+ * one match: the nearest pairs come first. The reference is first moved by the predicted motion;
+ * with the identity this is the paper's test between adjacent frames. */
 class PlaneMatcher
 {
  public:
@@ -29,6 +29,7 @@ class PlaneMatcher
         double minOverlap{0.5};
         double maxNormalAngleDeg{10.0};
         double maxDistance{0.10};
+        bool secondNearest{true};
 
         template <class V>
         void visit(V&& v)
@@ -42,6 +43,12 @@ class PlaneMatcher
               maxDistance,
               "m",
               "largest difference of the planes' distances d from the camera");
+            v("secondNearest",
+              secondNearest,
+              "-",
+              "a plane whose nearest candidate matches another gets the next one; false: none (as "
+              "in "
+              "the paper)");
         }
         /** \throws std::invalid_argument naming the key */
         void check() const;
