@@ -21,11 +21,10 @@ mkdir -p "$fuzz_dir/findings"
 "$fuzz_dir/make_fuzz_corpus" config.ini "$fuzz_dir/seeds"
 
 export ASAN_OPTIONS=$sanitizer_options
-status=0
-for fuzzer in "${fuzzers[@]}"; do
-    say "fuzzing: $fuzzer, $seconds s"
-    corpus=$fuzz_dir/corpus/$fuzzer
-    log=$fuzz_dir/$fuzzer.log
+
+# fuzz NAME
+fuzz() {
+    local fuzzer=$1 corpus=$fuzz_dir/corpus/$1 log=$fuzz_dir/$1.log status=0
     mkdir -p "$corpus"
     if ! "$fuzz_dir/fuzz_$fuzzer" -max_total_time="$seconds" -timeout=20 -rss_limit_mb=3000 -malloc_limit_mb=300 \
         -print_final_stats=1 -artifact_prefix="$fuzz_dir/findings/$fuzzer-" "$corpus" "$fuzz_dir/seeds/$fuzzer" \
@@ -40,5 +39,20 @@ for fuzzer in "${fuzzers[@]}"; do
         /stat::peak_rss_mb/ { rss = $2 }
         END { printf "%-12s %9d executions, %6d edges reached, %5d MB at most\n", fuzzer, runs, edges, rss }
     ' "$log"
+    return "$status"
+}
+
+jobs=$(num_jobs)
+say "fuzzing: ${fuzzers[*]}, $seconds s each, $jobs at a time"
+status=0
+running=0
+for fuzzer in "${fuzzers[@]}"; do
+    if ((running == jobs)); then
+        wait -n || status=1
+        running=$((running - 1))
+    fi
+    fuzz "$fuzzer" &
+    running=$((running + 1))
 done
+for ((; running > 0; running--)); do wait -n || status=1; done
 exit "$status"
