@@ -47,8 +47,7 @@ class PlaneMatcher
               secondNearest,
               "-",
               "a plane whose nearest candidate matches another gets the next one; false: none (as "
-              "in "
-              "the paper)");
+              "in the paper)");
         }
         /** \throws std::invalid_argument naming the key */
         void check() const;
