@@ -3,6 +3,7 @@
 
 #include <pointplane/mrpt_io/OutputFile.h>
 #include <pointplane/mrpt_io/errors.h>
+#include <pointplane/mrpt_io/rawlog_names.h>
 
 #include <cerrno>
 #include <cstring>
@@ -208,5 +209,18 @@ void OutputGuard::addOutputFolder(
         failToWrite(option, path);
     }
     add({option, path, {fileAt(path)}, true, extension});
+}
+
+void OutputGuard::addFolderBeside(
+    const std::string& option, const std::string& rawlog, const std::string& folder)
+{
+    if (!hasPlaceBeside(rawlog))
+    {
+        throw InputError(
+            option + " " + rawlog +
+            ": is not a file that a folder can be beside; give the name of "
+            "a file");
+    }
+    addOutputFolder(option, folder, "");
 }
 }  // namespace pointplane

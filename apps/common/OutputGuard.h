@@ -32,6 +32,10 @@ class OutputGuard
     void addOutputFolder(
         const std::string& option, const std::string& path, const std::string& extension);
 
+    /** As addOutputFolder(), for one beside a rawlog that is an output itself. */
+    void addFolderBeside(
+        const std::string& option, const std::string& rawlog, const std::string& folder);
+
  private:
     /** A file, or what will be one. */
     struct File

@@ -116,6 +116,15 @@ class HelpFormatter : public CLI::Formatter
     return text;
 }
 
+/** OpenCV's threads (TBB) tell what the system refused them in words only, e.g. "pthread_create has
+ * failed: Resource temporarily unavailable". */
+[[nodiscard]] bool isRefusalOfSystem(const std::exception& e)
+{
+    const std::string text = e.what();
+    return text.find(std::strerror(EAGAIN)) != std::string::npos ||
+           text.find(std::strerror(ENOMEM)) != std::string::npos;
+}
+
 /** Of the current exception. \return the exit code */
 int report(const std::string& program, std::ostream& err)
 {
@@ -153,7 +162,7 @@ int report(const std::string& program, std::ostream& err)
     }
     catch (const std::exception& e)
     {
-        return say(oneLine(e), kExitBadInput);
+        return say(oneLine(e), isRefusalOfSystem(e) ? kExitEnvironment : kExitBadInput);
     }
 }
 }  // namespace
@@ -198,9 +207,10 @@ int runProgram(const char* name, Program program, int argc, char** argv)
     // ulimit -f, and a reader that leaves: writing fails instead.
     std::signal(SIGXFSZ, SIG_IGN);
     std::signal(SIGPIPE, SIG_IGN);
-    Call call{program, {argv + 1, argv + argc}};
+    Call call{program, {}};
     try
     {
+        call.args.assign(argv + 1, argv + argc);
         stackIsSmall() ? runOnOwnStack(call) : (void)runCall(&call);
         errno = 0;
         if (!std::cout.flush())

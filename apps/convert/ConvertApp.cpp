@@ -151,7 +151,7 @@ void keepApart(
     guard.addOutput("-o", output.path);
     if (output.external)
     {
-        guard.addOutputFolder("images of -o", imagesFolderOf(output.path), "");
+        guard.addFolderBeside("images of -o", output.path, imagesFolderOf(output.path));
     }
     for (const std::string& input : inputs)
     {
@@ -177,13 +177,18 @@ int convert(
 int convert(
     TumRecording& recording, const RecordingOutput& output, std::ostream& out, std::ostream& err)
 {
-    const std::string groundTruth = groundTruthOf(output.path);
+    const std::string groundTruth =
+        hasPlaceBeside(output.path) ? groundTruthOf(output.path) : std::string();
     OutputGuard guard;
     guard.addOutput("ground truth of -o", groundTruth);
     keepApart(output, recording.files(), guard);
     const RecordingSummary summary = convertRecording(recording, output, err);
     std::vector<std::string> notes = recording.notes();
-    if (!recording.groundTruth().empty())
+    if (!recording.groundTruth().empty() && groundTruth.empty())
+    {
+        notes.push_back(output.path + ": is not a file; the ground truth was not written");
+    }
+    else if (!recording.groundTruth().empty())
     {
         TextOutput file(groundTruth);
         file.write(recording.groundTruth());

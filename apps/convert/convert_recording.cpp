@@ -2,6 +2,7 @@
 #include "convert_recording.h"
 
 #include <pointplane/mrpt_io/ObservationConverter.h>
+#include <pointplane/mrpt_io/OutputFile.h>
 #include <pointplane/mrpt_io/mrpt_poses.h>
 
 #include <algorithm>
@@ -130,9 +131,10 @@ int report(
     const RecordingSummary& summary,
     const RecordingOutput& output,
     const std::vector<std::string>& notes,
-    std::ostream& out,
+    std::ostream& standard,
     std::ostream& err)
 {
+    std::ostream& out = isStandardOutput(output.path) ? err : standard;
     out << output.path << ": " << summary.numFrames << " frames\n";
     for (const std::string& note : notes)
     {

@@ -106,7 +106,7 @@ void AteCommand::run(CommandContext& context) const
     OutputGuard guard;
     guard.addInput(groundTruth);
     guard.addInput(estimate);
-    files.guardedBy(guard);
+    files.guardedBy(guard, verbose);
     report.guardedBy(guard);
     ReportedRun run;
     run.groundTruth = input.loadTruth(groundTruth, context);

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "result_output.h"
 
+#include <pointplane/mrpt_io/OutputFile.h>
+#include <pointplane/mrpt_io/errors.h>
+
+#include <algorithm>
 #include <cstdarg>
 #include <cstdio>
 #include <ostream>
@@ -11,6 +15,15 @@
 
 namespace pointplane
 {
+namespace
+{
+/** Whether this option stands for the standard output. */
+[[nodiscard]] bool isShown(const std::string& path)
+{
+    return path == "-" || isStandardOutput(path);
+}
+}  // namespace
+
 void OutputFiles::addTo(CLI::App& command, const std::string& single)
 {
     command.add_option("--json", json, "Write the result as JSON ('-': to the standard output)")
@@ -26,13 +39,26 @@ void OutputFiles::addTo(CLI::App& command, const std::string& single)
     }
 }
 
-void OutputFiles::guardedBy(OutputGuard& guard) const
+void OutputFiles::guardedBy(OutputGuard& guard, bool lines) const
 {
+    const auto files = {json, csv, save};
+    if (std::count_if(files.begin(), files.end(), isShown) + (lines ? 1 : 0) > 1)
+    {
+        throw InputError(
+            "only one of --json, --csv, --save and --verbose can go to the standard output; give "
+            "the others the name of a file");
+    }
     const auto add = [&](const char* option, const std::string& path)
     { guard.addOutput(option, path == "-" ? "" : path); };
     add("--json", json);
     add("--csv", csv);
     add("--save", save);
+}
+
+bool OutputFiles::replaceTable() const
+{
+    const auto files = {json, csv, save};
+    return std::any_of(files.begin(), files.end(), isShown);
 }
 
 void OutputFiles::write(

@@ -41,9 +41,12 @@ struct OutputFiles
     std::string json, csv, save;
     /** \param single what --save writes a line of, e.g. "pair"; empty: there is no --save */
     void addTo(CLI::App& command, const std::string& single);
-    /** Tells the guard what will be written. */
-    void guardedBy(OutputGuard& guard) const;
-    [[nodiscard]] bool replaceTable() const { return json == "-" || csv == "-" || save == "-"; }
+    /** Tells the guard what will be written.
+     * \param lines the command itself prints more than the table that these replace (--verbose)
+     * \throws InputError if two of them are the standard output */
+    void guardedBy(OutputGuard& guard, bool lines = false) const;
+    /** Whether one of them is the standard output, by "-" or by a name like /dev/stdout. */
+    [[nodiscard]] bool replaceTable() const;
     /** Writes what was asked for; throws EnvironmentError naming a file that cannot be written. */
     void write(
         const nlohmann::ordered_json& asJson,

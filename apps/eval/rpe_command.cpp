@@ -92,7 +92,7 @@ void RpeCommand::run(CommandContext& context) const
     OutputGuard guard;
     guard.addInput(groundTruth);
     guard.addInput(estimate);
-    files.guardedBy(guard);
+    files.guardedBy(guard, verbose);
     report.guardedBy(guard);
     const RpeOptions rpe = options.resolved();
     ReportedRun run;

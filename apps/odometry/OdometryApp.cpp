@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OdometryApp.h"
 
+#include <pointplane/mrpt_io/OutputFile.h>
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/params_ini.h>
 
@@ -116,15 +117,18 @@ void requireInput(const OdometryOptions& o)
     }
 }
 
-int run(const OdometryOptions& options, std::ostream& out, std::ostream& err)
+int run(const OdometryOptions& options, std::ostream& standard, std::ostream& err)
 {
     OdometryParams params = loadOdometryParams(options.config, options.settings);
     params.covariance.history = std::max(params.covariance.history, options.since);
     requireInput(options);
+    const auto files = {
+        options.output, options.simplemap, options.graph, options.trajectory, options.diagnostics};
+    const bool takesOutput = std::any_of(files.begin(), files.end(), isStandardOutput);
     const RunSummary summary = runOdometry(options, params, err);
-    if ((options.output + options.simplemap + options.graph + options.trajectory +
-         options.diagnostics + options.overlay)
-            .empty())
+    std::ostream& out = takesOutput ? err : standard;
+    const auto isEmpty = [](const std::string& name) { return name.empty(); };
+    if (std::all_of(files.begin(), files.end(), isEmpty) && options.overlay.empty())
     {
         err << "pointplane-odometry: warning: nothing was written (no -o, --trajectory, ...)\n";
     }

@@ -114,14 +114,15 @@ void writeSequence(
 {
     OutputGuard guard;
     guard.addOutput("-o", output.path);
-    guard.addOutput("ground truth of -o", groundTruthOf(output.path));
+    guard.addOutput(
+        "ground truth of -o", hasPlaceBeside(output.path) ? groundTruthOf(output.path) : "");
     if (output.external)
     {
-        guard.addOutputFolder("images of -o", imagesFolderOf(output.path), "");
+        guard.addFolderBeside("images of -o", output.path, imagesFolderOf(output.path));
     }
     if (output.masks)
     {
-        guard.addOutputFolder("masks of -o", masksFolderOf(output.path), "");
+        guard.addFolderBeside("masks of -o", output.path, masksFolderOf(output.path));
     }
     ScanWriter writer(output.path, output.label, output.external);
     const auto start = fromSeconds(sequence.stamp(0));
@@ -145,7 +146,10 @@ void writeSequence(
             bar->update(static_cast<double>(i + 1) / numFrames, static_cast<std::size_t>(i) + 1);
         }
     }
-    writeGroundTruth(sequence, output);
+    if (hasPlaceBeside(output.path))
+    {
+        writeGroundTruth(sequence, output);
+    }
     if (output.masks)
     {
         writeMasks(sequence, masksFolderOf(output.path));

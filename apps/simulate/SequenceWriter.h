@@ -27,7 +27,8 @@ struct SequenceOutput
  * what the odometry reports poses of. */
 [[nodiscard]] Eigen::Isometry3d robotFromCamera(const Eigen::Isometry3d& T_world_cam);
 
-/** Renders all frames into a rawlog and writes the truth beside it, as TUM text. Frames are
+/** Renders all frames into a rawlog and writes the truth beside it, as TUM text; not where the
+ * rawlog is a pipe or a device. Frames are
  * rendered by several threads; the bytes do not depend on how many. \throws EnvironmentError */
 void writeSequence(
     const SimulatedSequence& sequence, const SequenceOutput& output, std::ostream& progress);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SimulateApp.h"
 
+#include <pointplane/mrpt_io/OutputFile.h>
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/params_ini.h>
 #include <pointplane/mrpt_io/rawlog_names.h>
@@ -143,14 +144,18 @@ std::string describe(const Arguments& args, SimulationParams params)
     return out;
 }
 
-int simulate(Arguments& args, std::ostream& out, std::ostream& err)
+int simulate(Arguments& args, std::ostream& standard, std::ostream& err)
 {
+    std::ostream& out = isStandardOutput(args.output.path) ? err : standard;
+    const bool writesTruth = hasPlaceBeside(args.output.path);
     const SimulationParams params = paramsOf(args);
     const SimulatedSequence sequence(args.scene, params, args.seed);
     args.output.description = describe(args, params);
     writeSequence(sequence, args.output, err);
     out << args.output.path << ": " << sequence.numFrames() << " frames\n"
-        << groundTruthOf(args.output.path) << ": ground truth\n";
+        << (writesTruth ? groundTruthOf(args.output.path) + ": ground truth"
+                        : args.output.path + ": is not a file; the ground truth was not written")
+        << "\n";
     if (args.output.masks)
     {
         out << masksFolderOf(args.output.path) << ": masks of " << sequence.scene()->movers.size()

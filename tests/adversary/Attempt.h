@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -20,13 +22,29 @@ struct Attempt
     std::string out, err;
 };
 
-/** Runs the program in a process of its own, for at most a minute and in 4 GB.
- * \param disk of so many kilobytes in this folder, if not empty */
+/** Where a program runs. */
+struct Surroundings
+{
+    std::string disk{};  //!< folder that is a disk of so many kilobytes, if not empty
+    int kilobytes{0};
+    std::string leaves{};  //!< folder to which the disk's files are copied in the end, if not empty
+    std::string folder{};  //!< in which it is started
+    std::uint64_t memory{4ULL << 30U};                 //!< of its address space [bytes]
+    std::optional<std::uint64_t> stack{}, fileSize{};  //!< [bytes]
+    std::map<std::string, std::string> environment{};  //!< added
+};
+
+/** Runs a program in a process of its own, for at most a minute of processor time.
+ * \return code -1: this user may not mount a disk */
 [[nodiscard]] Attempt attempt(
-    App app,
+    App app, const std::vector<std::string>& args, const Surroundings& surroundings = {});
+
+/** The same with the executable pointplane-<program>: slower, with all that is done before main().
+ */
+[[nodiscard]] Attempt attemptOf(
+    const std::string& program,
     const std::vector<std::string>& args,
-    const std::string& smallDisk = "",
-    int kilobytes = 0);
+    const Surroundings& surroundings = {});
 
 /** A row of the table. */
 class Tally
@@ -52,6 +70,9 @@ class Tally
 /** Empty if the process ended by itself, and said why in one line where its exit code is not 0. */
 [[nodiscard]] std::string wrongWith(const Attempt& attempt);
 
+/** The same of the grabber, which also says what it has recorded. */
+[[nodiscard]] std::string wrongWithGrabber(const Attempt& attempt);
+
 /** A value that names itself when it is wrong. */
 [[nodiscard]] std::string unless(bool good, const std::string& problem);
 
@@ -64,7 +85,10 @@ constexpr int kTumFrames = 4;
 [[nodiscard]] Tally damagedRawlogs(double share);
 [[nodiscard]] Tally damagedFolders(double share);
 [[nodiscard]] Tally iniValues(double share);
+[[nodiscard]] Tally optionValues(double share);
 [[nodiscard]] Tally fullDisks(double share);
+[[nodiscard]] Tally fullDisksOfGrabber(double share);
+[[nodiscard]] Tally tightLimits(double share);
 [[nodiscard]] Tally sameFiles(double share);
 [[nodiscard]] Tally mrptSamples(double share);
 /** @} */

@@ -53,7 +53,7 @@ Tally fullDisks(double share)
             {
                 continue;
             }
-            const Attempt a = attempt(c.app, c.args, disk, kilobytes);
+            const Attempt a = attempt(c.app, c.args, {disk, kilobytes});
             if (a.code < 0)
             {
                 continue;  // this user may not mount a disk

@@ -8,6 +8,8 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include <filesystem>
+#include <future>
+#include <iterator>
 #include <sstream>
 
 #include "SmallDisk.h"
@@ -16,6 +18,7 @@
 #include "tum_camera.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 namespace pointplane
 {
@@ -264,6 +267,26 @@ TEST_F(ConvertApp, aBadImageIsLeftOutAndNamed)
     EXPECT_THAT(text_, HasSubstr("left out: " + in_ + "/depth/0.png: stops before the end"));
     EXPECT_EQ(scansOf(out_).size(), 1U);
     EXPECT_TRUE(std::filesystem::exists(dir_ / "out.groundtruth.txt"));
+}
+
+/** As /dev/null would be: nothing appears in its folder. */
+TEST_F(ConvertApp, nothingIsWrittenBesideAPipe)
+{
+    std::filesystem::create_directory(dir_ / "devices");
+    const std::string pipe = dir_ / "devices/pipe", link = dir_ / "devices/link";
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    std::filesystem::create_symlink("pipe", link);
+    for (const std::string& name : {pipe, link})
+    {
+        auto reader = std::async(std::launch::async, [&] { return test::readBytes(pipe); });
+        EXPECT_EQ(run({in_, "-o", name}), kExitOk) << text_;
+        EXPECT_GT(reader.get().size(), 100U);
+        EXPECT_THAT(text_, HasSubstr("the ground truth was not written"));
+        EXPECT_EQ(run({in_, "-o", name, "--external"}), kExitBadInput);
+        EXPECT_THAT(text_, HasSubstr("images of -o " + name + ": is not a file"));
+    }
+    const std::filesystem::directory_iterator first(dir_ / "devices"), end;
+    EXPECT_EQ(std::distance(first, end), 2);
 }
 
 TEST_F(ConvertApp, groundTruthThatCannotBeReadLeavesNothing)

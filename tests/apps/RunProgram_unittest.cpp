@@ -2,7 +2,10 @@
 // A program and the streams that it is given.
 #include <pointplane/mrpt_io/errors.h>
 
+#include <filesystem>
 #include <functional>
+#include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -10,6 +13,8 @@
 #include "TempDir.h"
 #include "rawlog_samples.h"
 #include "run_program.h"
+#include <CLI/CLI.hpp>
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -70,6 +75,39 @@ TEST_F(RunProgram, closedStreamsAreNotWrittenIntoFiles)
         EXPECT_EQ(readBytes(rawlog_), rawlog);
         EXPECT_EQ(readBytes(text_), text);
     }
+}
+
+/** As `--trajectory /dev/stdout > file`: what is told goes to the standard error then. */
+TEST_F(RunProgram, anOutputToTheStandardOutputIsAloneThere)
+{
+    const std::string link = dir_ / "stdout", file = dir_ / "file", told = dir_ / "told";
+    std::filesystem::create_symlink("/proc/self/fd/1", link);
+    const auto redirected = [&](int errorsTo)
+    {
+        ::dup2(::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDOUT_FILENO);
+        ::dup2(errorsTo >= 0 ? errorsTo : ::open(told.c_str(), O_WRONLY | O_CREAT, 0600), 2);
+    };
+    ASSERT_EQ(run({"--trajectory", text_, "--quiet"}, [] {}), kExitOk);
+    ASSERT_EQ(run({"--trajectory", link, "--quiet"}, [&] { redirected(-1); }), kExitOk);
+    EXPECT_EQ(readBytes(file), readBytes(text_));
+    EXPECT_NE(readBytes(told).find("3 frames"), std::string::npos);
+    // Both streams into one file: the summary comes after, and over nothing.
+    ASSERT_EQ(run({"--trajectory", link, "--quiet"}, [&] { redirected(1); }), kExitOk);
+    EXPECT_EQ(readBytes(file).rfind(readBytes(text_), 0), 0U);
+    EXPECT_NE(readBytes(file).find("3 frames"), std::string::npos);
+}
+
+TEST(RunCommand, whatTheSystemRefusesIsExitCode3)
+{
+    const auto codeOf = [](const std::string& problem)
+    {
+        CLI::App app;
+        std::ostringstream out, err;
+        return runCommand(app, {}, out, err, [&]() -> int { throw std::runtime_error(problem); });
+    };
+    EXPECT_EQ(
+        codeOf("pthread_create has failed: Resource temporarily unavailable"), kExitEnvironment);
+    EXPECT_EQ(codeOf("something else"), kExitBadInput);
 }
 
 TEST_F(RunProgram, aReaderThatLeavesEndsNoRun)

@@ -196,6 +196,22 @@ TEST_F(EvalApp, namesOfFilesCannotBreakAReport)
     EXPECT_THAT(html, HasSubstr("&lt;!--&lt;script&gt;alert(1)&amp;.txt"));
 }
 
+TEST_F(EvalApp, theStandardOutputTakesOneResult)
+{
+    for (const std::vector<std::string>& both :
+         {std::vector<std::string>{"--json", "-", "--csv", "-"},
+          {"--json", "-", "--verbose"},
+          {"--save", "-", "--csv", "-"}})
+    {
+        std::vector<std::string> args{"ate", truth, estimate};
+        args.insert(args.end(), both.begin(), both.end());
+        const test::AppRun r = run(args);
+        EXPECT_EQ(r.code, 2);
+        EXPECT_THAT(r.err, HasSubstr("only one of --json, --csv, --save and --verbose"));
+        EXPECT_EQ(r.out, "");
+    }
+}
+
 /** JSON and HTML are in UTF-8, names of files may be in anything. */
 TEST_F(EvalApp, namesInAnyEncodingAreWritten)
 {

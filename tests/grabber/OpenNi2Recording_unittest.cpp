@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "RenderedMotion.h"
+#include "SmallDisk.h"
 #include "VirtualCamera.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -337,6 +338,42 @@ TEST_F(OpenNi2Recording, toOniFileAndBackLosesNothing)
     }
     EXPECT_THAT(err_, HasSubstr("taken as registered"));
     EXPECT_THAT(err_, HasSubstr("time stamps count from the date of the .oni file"));
+}
+
+TEST_F(OpenNi2Recording, anOniFileOnAFullDiskIsToldIncomplete)
+{
+    const std::string disk = dir_ / "disk", err = dir_ / "err";
+    for (const int kilobytes : {4, 100, 300})
+    {
+        const auto code = onSmallDisk(
+            disk,
+            kilobytes,
+            [&]
+            {
+                const auto virtualCamera = camera();
+                const auto process = start(
+                    virtualCamera,
+                    {"-o",
+                     disk + "/out.oni",
+                     "--mode",
+                     "64x48@30",
+                     "--warm-up",
+                     "0.2",
+                     "--frames",
+                     "20",
+                     "--min-free-mb",
+                     "0"});
+                const int result = process->wait();
+                writeBytes(err, process->err());
+                return result;
+            });
+        if (!code)
+        {
+            GTEST_SKIP() << "this user may not mount a disk";
+        }
+        EXPECT_EQ(code, 3) << kilobytes;
+        EXPECT_THAT(readBytes(err), HasSubstr("out.oni' is incomplete")) << kilobytes;
+    }
 }
 
 TEST_F(OpenNi2Recording, damagedOniFilesAreBadInput)

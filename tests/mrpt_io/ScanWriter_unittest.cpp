@@ -79,6 +79,9 @@ TEST(RawlogNames, imagesAreFoundByTheReader)
         writer.write(sample());
         writer.close();
         EXPECT_EQ(RawlogReader(path).externalsDirectory(), imagesFolderOf(path));
+        // The folder that is missing is the one to name.
+        std::filesystem::remove_all(imagesFolderOf(path));
+        EXPECT_EQ(RawlogReader(path).externalsDirectory(), imagesFolderOf(path));
     }
 }
 

@@ -15,6 +15,8 @@
 
 #include <cmath>
 #include <filesystem>
+#include <future>
+#include <iterator>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -25,11 +27,14 @@
 #include "matchers.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 namespace pointplane
 {
 namespace
 {
+using testing::HasSubstr;
+
 struct Finished
 {
     int code{-1};
@@ -261,6 +266,30 @@ TEST(SimulateApp, whatStandsInTheWayOfMasksIsToldBeforeTheRun)
     EXPECT_THAT(result.err, testing::HasSubstr("a_Masks is not a folder"));
     EXPECT_FALSE(std::filesystem::exists(dir / "a.rawlog"));
     EXPECT_FALSE(std::filesystem::exists(dir / "a.rawlog.partial"));
+}
+
+/** As /dev/null would be: nothing appears in its folder. */
+TEST(SimulateApp, nothingIsWrittenBesideAPipe)
+{
+    const test::TempDir dir;
+    const std::string pipe = dir / "pipe";
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    std::vector<std::string> args{
+        "corner", "-o", pipe, "--size", "32x24", "--duration", "0.1", "--quiet"};
+    auto reader = std::async(std::launch::async, [&] { return test::readBytes(pipe); });
+    const Finished piped = run(args);
+    EXPECT_EQ(piped.code, 0) << piped.err;
+    EXPECT_GT(reader.get().size(), 100U);
+    EXPECT_THAT(piped.out, HasSubstr("the ground truth was not written"));
+    for (const char* option : {"--masks", "--external"})
+    {
+        args.back() = option;
+        const Finished refused = run(args);
+        EXPECT_EQ(refused.code, 2) << option;
+        EXPECT_THAT(refused.err, HasSubstr("of -o " + pipe + ": is not a file"));
+    }
+    const std::filesystem::directory_iterator first(dir / ""), end;
+    EXPECT_EQ(std::distance(first, end), 1);
 }
 
 TEST(SimulateApp, unwritableOutputIsTheEnvironmentsFault)

@@ -2,6 +2,7 @@
 #include <pointplane/grabber/Capture.h>
 
 #include "drivers.h"
+#include "oni_file.h"
 
 namespace pointplane
 {
@@ -43,6 +44,11 @@ CaptureEnd Capture::run(const std::atomic<bool>& stop)
     }
     camera_.stop();
     pairer_.finish();
+    if (!options_.oniPath.empty() && problem_.empty())
+    {
+        problem_ = problemOfOniFile(options_.oniPath);
+        end = problem_.empty() ? end : CaptureEnd::Error;
+    }
     const std::lock_guard<std::mutex> lock(mutex_);
     stats_.pairing = pairer_.counts();
     return end;

@@ -20,18 +20,26 @@ namespace
 {
 namespace fs = std::filesystem;
 
-/** Standard output or error, redirected to this very file: renaming would take it away. */
-[[nodiscard]] bool isStandardStream(const struct stat& info)
+/** Whether this open stream and this name are the same file. */
+[[nodiscard]] bool leadsTo(int fd, const std::string& path)
+{
+    struct stat named = {}, open = {};
+    return ::stat(path.c_str(), &named) == 0 && ::fstat(fd, &open) == 0 &&
+           open.st_dev == named.st_dev && open.st_ino == named.st_ino;
+}
+
+/** Standard output or error, if it goes to this very file: renaming would take it away, and to open
+ * it anew would be to write over what the stream writes. \return -1: neither does */
+[[nodiscard]] int standardStreamTo(const std::string& path)
 {
     for (const int fd : {STDOUT_FILENO, STDERR_FILENO})
     {
-        struct stat own = {};
-        if (::fstat(fd, &own) == 0 && own.st_dev == info.st_dev && own.st_ino == info.st_ino)
+        if (leadsTo(fd, path))
         {
-            return true;
+            return fd;
         }
     }
-    return false;
+    return -1;
 }
 
 /** Also a link to nothing: it is its target that gets created. */
@@ -122,17 +130,25 @@ OutputTarget outputTarget(const std::string& path)
 {
     struct stat info = {};
     const bool exists = ::stat(path.c_str(), &info) == 0;
-    if (exists && (!S_ISREG(info.st_mode) || isStandardStream(info)))
+    if (exists && (!S_ISREG(info.st_mode) || standardStreamTo(path) >= 0))
     {
         return {path, false};
     }
     return {followed(path).string(), true};
 }
 
+bool isStandardOutput(const std::string& path)
+{
+    struct stat info = {};
+    return ::stat(path.c_str(), &info) == 0 && !S_ISCHR(info.st_mode) &&
+           leadsTo(STDOUT_FILENO, path);
+}
+
 OutputFile::OutputFile(const std::string& path) : path_(path), target_(outputTarget(path))
 {
-    // A standard stream's own writes follow ours.
+    const int stream = standardStreamTo(path);
     fd_ = target_.isReplaced ? openPartial(writtenPath())
+          : stream >= 0      ? ::fcntl(stream, F_DUPFD_CLOEXEC, 0)
                              : ::open(target_.path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
     if (fd_ < 0)
     {

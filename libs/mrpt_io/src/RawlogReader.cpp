@@ -34,19 +34,21 @@ namespace
 }
 
 /** MRPT's rule. Its own CRawlog::detectImagesDirectory() (2.5.8) drops the slash between folder and
- * name, and so finds nothing for a path with a folder in it. */
+ * name, and so finds nothing for a path with a folder in it. Where there is no such folder, the
+ * first name is the one to tell. */
 [[nodiscard]] std::string imagesDirectory(const std::string& rawlog)
 {
     const std::string stem = std::filesystem::path(rawlog).replace_extension().string();
-    for (const char* suffix : {"_Images", "_images", "_IMAGES"})
+    const std::string shared = (std::filesystem::path(rawlog).parent_path() / "Images").string();
+    for (const std::string& name : {stem + "_Images", stem + "_images", stem + "_IMAGES", shared})
     {
         std::error_code error;
-        if (std::filesystem::is_directory(stem + suffix, error))
+        if (std::filesystem::is_directory(name, error))
         {
-            return stem + suffix;
+            return name;
         }
     }
-    return (std::filesystem::path(rawlog).parent_path() / "Images").string();
+    return stem + "_Images";
 }
 
 /** Puts the depth cameras' resolutions back, which the scanner had exchanged. */

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/mrpt_io/OutputFile.h>
 #include <pointplane/mrpt_io/rawlog_names.h>
 
 #include <filesystem>
@@ -21,4 +22,6 @@ std::string groundTruthOf(const std::string& rawlog)
     }
     return name.replace_extension().string() + ".groundtruth.txt";
 }
+
+bool hasPlaceBeside(const std::string& rawlog) { return outputTarget(rawlog).isReplaced; }
 }  // namespace pointplane

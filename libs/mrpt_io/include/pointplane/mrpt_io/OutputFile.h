@@ -20,6 +20,10 @@ struct OutputTarget
  * output goes to are written directly; anything else is replaced when it is complete. */
 [[nodiscard]] OutputTarget outputTarget(const std::string& path);
 
+/** Whether this output goes to the file or pipe that the standard output goes to, as /dev/stdout
+ * does. Then nothing else may be written there. No: a terminal, which takes both. */
+[[nodiscard]] bool isStandardOutput(const std::string& path);
+
 /** A file that appears under its name when it is complete. Until then it is `<target>.partial`, and
  * an earlier file with its name is untouched. Every write is checked and reaches the operating
  * system at once. All members throw EnvironmentError naming the file. */

@@ -84,7 +84,7 @@ class RawlogReader
     [[nodiscard]] const std::string& path() const;
 
     /** Folder of external images and ranges, by MRPT's rule: NAME_Images or a variant of it, else
-     * Images, beside the rawlog. */
+     * Images, beside the rawlog; NAME_Images where none of them is there. */
     [[nodiscard]] const std::string& externalsDirectory() const;
 
  private:

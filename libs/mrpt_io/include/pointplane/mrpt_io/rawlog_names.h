@@ -12,4 +12,8 @@ namespace pointplane
 /** Ground truth of a rawlog, as TUM text: NAME.groundtruth.txt beside NAME.rawlog (or
  * NAME.rawlog.gz). */
 [[nodiscard]] std::string groundTruthOf(const std::string& rawlog);
+
+/** Whether files that belong to a rawlog can be written beside it: no, where its name is that of a
+ * device, of a pipe, or of the file that the standard output goes to. */
+[[nodiscard]] bool hasPlaceBeside(const std::string& rawlog);
 }  // namespace pointplane

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Attempt.h"
+#include "VirtualCamera.h"
+#include "rawlog_samples.h"
+
+namespace pointplane::adversary
+{
+namespace
+{
+struct Case
+{
+    std::string program;
+    std::vector<std::string> args;
+    std::string output;  //!< a file that is there before
+};
+
+[[nodiscard]] std::vector<Surroundings> limits(double share)
+{
+    std::vector<Surroundings> out;
+    for (std::uint64_t kilobytes : {64, 128, 1024})
+    {
+        out.emplace_back().stack = kilobytes << 10U;
+    }
+    for (std::uint64_t bytes : {0, 1 << 10, 1 << 13, 1 << 16, 1 << 30})
+    {
+        out.emplace_back().fileSize = bytes;
+    }
+    constexpr std::uint64_t kLeast = 220, kMost = 620;  // about what they ask for [MB]
+    for (std::uint64_t megabytes = kLeast; megabytes <= kMost; megabytes += 20)
+    {
+        out.emplace_back().memory = megabytes << 20U;
+    }
+    const auto step = static_cast<std::size_t>(share < 1 ? 7 : 1);
+    std::vector<Surroundings> some;
+    for (std::size_t i = 0; i < out.size(); i += step)
+    {
+        some.push_back(out[i]);
+    }
+    return some;
+}
+
+[[nodiscard]] std::string nameOf(const Surroundings& s)
+{
+    return s.stack      ? "stack " + std::to_string(*s.stack)
+           : s.fileSize ? "files " + std::to_string(*s.fileSize)
+                        : "memory " + std::to_string(s.memory);
+}
+}  // namespace
+
+Tally tightLimits(double share)
+{
+    Tally tally(
+        "limits: a stack of 64 kB and more, files of 0 bytes and more, 220 to 620 MB of memory; "
+        "all programs");
+    const test::TempDir dir;
+    const std::string in = dir / "in.rawlog", folder = dir / "tum", out = dir / "out";
+    const std::string text = dir / "t.txt";
+    test::writeObservations(in, 40);
+    writeTumFolder(folder);
+    (void)attemptOf("odometry", {in, "--trajectory", text, "--quiet"});
+    const test::VirtualCamera camera("", test::patternFrames(30, 64, 48), 52.5);
+    const std::vector<Case> cases{
+        {"odometry", {in, "-o", out, "--quiet"}, out},
+        {"odometry", {in, "--trajectory", out, "--jobs", "1", "--quiet"}, out},
+        {"odometry", {in, "--diagnostics", out, "--overlay", dir / "pictures", "--quiet"}, out},
+        {"simulate",
+         {"corner", "-o", out, "--size", "320x240", "--duration", "0.2", "--quiet"},
+         out},
+        {"convert", {"tum", folder, "-o", out, "--quiet"}, out},
+        {"eval", {"rpe", text, text, "--json", out, "--report", dir / "report"}, out},
+        {"lab",
+         {"sweep", "PoseSolver.alpha", in, "--values", "1", "--gt", text, "--json", out},
+         out},
+        {"grabber",
+         {"--driver",
+          "openni2",
+          "--mode",
+          "64x48@30",
+          "--warm-up",
+          "0.2",
+          "--frames",
+          "5",
+          "--quiet",
+          "--live",
+          "-o",
+          dir / "recording.rawlog"},
+         ""}};
+    for (const Case& c : cases)
+    {
+        for (Surroundings surroundings : limits(share))
+        {
+            if (c.program == "grabber")
+            {
+                std::filesystem::remove(dir / "recording.rawlog");
+                surroundings.environment = camera.environment();
+            }
+            if (surroundings.memory < Surroundings{}.memory &&
+                attemptOf(c.program, {"--version"}, surroundings).code != 0)
+            {
+                continue;  // the libraries fail before the program begins
+            }
+            test::writeBytes(out, "old");
+            const Attempt a = attemptOf(c.program, c.args, surroundings);
+            std::string wrong = c.program == "grabber" ? wrongWithGrabber(a) : wrongWith(a);
+            wrong += unless(a.code == 0 || a.code == 3, "exit code: " + a.err);
+            wrong += unless(
+                c.output.empty() || (a.code == 0) == (test::readBytes(out) != "old"),
+                "earlier output");
+            tally.add(a, wrong, c.program + " " + c.args[0] + ", " + nameOf(surroundings));
+        }
+    }
+    return tally;
+}
+}  // namespace pointplane::adversary
