@@ -1,31 +1,47 @@
 #!/usr/bin/env bash
 # The table of docs/theory.md that compares the paper with the code: the files and tests that it
-# names exist, the files mark the line with the place in the paper, and no row is without. Run in the
-# root of the sources.
+# names exist, the files mark the line with the place in the paper, tools/mutants.txt has a line to
+# break that one of these tests must notice, and no row is without. Run in the root of the sources.
 set -u
 failed=0
 rows=0
 problem() {
-    echo "docs/theory.md: $*"
+    echo "$*"
     failed=1
+}
+
+# is_broken PLACE TESTS: by a mutant of that place, and one of the tests must notice
+is_broken() {
+    local noticing
+    while read -r noticing; do
+        [[ $2 != *"$noticing"* ]] || return 0
+    done < <(grep -F "| [P17] $1" tools/mutants.txt | grep -oP ':\K\S+(?= \| \[P17\] '"$1"'$)' | tr -d '*')
+    return 1
 }
 
 while IFS='|' read -r _ place what files tests _; do
     ((++rows))
-    [[ $files == *'`'* ]] || problem "no file:$what"
-    [[ $tests == *'`'* ]] || problem "no test:$what"
+    place=$(sed -E 's/^ *//; s/ *$//' <<<"$place")
+    [[ $files == *'`'* ]] || problem "docs/theory.md: no file:$what"
+    [[ $tests == *'`'* ]] || problem "docs/theory.md: no test:$what"
+    is_broken "$place" "$tests" || problem "tools/mutants.txt: nothing breaks '$place:$what'"
     mark=$(sed -E 's/^.*, //; s/^ *//; s/ *$//; s/^nowhere$//' <<<"$place")
     for file in $(grep -oE '`[^`]+`' <<<"$files" | tr -d '`'); do
         [[ -f $file ]] || file=libs/$file
-        [[ -f $file ]] || problem "$file is not there ($place)"
+        [[ -f $file ]] || problem "docs/theory.md: $file is not there ($place)"
         before='\[P17[^]]*'
         [[ $file != *.ini ]] || before='// '
-        grep -qE "$before${mark//./\\.}([^0-9]|$)" "$file" || problem "no line of $file is marked [P17 $mark]"
+        grep -qE "$before${mark//./\\.}([^0-9]|$)" "$file" || problem "docs/theory.md: no line of $file is marked [P17 $mark]"
     done
     for test in $(grep -oE '`[^`]+`' <<<"$tests" | tr -d '`'); do
         grep -rqE "TEST(_[FP])?\(${test%.*}, ${test#*.}\)" tests --include='*.cpp' ||
-            problem "there is no test $test ($place)"
+            problem "docs/theory.md: there is no test $test ($place)"
     done
 done < <(sed -n '/<!-- paper begin -->/,/<!-- paper end -->/p' docs/theory.md | grep '^|' | tail -n +3)
-((rows >= 20)) || problem "only $rows rows in the table of the paper"
+((rows >= 20)) || problem "docs/theory.md: only $rows rows in the table of the paper"
+
+while IFS= read -r mutant; do
+    IFS=$'\x1f' read -r file old _ <<<"${mutant// | /$'\x1f'}"
+    grep -qF -e "$old" "$file" || problem "tools/mutants.txt: $file has no '$old' any more"
+done < <(grep -v '^\(#\|$\)' tools/mutants.txt)
 exit $failed
