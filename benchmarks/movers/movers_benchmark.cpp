@@ -109,7 +109,7 @@ std::string table()
     out << "\n| scene | camera | of the view moves [%] | of what is called moving, on movers [%] | "
            "of movers, called moving [%] | points on movers that count [%] | points on the still "
            "world that count [%] |\n|---|---|---|---|---|---|---|\n";
-    for (const char* scene : {"person", "push", "door", "half"})
+    for (const char* scene : {"person", "push", "door", "half", "seated"})
     {
         for (const Motion& motion : {Motion{"hand", 1, 1}, Motion{"stands", 1, 0}, {"fast", 1, 3}})
         {

@@ -201,7 +201,7 @@ std::vector<SequenceSource> hardSimulatedSequences(double duration)
         params.light = 0.1;
         add(scene, " dim", params);
     }
-    for (const std::string scene : {"person", "push", "door", "half"})
+    for (const std::string scene : {"person", "push", "door", "half", "seated"})
     {
         SimulationParams params = usual;
         add(scene, "", params);

@@ -141,7 +141,7 @@ TEST_P(EveryMover, sameSeedGivesTheSameBytes)
 INSTANTIATE_TEST_SUITE_P(
     movers,
     EveryMover,
-    testing::Values("person", "push", "door", "half"),
+    testing::Values("person", "push", "door", "half", "seated"),
     [](const auto& scene) { return scene.param; });
 
 TEST(Movers, rowsOfARollingShutterSeeThemAtTheirOwnInstant)

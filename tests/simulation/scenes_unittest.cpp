@@ -99,12 +99,13 @@ INSTANTIATE_TEST_SUITE_P(
         "person",
         "push",
         "door",
-        "half"),
+        "half",
+        "seated"),
     [](const auto& scene) { return scene.param; });
 
 TEST(scenes, listAndNamesAgree)
 {
-    EXPECT_EQ(sceneList().size(), 11U);
+    EXPECT_EQ(sceneList().size(), 12U);
     for (const SceneInfo& info : sceneList())
     {
         EXPECT_EQ(makeScene(info.name, 1).name, info.name);

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/simulation/SceneBuilder.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
+#include <vector>
 
 #include "scenes_internal.h"
 
@@ -98,6 +101,70 @@ void addPerson(SceneBuilder& builder, Random& random)
     builder.endMover();
 }
 
+/** Goes from one place between -1 and 1 to the next within a second, and rests there: two seconds
+ * in all. */
+std::function<double(double t)> restless(Random& random)
+{
+    constexpr int kPlaces = 64;  // then again from the beginning
+    constexpr double kStay = 2;  // [s]
+    std::vector<double> places, ways;
+    for (int i = 0; i < kPlaces; ++i)
+    {
+        places.push_back(random.uniform(-1, 1));
+        ways.push_back(random.uniform(0.4, 1));
+    }
+    const double phase = random.uniform(0, kStay);
+    return [places, ways, phase](double t)
+    {
+        const double time = std::max(0.0, t + phase) / kStay;
+        const auto stay = static_cast<size_t>(time);
+        const size_t from = stay % kPlaces, to = (stay + 1) % kPlaces;
+        const double way = std::min(1.0, (time - std::floor(time)) * kStay / ways[from]);
+        return places[from] + (places[to] - places[from]) * 0.5 * (1 - std::cos(M_PI * way));
+    };
+}
+
+/** A person who sits, talks and gestures with upper body, head and both arms; the legs stay where
+ * they are. \param at on the floor [m] \param yaw of where the person faces [rad] */
+void addSeated(SceneBuilder& builder, Random& random, const Eigen::Vector3d& at, double yaw)
+{
+    const Eigen::Isometry3d seat = placed(at, yaw);
+    const double hip = 0.5, shoulder = 1.05;  // [m]
+    const Finish shirt{randomColour(random, 60, 180), 1.5e-3, pattern(random, 35)};
+    const Finish trousers{{110, 70, 50}, 1.5e-3, pattern(random, 8)};
+    const Finish skin{{140, 170, 215}, 1.5e-3, pattern(random, 5)};
+    const auto lean = restless(random), bend = restless(random);
+    const auto upper = [seat, lean, bend, hip](double t)
+    {
+        return seat * turnedAbout({0, 0, hip}, Eigen::Vector3d::UnitY(), 0.08 * lean(t)) *
+               turnedAbout({0, 0, hip}, Eigen::Vector3d::UnitX(), 0.1 * bend(t));
+    };
+    builder.addBox(seat * Eigen::Vector3d(0.2, 0, 0), {0.5, 0.4, hip}, yaw, trousers, trousers);
+    builder.beginMover("trunk", upper);
+    builder.addBox({0, 0, hip}, {0.22, 0.42, shoulder + 0.05 - hip}, 0, shirt, shirt);
+    const auto turn = restless(random);
+    builder.beginMover(
+        "head",
+        [upper, turn](double t) {
+            return upper(t) * turnedAbout({0, 0, 0}, Eigen::Vector3d::UnitZ(), 0.5 * turn(t));
+        });
+    builder.addCylinder({0, 0, shoulder + 0.05}, 0.05, 0.06, skin, skin);
+    builder.addCylinder({0, 0, shoulder + 0.11}, 0.09, 0.22, skin, {{40, 50, 60}, 2e-3, {}});
+    for (const double side : {-1.0, 1.0})
+    {
+        const auto lift = restless(random);
+        const Eigen::Vector3d joint(0, 0.25 * side, shoulder);
+        builder.beginMover(
+            side < 0 ? "right arm" : "left arm",
+            [upper, lift, joint](double t) {
+                return upper(t) *
+                       turnedAbout(joint, Eigen::Vector3d::UnitY(), -0.9 - 0.5 * lift(t));
+            });
+        builder.addCylinder(joint - Eigen::Vector3d(0, 0, 0.55), 0.05, 0.55, shirt, skin);
+    }
+    builder.endMover();
+}
+
 /** A camera held in a hand in one place. \param eye, target [m] \param rate of the hand [m/s] and
  * [rad/s] */
 void watch(
@@ -188,6 +255,16 @@ Scene makeHalf(std::uint64_t seed)
     builder.addWall({-0.6, 1.5, 0.05}, {-0.6, 0.12, 0.05}, 1.95, {{150, 120, 90}, 1.5e-3, print});
     builder.endMover();
     watch(builder.scene().motion, {-1.8, 0.0, 1.3}, {0.8, 0.0, 1.0}, 0.15);
+    return builder.build(roomLamp());
+}
+
+Scene makeSeated(std::uint64_t seed)
+{
+    SceneBuilder builder = closedRoom("seated", seed);
+    Random random({seed, 8});
+    addSeated(builder, random, {-0.1, 0.33, 0}, 3.0);
+    addSeated(builder, random, {-0.2, -0.4, 0}, 3.4);
+    watch(builder.scene().motion, {-1.45, 0.0, 1.2}, {0.8, 0.0, 0.85}, 0.015);
     return builder.build(roomLamp());
 }
 }  // namespace pointplane

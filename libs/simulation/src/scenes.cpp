@@ -30,7 +30,8 @@ const std::vector<Entry>& entries()
         {{"person", "a furnished room, a person walks across"}, makePerson},
         {{"push", "objects on a desk, a box is pushed over it"}, makePush},
         {{"door", "a furnished room, a cupboard's door opens and closes"}, makeDoor},
-        {{"half", "a furnished room, half of the view is a printed screen that moves"}, makeHalf}};
+        {{"half", "a furnished room, half of the view is a printed screen that moves"}, makeHalf},
+        {{"seated", "a furnished room, two people sit close, talk and gesture"}, makeSeated}};
     return all;
 }
 }  // namespace

@@ -18,6 +18,7 @@ namespace pointplane
 [[nodiscard]] Scene makePush(std::uint64_t seed);
 [[nodiscard]] Scene makeDoor(std::uint64_t seed);
 [[nodiscard]] Scene makeHalf(std::uint64_t seed);
+[[nodiscard]] Scene makeSeated(std::uint64_t seed);
 
 /** The room of `desk` and `room`, to which more may be added, and its light. */
 [[nodiscard]] SceneBuilder furnishedRoom(const std::string& name, std::uint64_t seed);
