@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/pose/median_variance.h>
 
+#include <utility>
 #include <vector>
 
 #include "monte_carlo.h"
@@ -25,5 +26,15 @@ TEST(medianVariance, isThatOfTheRightOnes)
     EXPECT_NEAR(medianVariance(norms), 4, 0.1);
     norms.insert(norms.end(), 400, 1e9);
     EXPECT_NEAR(medianVariance(norms), 4, 0.2);
+}
+
+TEST(medianVariance, halfOfTheWeightIsOnNormsUpToIt)
+{
+    std::vector<std::pair<double, double>> norms{{300, 1}, {1, 6}, {100, 1}, {2, 6}, {200, 1}};
+    std::vector<double> alike{300, 1, 100, 2, 200};
+    EXPECT_GT(medianVariance(alike), 40);
+    EXPECT_NEAR(medianVariance(norms), 2 / 2.366, 1e-9) << "6 of 15 are on 1, 12 on up to 2";
+    norms.clear();
+    EXPECT_EQ(medianVariance(norms), 0);
 }
 }  // namespace pointplane

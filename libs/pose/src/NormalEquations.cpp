@@ -44,7 +44,7 @@ void NormalEquations::evaluate(const Motion& motion, double widening)
     {
         // Below one only by chance or by a pessimistic noise model: never tighten the gate for it.
         const double least = solver_.weighting == PoseSolver::Weighting::None ? 0.1 : 1.0;
-        scale_ = widening * std::max(least, std::sqrt(pointVariance()));
+        scale_ = widening * std::max(least, std::sqrt(robustVariance()));
     }
     pointSum_ = {};
     planeSum_ = {};
@@ -188,6 +188,24 @@ PairNorms NormalEquations::norms() const
         (isPoint(i) ? out.points : out.planes).push_back(residuals_[i].squaredNorm);
     }
     return out;
+}
+
+/** Where weights are true covariances, each point counts for the surface that it stands for, which
+ * grows with the square of its depth: what is close and moves may have most of the points, and must
+ * not set the scale by which it is told apart. */
+double NormalEquations::robustVariance() const
+{
+    if (solver_.weighting != PoseSolver::Weighting::Full)
+    {
+        return pointVariance();
+    }
+    std::vector<std::pair<double, double>> normsAndSurfaces;
+    for (size_t i = 0; i < points_.size(); ++i)
+    {
+        const double z = points_[i].cur.mean.z();
+        normsAndSurfaces.emplace_back(residuals_[i].squaredNorm, z * z);
+    }
+    return medianVariance(normsAndSurfaces);
 }
 
 double NormalEquations::relativeMedian(size_t begin, size_t end) const

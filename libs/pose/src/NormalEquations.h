@@ -87,6 +87,7 @@ class NormalEquations
     [[nodiscard]] double gain(size_t i) const;
     [[nodiscard]] bool isPoint(size_t i) const { return i < points_.size(); }
     [[nodiscard]] std::pair<double, double> robust(double squaredNorm, bool isPoint) const;
+    [[nodiscard]] double robustVariance() const;
     [[nodiscard]] double relativeMedian(size_t begin, size_t end) const;
 
     const PoseSolver::Settings& solver_;

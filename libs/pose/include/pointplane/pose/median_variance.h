@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <utility>
 #include <vector>
 
 namespace pointplane
@@ -10,4 +11,8 @@ namespace pointplane
  * \param squaredNorms of the vectors; their order changes
  * \return 0 if there are none */
 [[nodiscard]] double medianVariance(std::vector<double>& squaredNorms);
+
+/** The same where vectors count by a weight: half of the weight is on norms up to the median.
+ * \param normsAndWeights squared norm and weight of each vector; their order changes */
+[[nodiscard]] double medianVariance(std::vector<std::pair<double, double>>& normsAndWeights);
 }  // namespace pointplane
