@@ -52,22 +52,25 @@ TEST(RivalMotions, nothingDisagreesAtRest)
     EXPECT_FALSE(rivalryIn(problem));
 }
 
-/** 100 points that have moved by 3 cm at 1 m, 40 that have not at 3 m. */
+/** 400 points in 100 cells that have moved by 3 cm at 1 m, 50 that have not at 2.5 m. */
 TEST(RivalMotions, surfaceIsCountedByHand)
 {
     PoseProblem problem = emptyProblem();
-    addPoints(10, 10, 0, 1, {0.03, 0, 0}, problem);
-    addPoints(4, 10, 12, 3, {0, 0, 0}, problem);
+    for (int k = 0; k < 4; ++k)
+    {
+        addPoints(10, 10, 0, 1, {0.03, 0, 0}, problem);
+    }
+    addPoints(5, 10, 12, 2.5, {0, 0, 0}, problem);
     const auto rivalry = rivalryIn(problem);
     ASSERT_TRUE(rivalry);
     // The estimate follows the many and near ones; the camera goes where they seem to go from.
     EXPECT_NEAR(rivalry->first.T_prev_cur.translation().x(), -0.03, 1e-4);
     EXPECT_NEAR(rivalry->second.T_prev_cur.translation().norm(), 0, 1e-4);
-    EXPECT_EQ(std::count(rivalry->points.begin(), rivalry->points.end(), Side::First), 100);
-    EXPECT_EQ(std::count(rivalry->points.begin(), rivalry->points.end(), Side::Second), 40);
+    EXPECT_EQ(std::count(rivalry->points.begin(), rivalry->points.end(), Side::First), 400);
+    EXPECT_EQ(std::count(rivalry->points.begin(), rivalry->points.end(), Side::Second), 50);
     const double cellAtOneMetre = 0.05 * 0.05;
     EXPECT_NEAR(rivalry->surfaceFirst, 100 * cellAtOneMetre, 10 * cellAtOneMetre);
-    EXPECT_NEAR(rivalry->surfaceSecond, 40 * 9 * cellAtOneMetre, 1e-6);
+    EXPECT_NEAR(rivalry->surfaceSecond, 50 * 6.25 * cellAtOneMetre, 1e-6);
     EXPECT_FALSE(rivalry->firstWins());
     EXPECT_EQ(&rivalry->winner(), &rivalry->second);
 }
