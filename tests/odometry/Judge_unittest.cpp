@@ -84,13 +84,13 @@ TEST(Judge, planesAreDoubtedWherePointsShouldAgree)
         judge.contradict(a, kUsual);
         return a;
     };
-    const Alignment doubted = judged(kUncertain, 300, 700);
+    const Alignment doubted = judged(kUncertain, 300, 800);
     EXPECT_FALSE(doubted.holds);
     EXPECT_THAT(doubted.reason, testing::HasSubstr("0 of 300 points in view"));
     EXPECT_THAT(doubted.reason, testing::HasSubstr("0.5 s after"));
-    EXPECT_TRUE(judged(kUncertain, 300, 800).holds);
-    EXPECT_TRUE(judged(kUncertain, 0, 700).holds) << "no points to ask";
-    EXPECT_TRUE(judged(kCertain, 300, 700).holds);
+    EXPECT_TRUE(judged(kUncertain, 300, 950).holds);
+    EXPECT_TRUE(judged(kUncertain, 0, 800).holds) << "no points to ask";
+    EXPECT_TRUE(judged(kCertain, 300, 800).holds);
 }
 
 TEST(Judge, surfacesThatAreNotWhereTheyShouldBeContradict)

@@ -86,7 +86,7 @@ TEST_P(EveryMover, depthAndColourMoveAsTheTruthSays)
     int compared = 0, moved = 0;
     for (const int a : {40, 65, 80})
     {
-        const int b = a + 3;
+        const int b = a + (std::string(GetParam()) == "seated" ? 15 : 3);  // people sit still
         const RgbdFrame from = sequence.frame(a), to = sequence.frame(b);
         const TrueMovers then = sequence.trueMovers(a), now = sequence.trueMovers(b);
         const cv::Mat clearThen = inside(then.labels, from.depth);
@@ -117,7 +117,7 @@ TEST_P(EveryMover, depthAndColourMoveAsTheTruthSays)
                 }
                 // Half a pixel on a slanted or round surface.
                 EXPECT_NEAR(static_cast<double>(to.depth.at<float>(y, x)), q.z(), 0.012);
-                moved += (q_world - p_world).norm() > 0.002 ? 1 : 0;
+                moved += (q_world - p_world).norm() > 0.01 ? 1 : 0;
                 ++compared;
             }
         }

@@ -17,6 +17,11 @@ namespace
 /** Search radius when too little is found again around the prediction, over the usual one. */
 constexpr double kWideSearch = 5;
 
+/** Surfaces of a place that agree when it is recognised. By key points alone the motion is
+ * centimetres off: less is asked than of an estimate, and twice what a wrong motion shows. What is
+ * recalled is then aligned and judged like any reference. */
+constexpr double kRecognised = 0.6;
+
 /** Points of a reference that are due and in view of a camera. */
 int numInView(
     const Reference& reference, const RgbdFrame& frame, const Eigen::Isometry3d& T_cur_ref)
@@ -247,8 +252,8 @@ std::optional<int> Aligner::recognise(
     for (auto place = track.places().rbegin(); place != track.places().rend(); ++place)
     {
         const auto motion = frontEnd.alignImages(*place, current);
-        if (motion && frontEnd.compare(*place, current, motion->T_cur_ref, 0).fraction() >
-                          params_.leastAgreement)
+        if (motion &&
+            frontEnd.compare(*place, current, motion->T_cur_ref, 0).fraction() > kRecognised)
         {
             return place->id;
         }

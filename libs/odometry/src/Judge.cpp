@@ -31,6 +31,10 @@ constexpr double kMostSurprise = 5;
  * wrong by 5 cm or 5 deg (docs/theory.md, "Verdict"): so much is between. */
 constexpr double kConvincingSurfaces = 0.75;
 
+/** Where points do not confirm it, so much must agree of the surfaces: nine tenths do with a right
+ * motion. */
+constexpr double kConfirmingSurfaces = 0.9;
+
 /** Residuals up to twice as large as in the frames before, squared: a wrong motion disagrees more.
  */
 constexpr double kConvincingRise = 4;
@@ -78,7 +82,7 @@ bool isConfirmed(const Alignment& a) { return !a.isUnforeseen || pointShare(a) >
 bool isOfDoubtfulPlanes(const Alignment& a)
 {
     return !isConfirmed(a) && a.numSought >= kHandful && a.estimate.numPointInliers < kFewPoints &&
-           a.agreement.fraction() <= kConvincingSurfaces;
+           a.agreement.fraction() <= kConfirmingSurfaces;
 }
 }  // namespace
 

@@ -190,9 +190,9 @@ PairNorms NormalEquations::norms() const
     return out;
 }
 
-/** Where weights are true covariances, each point counts for the surface that it stands for, which
- * grows with the square of its depth: what is close and moves may have most of the points, and must
- * not set the scale by which it is told apart. */
+/** Each point counts for the surface that it stands for, which grows with the square of its depth:
+ * what is close and moves may have most of the points, and must not set the scale by which it is
+ * told apart. With the paper's weights all points count alike. */
 double NormalEquations::robustVariance() const
 {
     if (solver_.weighting != PoseSolver::Weighting::Full)

@@ -57,7 +57,6 @@ JointCovariance::Views viewsOf(const ErrorModel::Measured& frame)
 
 ErrorModel::ErrorModel(const OdometryParams& params)
     : params_(params.covariance),
-      reference_(params.reference),
       isJoint_(params.covariance.isJoint()),
       fuses_(params.pipeline.fuses()),
       noise_(params.noiseScale),
@@ -75,7 +74,7 @@ JointCovariance::Measurement ErrorModel::learn(const Measured& frame)
         variogram_.update(
             frame.analysis,
             frame.references.front()->T_world_cam.linear(),
-            reference_.numViews(frame.estimate.motion.mean.T_prev_cur),
+            ofView_.numViews(frame.estimate.motion.mean.T_prev_cur),
             frame.dt,
             noise_.residuals());
     }

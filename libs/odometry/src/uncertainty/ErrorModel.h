@@ -70,7 +70,9 @@ class ErrorModel
         const Measured& frame, const NoiseFactors& usual) const;
 
     JointCovariance::TParams params_;
-    ReferenceWindow::TParams reference_;
+    /** One view is what the default key frames are apart: learnt drift is per view, and must not
+     * depend on how many key frames a user wants. */
+    ReferenceWindow::TParams ofView_;
     bool isJoint_, fuses_;
     NoiseScale noise_;
     ResidualVariogram variogram_;

@@ -23,6 +23,9 @@ constexpr double kPush = 0.05;
  * as large; but where they shake, what lies between two increments errs, too. */
 constexpr double kWander = 0.01;
 
+/** Of a velocity that decays, all that can become unknown of it in the end [s]. */
+constexpr double kLongestCoasting = 1.0;
+
 /** One value for each half of a tangent vector. */
 Vector6d perAxis(double translation, double rotation)
 {
@@ -195,7 +198,7 @@ void MotionModel::coast(double dt)
     // white acceleration.
     const Vector6d decayed = (1 - std::pow(params_.decay, dt / kUsualStep)) * velocity_;
     velocity_ -= decayed;
-    const double t = std::min(dt, params_.timeConstant - coasting_);
+    const double t = std::min(dt, kLongestCoasting - coasting_);
     coasting_ += t;
     cov_.diagonal() += t * density_ + decayed.cwiseAbs2();
 }

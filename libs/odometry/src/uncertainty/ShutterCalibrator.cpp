@@ -39,6 +39,8 @@ ShutterCalibrator::ShutterCalibrator(const TParams& params)
     informationVector_ = information_ * estimate_;
 }
 
+double ShutterCalibrator::sigmaPrior() const { return std::min(params_.sigmaPrior, kMaxTime); }
+
 ShutterModel ShutterCalibrator::complete(const ShutterModel& source) const
 {
     if (!params_.correct)

@@ -125,7 +125,7 @@ class MotionModel
     Vector6d density_;
     Vector6d acceleration2_{Vector6d::Zero()};
     int numAccelerations_{0};  //!< that acceleration2_ was learnt from
-    double coasting_;          //!< time since the latest measurement, at most timeConstant [s]
+    double coasting_;          //!< time since the latest measurement, counted up to a limit [s]
     std::optional<Increment> increment_;       //!< the latest
     std::optional<Vector6d> atIncrementsEnd_;  //!< velocity, by the latest two of them
 };

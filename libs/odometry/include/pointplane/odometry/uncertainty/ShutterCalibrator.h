@@ -73,7 +73,7 @@ class ShutterCalibrator
     [[nodiscard]] Eigen::Vector3d estimated(const ShutterModel& source) const;
 
     /** How far the times of a source that does not know them may be off [s]. */
-    [[nodiscard]] double sigmaPrior() const { return params_.sigmaPrior; }
+    [[nodiscard]] double sigmaPrior() const;
 
     /** How the error of the estimate changes with a frame: it is gain times the one before, plus
      * noise. */
