@@ -234,4 +234,19 @@ std::string Tally::row() const
     return out + " | " + std::to_string(crashes_) + " | " + std::to_string(failures_.size()) +
            " |\n";
 }
+std::vector<std::string> recorder(int frames, const std::vector<std::string>& more)
+{
+    std::vector<std::string> out{
+        "--driver",
+        "openni2",
+        "--mode",
+        "64x48@30",
+        "--warm-up",
+        "0.2",
+        "--quiet",
+        "--frames",
+        std::to_string(frames)};
+    out.insert(out.end(), more.begin(), more.end());
+    return out;
+}
 }  // namespace pointplane::adversary

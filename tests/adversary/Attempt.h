@@ -76,6 +76,9 @@ class Tally
 /** A value that names itself when it is wrong. */
 [[nodiscard]] std::string unless(bool good, const std::string& problem);
 
+/** Options of pointplane-grabber for a short recording of the virtual camera, and more. */
+[[nodiscard]] std::vector<std::string> recorder(int frames, const std::vector<std::string>& more);
+
 /** A small folder of the TUM benchmark's layout, with everything that one may have. */
 void writeTumFolder(const std::string& folder);
 constexpr int kTumFrames = 4;

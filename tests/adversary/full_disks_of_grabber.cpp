@@ -64,18 +64,7 @@ Tally fullDisksOfGrabber(double share)
             surroundings.environment = camera.environment();
             surroundings.leaves = copy;
             fs::remove_all(copy);
-            std::vector<std::string> args{
-                "--driver",
-                "openni2",
-                "--mode",
-                "64x48@30",
-                "--warm-up",
-                "0.2",
-                "--frames",
-                "20",
-                "--quiet",
-                "--min-free-mb",
-                "0"};
+            std::vector<std::string> args = recorder(20, {"--min-free-mb", "0"});
             args.insert(args.end(), c.args.begin(), c.args.end());
             const Attempt a = attemptOf("grabber", args, surroundings);
             if (a.code < 0)

@@ -104,19 +104,7 @@ void writeInputs(const std::string& folder)
 
 [[nodiscard]] std::vector<Case> casesOfPrograms()
 {
-    const Args recorder{
-        "--driver",
-        "openni2",
-        "--mode",
-        "64x48@30",
-        "--warm-up",
-        "0.2",
-        "--frames",
-        "3",
-        "--quiet",
-        "--live",
-        "-o",
-        "out.rawlog"};
+    const Args recorded = recorder(3, {"--live", "-o", "out.rawlog"});
     return {
         {runOdometry,
          {"in.rawlog",
@@ -151,7 +139,7 @@ void writeInputs(const std::string& folder)
           "t.txt",
           "--odometry",
           std::string(PROGRAMS) + "/pointplane-odometry"}},
-        {nullptr, recorder}};
+        {nullptr, recorded}};
 }
 }  // namespace
 

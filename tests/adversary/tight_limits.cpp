@@ -71,20 +71,7 @@ Tally tightLimits(double share)
         {"lab",
          {"sweep", "PoseSolver.alpha", in, "--values", "1", "--gt", text, "--json", out},
          out},
-        {"grabber",
-         {"--driver",
-          "openni2",
-          "--mode",
-          "64x48@30",
-          "--warm-up",
-          "0.2",
-          "--frames",
-          "5",
-          "--quiet",
-          "--live",
-          "-o",
-          dir / "recording.rawlog"},
-         ""}};
+        {"grabber", recorder(5, {"--live", "-o", dir / "recording.rawlog"}), ""}};
     for (const Case& c : cases)
     {
         for (Surroundings surroundings : limits(share))
