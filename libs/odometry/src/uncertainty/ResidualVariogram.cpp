@@ -31,6 +31,9 @@ constexpr double kFirstPart = 0.3, kFirstViews = 0.3;
 /** Levels are small differences at times: not below this part of the residuals' variance. */
 constexpr double kLeastPart = 0.05;
 
+/** A few odd frames must neither make features certain nor worthless. */
+constexpr double kMinVariogram = 0.1, kMaxVariogram = 1000;
+
 }  // namespace
 
 void ResidualVariogram::update(
@@ -99,7 +102,7 @@ std::optional<double> ResidualVariogram::variogram(const Snapshot& now, const Sn
     {
         return {};
     }
-    return NoiseScale::plausible(medianVariance(squared));
+    return std::clamp(medianVariance(squared), kMinVariogram, kMaxVariogram);
 }
 
 bool ResidualVariogram::shareReference(const Snapshot& now, const Snapshot& then)
