@@ -7,11 +7,7 @@
 
 namespace pointplane
 {
-namespace
-{
-/** A few odd frames must neither make features certain nor worthless. */
-constexpr double kMinVariance = 0.1, kMaxVariance = 100;
-}  // namespace
+double NoiseScale::plausible(double variance) { return std::clamp(variance, 0.1, 100.0); }
 
 void NoiseScale::TParams::check() const
 {
@@ -57,7 +53,7 @@ void NoiseScale::Average::follow(double variance, double dt, double timeConstant
     if (variance > 0)
     {
         ++numFrames;
-        const double target = std::clamp(variance, kMinVariance, kMaxVariance);
+        const double target = plausible(variance);
         const double rate = 1 - std::exp(-dt / timeConstant);
         cautious += rate * (target - cautious);
         quick += std::max(rate, 1.0 / (numFrames + kFirstFrames)) * (target - quick);

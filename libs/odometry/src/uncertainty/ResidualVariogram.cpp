@@ -31,9 +31,6 @@ constexpr double kFirstPart = 0.3, kFirstViews = 0.3;
 /** Levels are small differences at times: not below this part of the residuals' variance. */
 constexpr double kLeastPart = 0.05;
 
-/** A few odd frames must neither make features certain nor worthless. */
-constexpr double kMinVariogram = 0.1, kMaxVariogram = 1000;
-
 }  // namespace
 
 void ResidualVariogram::update(
@@ -102,7 +99,7 @@ std::optional<double> ResidualVariogram::variogram(const Snapshot& now, const Sn
     {
         return {};
     }
-    return std::clamp(medianVariance(squared), kMinVariogram, kMaxVariogram);
+    return NoiseScale::plausible(medianVariance(squared));
 }
 
 bool ResidualVariogram::shareReference(const Snapshot& now, const Snapshot& then)

@@ -47,6 +47,10 @@ class NoiseScale
     static constexpr double kFirstVariance = 4;
     static constexpr int kFirstFrames = 3;
 
+    /** What a frame says, between a tenth and a hundred times the propagated variance: a few odd
+     * frames must neither make features certain nor worthless. */
+    [[nodiscard]] static double plausible(double variance);
+
     /** \throws std::invalid_argument naming the key */
     explicit NoiseScale(const TParams& params);
 
