@@ -13,6 +13,7 @@
 #include <memory>
 #include <string>
 
+#include "linear_algebra.h"
 #include "matchers.h"
 #include <gtest/gtest.h>
 
@@ -109,6 +110,6 @@ class CheckedOdometry
 inline double normalisedError(const Eigen::Isometry3d& truth, const PoseGaussian& estimate)
 {
     const Vector6d e = leftError(truth, estimate.mean);
-    return std::sqrt(e.dot(estimate.cov.ldlt().solve(e)) / 6);
+    return std::sqrt(squaredMahalanobis(e, estimate.cov) / 6);
 }
 }  // namespace pointplane::test

@@ -5,11 +5,11 @@
 #include <pointplane/sensor/DepthNoiseLearner.h>
 #include <pointplane/simulation/SimulatedSequence.h>
 
-#include <Eigen/Cholesky>
 #include <opencv2/core.hpp>
 
 #include <iostream>
 
+#include "linear_algebra.h"
 #include "segmentation_score.h"
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ struct PlanesOfACamera
 [[nodiscard]] double chiSquareOf(const PlaneFeature& found, const Plane& truth)
 {
     const Eigen::Vector3d error = found.plane_cam.theta_m - minimalForm(truth);
-    return error.dot(found.plane_cam.cov_m.ldlt().solve(error));
+    return test::squaredMahalanobis(error, found.plane_cam.cov_m);
 }
 
 /** True planes that one found plane covers, with its label. */

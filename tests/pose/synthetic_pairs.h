@@ -6,11 +6,10 @@
 #include <pointplane/pose/pairs.h>
 #include <pointplane/pose/residuals.h>
 
-#include <Eigen/LU>
-
 #include <optional>
 #include <vector>
 
+#include "linear_algebra.h"
 #include "monte_carlo.h"
 
 namespace pointplane::test
@@ -36,7 +35,7 @@ inline PoseProblem atRest(
     if (prior)
     {
         out.prior.mean.T_prev_cur = prior->mean;
-        out.prior.pose = prior->cov.inverse();
+        out.prior.pose = inverse(prior->cov);
     }
     return out;
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/se3.h>
 #include <pointplane/simulation/Random.h>
 #include <pointplane/simulation/Surface.h>
 

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
 
 #include <cmath>
 #include <random>
@@ -11,6 +9,9 @@
 
 namespace pointplane::test
 {
+/** R with R R^T = cov; cov may be singular. */
+[[nodiscard]] Eigen::MatrixXd squareRoot(const Eigen::MatrixXd& cov);
+
 /** Seeded normal samples, the same on every platform's standard library: Box-Muller on mt19937,
  * whose output the standard fixes (std::normal_distribution's is not). */
 class GaussianSampler
@@ -48,31 +49,20 @@ class GaussianSampler
     auto sample(const Eigen::MatrixBase<Derived>& cov)
     {
         constexpr int kN = Derived::RowsAtCompileTime;
-        const Eigen::SelfAdjointEigenSolver<typename Derived::PlainObject> es(cov.eval());
-        const Eigen::Matrix<double, kN, 1> s = es.eigenvalues().cwiseMax(0).cwiseSqrt();
-        return (es.eigenvectors() * s.cwiseProduct(vector<kN>())).eval();
+        const Eigen::Matrix<double, kN, kN> root = squareRoot(cov);
+        return (root * vector<kN>()).eval();
     }
 
     /** A random symmetric positive definite matrix with eigenvalues in [low, high]. */
     template <int N>
     Eigen::Matrix<double, N, N> covariance(double low, double high)
     {
-        Eigen::Matrix<double, N, N> A;
-        for (int i = 0; i < N * N; ++i)
-        {
-            A.data()[i] = normal();
-        }
-        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, N, N>> es(
-            (A + A.transpose()).eval());
-        Eigen::Matrix<double, N, 1> lambda;
-        for (int i = 0; i < N; ++i)
-        {
-            lambda[i] = uniform(low, high);
-        }
-        return es.eigenvectors() * lambda.asDiagonal() * es.eigenvectors().transpose();
+        return covariance(N, low, high);
     }
 
  private:
+    Eigen::MatrixXd covariance(int n, double low, double high);
+
     std::mt19937 rng_;
 };
 
@@ -100,14 +90,6 @@ template <int N>
 
 /** Frobenius distance of two covariances after whitening by the second: unit-free, sees errors in
  * small directions too. 20 000 samples of a right covariance give about N / 141. */
-template <class DerivedA, class DerivedB>
 [[nodiscard]] double whitenedDifference(
-    const Eigen::MatrixBase<DerivedA>& sampled, const Eigen::MatrixBase<DerivedB>& expected)
-{
-    using M = typename DerivedA::PlainObject;
-    const Eigen::LLT<M> llt(expected.eval());
-    const M half = llt.matrixL().solve(sampled);
-    const M white = llt.matrixL().solve(half.transpose().eval());
-    return (white - M::Identity()).norm();
-}
+    const Eigen::MatrixXd& sampled, const Eigen::MatrixXd& expected);
 }  // namespace pointplane::test
