@@ -9,9 +9,7 @@
 #include <mrpt/serialization/CArchive.h>
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -19,6 +17,7 @@
 #include "GzInput.h"
 #include "ObjectScanner.h"
 #include "ReplayStream.h"
+#include "other_file_type.h"
 
 namespace pointplane
 {
@@ -76,6 +75,7 @@ void restoreResolutions(
         }
     }
 }
+
 /** What the checksums of a file say about it. */
 enum class Sum
 {
@@ -99,45 +99,6 @@ enum class Sum
     return in.end() == GzInput::End::Clean     ? Sum::Right
            : in.end() == GzInput::End::Damaged ? Sum::Wrong
                                                : Sum::None;
-}
-
-/** "a text file", or empty if it may be a rawlog. */
-[[nodiscard]] std::string otherFileType(const std::string& path)
-{
-    static const std::vector<std::pair<std::string, const char*>> kTypes{
-        {"#ROSBAG", "a ROS bag"},
-        {"SQLite format 3", "a database (of ROS 2, perhaps)"},
-        {"\x89MCAP", "an MCAP recording"},
-        {"NI10", "an OpenNI recording (pointplane-grabber --device FILE.oni converts it)"},
-        {"\x89PNG", "a picture"},
-        {"\xff\xd8\xff", "a picture"},
-        {"PK\x03\x04", "a zip archive"},
-        {"BZh", "bzip2-compressed"},
-        {"\xfd"
-         "7zXZ",
-         "xz-compressed"}};
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(path, error))
-    {
-        return "";  // what was read from a pipe is gone, and opening it again would wait for more
-    }
-    std::ifstream file(path, std::ios::binary);
-    std::string head(256, '\0');
-    file.read(head.data(), static_cast<std::streamsize>(head.size()));
-    head.resize(static_cast<std::size_t>(file.gcount()));
-    for (const auto& [magic, name] : kTypes)
-    {
-        if (head.compare(0, magic.size(), magic) == 0)
-        {
-            return name;
-        }
-    }
-    const bool isText =
-        !head.empty() && std::all_of(
-                             head.begin(),
-                             head.end(),
-                             [](unsigned char c) { return std::isprint(c) || std::isspace(c); });
-    return isText ? "a text file" : "";
 }
 }  // namespace
 

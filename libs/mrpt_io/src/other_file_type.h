@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+namespace pointplane
+{
+/** What kind of file it is by its first bytes: "a text file"; empty if it may be a rawlog. */
+[[nodiscard]] std::string otherFileType(const std::string& path);
+}  // namespace pointplane
