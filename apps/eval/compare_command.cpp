@@ -9,9 +9,9 @@
 #include "OutputGuard.h"
 #include "command.h"
 #include "input_options.h"
+#include "report_file.h"
 #include "result_output.h"
 #include "rpe_options.h"
-#include "trajectory_report.h"
 
 namespace pointplane
 {

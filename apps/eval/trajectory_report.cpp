@@ -1,24 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trajectory_report.h"
 
-#include <pointplane/evaluation/svg_chart.h>
 #include <pointplane/evaluation/trajectory_charts.h>
 #include <pointplane/evaluation/units.h>
 #include <pointplane/mrpt_io/errors.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <cstdlib>
-#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <ostream>
 
 #include "OutputGuard.h"
 #include "command.h"
 #include "nees_output.h"
+#include "report_file.h"
 #include "result_output.h"
 
 namespace pointplane
@@ -269,6 +265,17 @@ void addWorstFrames(
         throw InputError(folder + ": no picture 000001.jpg, ... of these frames is in it");
     }
 }
+
+std::string textOf(const std::string& path)
+{
+    std::ifstream file(path);
+    std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    if (!file.good() && text.empty())
+    {
+        throw InputError("cannot read '" + path + "'");
+    }
+    return text;
+}
 }  // namespace
 
 void ReportOptions::addTo(CLI::App& command)
@@ -297,83 +304,11 @@ void ReportOptions::addTo(CLI::App& command)
         ->group("Output");
 }
 
-namespace
-{
-/** "path-from-above" of "Path from above". */
-std::string fileNameOf(const std::string& title)
-{
-    std::string out;
-    for (const char c : title)
-    {
-        const auto letter = static_cast<unsigned char>(c);
-        if (std::isalnum(letter) != 0)
-        {
-            out += static_cast<char>(std::tolower(letter));
-        }
-        else if (!out.empty() && out.back() != '-')
-        {
-            out += '-';
-        }
-    }
-    return out.substr(0, out.find_last_not_of('-') + 1);
-}
-
-/** Time of day, UTC; SOURCE_DATE_EPOCH stands in for it where reports have to be repeatable. */
-std::string timeText()
-{
-    const char* fixed = std::getenv("SOURCE_DATE_EPOCH");
-    const std::time_t now =
-        fixed != nullptr ? std::strtoll(fixed, nullptr, 10) : std::time(nullptr);
-    std::tm utc{};
-    gmtime_r(&now, &utc);
-    char text[32];
-    std::strftime(text, sizeof text, "%Y-%m-%d %H:%M:%S UTC", &utc);
-    return text;
-}
-
-std::string textOf(const std::string& path)
-{
-    std::ifstream file(path);
-    std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-    if (!file.good() && text.empty())
-    {
-        throw InputError("cannot read '" + path + "'");
-    }
-    return text;
-}
-}  // namespace
-
 void ReportOptions::guardedBy(OutputGuard& guard) const
 {
     guard.addInput(diagnostics);
     guard.addInput(runConfig);
     guardReport(guard, directory);
-}
-
-void guardReport(OutputGuard& guard, const std::string& directory)
-{
-    guard.addOutputFolder("--report", directory, ".html");
-    guard.addOutputFolder("--report", directory, ".svg");
-}
-
-void writeReportFile(HtmlReport report, const std::string& directory, CommandContext& context)
-{
-    report.addParagraph(
-        "pointplane-eval " POINTPLANE_VERSION ", " + timeText() + ": " + context.commandLine);
-    std::error_code error;
-    std::filesystem::create_directories(directory, error);
-    if (error)
-    {
-        throw EnvironmentError("cannot create " + directory + ": " + error.message());
-    }
-    const std::string path = directory + "/index.html";
-    writeText(report.html(), path, context.out);
-    for (const Chart& chart : report.charts())
-    {
-        writeText(
-            svgFileOf(chart), directory + "/" + fileNameOf(chart.title) + ".svg", context.out);
-    }
-    context.err << "report: " << path << "\n";
 }
 
 void writeTrajectoryReport(

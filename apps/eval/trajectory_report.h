@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pointplane/evaluation/HtmlReport.h>
 #include <pointplane/evaluation/ate.h>
 #include <pointplane/evaluation/nees.h>
 #include <pointplane/evaluation/rpe.h>
@@ -47,11 +46,4 @@ struct ReportedRun
  * be read */
 void writeTrajectoryReport(
     const ReportedRun& run, const ReportOptions& options, CommandContext& context);
-
-/** Tells the guard of the report in `directory`; empty: there is none. */
-void guardReport(OutputGuard& guard, const std::string& directory);
-
-/** Writes `report` to `directory`/index.html, which is created, and says so. Ends it with version,
- * time and command line; each chart is also an SVG file. \throws EnvironmentError */
-void writeReportFile(HtmlReport report, const std::string& directory, CommandContext& context);
 }  // namespace pointplane

@@ -14,12 +14,12 @@
 #include "OutputGuard.h"
 #include "lab_runs.h"
 #include "number_checks.h"
+#include "report_file.h"
 #include "reproduce_output.h"
 #include "reproduce_plan.h"
 #include "result_output.h"
 #include "rpe_options.h"
 #include "run_processes.h"
-#include "trajectory_report.h"
 
 namespace pointplane
 {

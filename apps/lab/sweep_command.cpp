@@ -12,10 +12,10 @@
 #include "LabApp.h"
 #include "OutputGuard.h"
 #include "lab_runs.h"
+#include "report_file.h"
 #include "result_output.h"
 #include "rpe_options.h"
 #include "sweep_charts.h"
-#include "trajectory_report.h"
 
 namespace pointplane
 {
