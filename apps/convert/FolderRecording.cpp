@@ -20,8 +20,6 @@ namespace
 {
 namespace fs = std::filesystem;
 
-/** Of depth in floating point metres: a quarter of a millimetre, up to 16 m. */
-constexpr double kUnitsOfFloat = 4000;
 constexpr std::uint16_t kNoReading = 65535;  //!< 7-Scenes; farther than any camera sees
 
 [[nodiscard]] cv::Mat readImage(const std::string& path, int flags)

@@ -11,6 +11,10 @@
 
 namespace pointplane
 {
+/** Units per metre of depth that comes in floating point metres: a quarter of a millimetre, up to
+ * 16 m. */
+constexpr double kUnitsOfFloat = 4000;
+
 /** A frame of a recording. */
 struct RecordedFrame
 {

@@ -4,8 +4,6 @@
 #include <pointplane/mrpt_io/errors.h>
 
 #include <algorithm>
-#include <array>
-#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -20,82 +18,6 @@ namespace
 {
 namespace fs = std::filesystem;
 
-[[nodiscard]] bool isImage(const fs::path& path)
-{
-    std::string extension = path.extension().string();
-    std::transform(
-        extension.begin(),
-        extension.end(),
-        extension.begin(),
-        [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    constexpr std::array known{
-        ".png", ".jpg", ".jpeg", ".pgm", ".ppm", ".bmp", ".tif", ".tiff", ".exr"};
-    return std::find(known.begin(), known.end(), extension) != known.end();
-}
-
-[[nodiscard]] std::optional<double> number(const std::string& text)
-{
-    std::istringstream in(text);
-    in.imbue(std::locale::classic());
-    double value = 0;
-    if (in >> value && in.peek() == std::istringstream::traits_type::eof() && std::isfinite(value))
-    {
-        return value;
-    }
-    return {};
-}
-
-/** Images of a folder whose names start and end as given, in order of their number or time.
- *
- * What is between is a number (frame 17), a decimal number (seconds), or two numbers with a dash
- * (Redwood: frame and microseconds). Other names are left out. */
-[[nodiscard]] std::vector<ImageRef> imagesIn(
-    const fs::path& folder, const std::string& prefix = "", const std::string& suffix = "")
-{
-    std::vector<ImageRef> out;
-    std::error_code error;
-    for (const auto& entry : fs::directory_iterator(folder, error))
-    {
-        std::string stem = entry.path().stem().string();
-        if (!isImage(entry.path()) || stem.size() < prefix.size() + suffix.size() ||
-            stem.compare(0, prefix.size(), prefix) != 0 ||
-            stem.compare(stem.size() - suffix.size(), suffix.size(), suffix) != 0)
-        {
-            continue;
-        }
-        stem = stem.substr(prefix.size(), stem.size() - prefix.size() - suffix.size());
-        ImageRef image;
-        image.path = entry.path().string();
-        const auto dash = stem.find('-', 1);
-        const auto first = number(stem.substr(0, dash));
-        const auto second =
-            dash == std::string::npos ? std::nullopt : number(stem.substr(dash + 1));
-        if (!first || (dash != std::string::npos && !second))
-        {
-            continue;
-        }
-        if (second)
-        {
-            image.stamp = 1e-6 * *second;
-        }
-        else if (stem.find('.') != std::string::npos)
-        {
-            image.stamp = *first;
-        }
-        image.key = std::abs(*first) < 1e15 ? std::lround(*first) : 0;
-        out.push_back(image);
-    }
-    std::sort(
-        out.begin(),
-        out.end(),
-        [](const ImageRef& a, const ImageRef& b)
-        {
-            return std::make_tuple(a.stamp.value_or(0), a.key, a.path) <
-                   std::make_tuple(b.stamp.value_or(0), b.key, b.path);
-        });
-    return out;
-}
-
 /** All numbers of a text file, separated by blanks or commas. */
 [[nodiscard]] std::vector<double> numbersOf(const fs::path& path)
 {
@@ -106,7 +28,7 @@ namespace fs = std::filesystem;
     std::vector<double> out;
     for (std::string word; words >> word;)
     {
-        const auto value = number(word);
+        const auto value = numberOf(word);
         if (!value)
         {
             throw InputError(path.string() + ": '" + word + "' is not a number");
@@ -247,6 +169,42 @@ namespace fs = std::filesystem;
     return out;
 }
 
+/** Sets the stamps of images by their numbers, where `stampOf` knows them. */
+template <class StampOf>
+void setStamps(FolderLayout& out, const StampOf& stampOf)
+{
+    for (auto* images : {&out.colour, &out.depth})
+    {
+        for (ImageRef& image : *images)
+        {
+            if (const std::optional<double> stamp = stampOf(image.key))
+            {
+                image.stamp = stamp;
+            }
+        }
+    }
+}
+
+/** Stamps by frame: the first two columns of StrayScanner's odometry.csv. */
+[[nodiscard]] std::map<long, double> stampsOf(const fs::path& odometry)
+{
+    std::map<long, double> out;
+    std::ifstream file(odometry);
+    for (std::string line; std::getline(file, line);)
+    {
+        std::istringstream columns(line);
+        std::string first, second;
+        std::getline(columns, first, ',');
+        std::getline(columns >> std::ws, second, ',');
+        const auto stamp = numberOf(first), frame = numberOf(second);
+        if (stamp && frame)
+        {
+            out[std::lround(*frame)] = *stamp;
+        }
+    }
+    return out;
+}
+
 /** StrayScanner: rgb.mp4, depth/000000.png in millimetres, camera_matrix.csv, odometry.csv. */
 [[nodiscard]] std::optional<FolderLayout> strayScanner(const fs::path& folder)
 {
@@ -258,23 +216,6 @@ namespace fs = std::filesystem;
     out.name = "StrayScanner";
     out.depth = imagesIn(folder / "depth");
     out.camera = colourCamera(cameraOfMatrix(folder / "camera_matrix.csv"));
-    std::map<long, double> stamps;
-    std::ifstream odometry(folder / "odometry.csv");
-    for (std::string line; std::getline(odometry, line);)
-    {
-        const auto comma = line.find(',');
-        const auto second = line.find(',', comma + 1);
-        const auto stamp = number(line.substr(0, comma));
-        const auto frame = comma == std::string::npos
-                               ? std::nullopt
-                               : number(line.substr(
-                                     line.find_first_not_of(' ', comma + 1),
-                                     second - line.find_first_not_of(' ', comma + 1)));
-        if (stamp && frame)
-        {
-            stamps[std::lround(*frame)] = *stamp;
-        }
-    }
     out.colour = imagesIn(folder / "rgb");
     if (out.colour.empty())
     {
@@ -283,17 +224,13 @@ namespace fs = std::filesystem;
         std::for_each(
             out.colour.begin(), out.colour.end(), [](ImageRef& image) { image.path.clear(); });
     }
-    for (auto* images : {&out.colour, &out.depth})
-    {
-        for (ImageRef& image : *images)
+    setStamps(
+        out,
+        [stamps = stampsOf(folder / "odometry.csv")](long frame)
         {
-            const auto found = stamps.find(image.key);
-            if (found != stamps.end())
-            {
-                image.stamp = found->second;
-            }
-        }
-    }
+            const auto found = stamps.find(frame);
+            return found == stamps.end() ? std::nullopt : std::optional(found->second);
+        });
     out.fps = 60;
     return out;
 }
@@ -330,18 +267,15 @@ void readRecord3d(const fs::path& folder, FolderLayout& out)
         }
         if (json->contains("frameTimestamps") && (*json)["frameTimestamps"].is_array())
         {
-            const auto& stamps = (*json)["frameTimestamps"];
-            for (auto* images : {&out.colour, &out.depth})
-            {
-                for (ImageRef& image : *images)
+            setStamps(
+                out,
+                [&stamps = (*json)["frameTimestamps"]](long frame) -> std::optional<double>
                 {
-                    const auto i = static_cast<std::size_t>(std::max(0L, image.key));
-                    if (i < stamps.size() && stamps[i].is_number())
-                    {
-                        image.stamp = stamps[i].get<double>();
-                    }
-                }
-            }
+                    const auto i = static_cast<std::size_t>(std::max(0L, frame));
+                    return i < stamps.size() && stamps[i].is_number()
+                               ? std::optional(stamps[i].get<double>())
+                               : std::nullopt;
+                });
         }
         return;
     }

@@ -5,18 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "folder_images.h"
 #include "tum_camera.h"
 
 namespace pointplane
 {
-/** One picture of a folder: a file, or a frame of a video. */
-struct ImageRef
-{
-    std::string path;
-    long key{0};                  //!< its number
-    std::optional<double> stamp;  //!< where name or list tell it [s]
-};
-
 /** How a folder of numbered or stamped images is laid out. */
 struct FolderLayout
 {

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bag_cameras.h"
+
+#include <pointplane/mrpt_io/errors.h>
+
+#include <cmath>
+#include <vector>
+
+#include "StaticTransforms.h"
+#include "ros_images.h"
+#include "tum_camera.h"
+#include <geometry_msgs/Transform.h>
+#include <std_msgs/Float32.h>
+#include <tf2_msgs/TFMessage.h>
+
+namespace pointplane
+{
+namespace
+{
+using sensor_msgs::CameraInfo;
+
+[[nodiscard]] Eigen::Isometry3d fromRos(const geometry_msgs::Transform& t)
+{
+    Eigen::Isometry3d out = Eigen::Isometry3d::Identity();
+    out.linear() = Eigen::Quaterniond(t.rotation.w, t.rotation.x, t.rotation.y, t.rotation.z)
+                       .normalized()
+                       .toRotationMatrix();
+    out.translation() << t.translation.x, t.translation.y, t.translation.z;
+    return out;
+}
+
+[[nodiscard]] PinholeCamera cameraOf(
+    const rosbag::Bag& bag, const ImageTopic& topic, const std::string& file)
+{
+    // .../camera_info beside the images; RealSense's recorder: .../Depth_0/info/camera_info.
+    std::string base = topic.name;
+    std::vector<std::string> names;
+    for (int up = 0; up < 2; ++up)
+    {
+        const auto slash = base.rfind('/');
+        base = slash == std::string::npos ? "" : base.substr(0, slash);
+        names.push_back(base + "/camera_info");
+        names.push_back(base + "/info/camera_info");
+    }
+    for (const std::string& name : names)
+    {
+        std::optional<PinholeCamera> out;
+        forEachMessage<CameraInfo>(
+            bag,
+            name,
+            [&](const CameraInfo& info)
+            {
+                out = toCamera(info, topic.name.find("rect") != std::string::npos);
+                return false;
+            });
+        if (out)
+        {
+            const std::string problem = out->problem();
+            if (!problem.empty())
+            {
+                throw InputError(file + ": " + name + ": " + problem);
+            }
+            return *out;
+        }
+    }
+    throw InputError(
+        file + ": has no camera_info beside " + topic.name + "; give a calibration by --camera");
+}
+
+/** RealSense's recorder: points of the reference stream in this one's axes. */
+[[nodiscard]] std::optional<Eigen::Isometry3d> extrinsicsOf(
+    const rosbag::Bag& bag, const ImageTopic& topic)
+{
+    const auto image = topic.name.rfind("/image/data");
+    std::optional<Eigen::Isometry3d> out;
+    if (image != std::string::npos)
+    {
+        forEachMessage<geometry_msgs::Transform>(
+            bag,
+            topic.name.substr(0, image) + "/tf/0",
+            [&](const geometry_msgs::Transform& t)
+            {
+                out = fromRos(t);
+                return false;
+            });
+    }
+    return out;
+}
+
+/** RealSense's recorder: units per metre of the depth images. */
+[[nodiscard]] std::optional<double> recordedUnits(const rosbag::Bag& bag, const ImageTopic& depth)
+{
+    std::optional<double> out;
+    const auto sensor = depth.name.find("/Depth_0/");
+    if (sensor != std::string::npos)
+    {
+        forEachMessage<std_msgs::Float32>(
+            bag,
+            depth.name.substr(0, sensor) + "/option/Depth_Units/value",
+            [&](const std_msgs::Float32& unit)
+            {
+                if (unit.data > 0)
+                {
+                    out = std::round(1e6 / static_cast<double>(unit.data)) * 1e-6;
+                }
+                return false;
+            });
+    }
+    return out;
+}
+
+[[nodiscard]] StaticTransforms transformsOf(const rosbag::Bag& bag)
+{
+    StaticTransforms out;
+    for (const char* topic : {"/tf_static", "tf_static", "/tf", "tf"})
+    {
+        forEachMessage<tf2_msgs::TFMessage>(
+            bag,
+            topic,
+            [&](const tf2_msgs::TFMessage& message)
+            {
+                for (const auto& t : message.transforms)
+                {
+                    out.add(t.header.frame_id, t.child_frame_id, fromRos(t.transform));
+                }
+                return true;
+            });
+    }
+    return out;
+}
+
+/** Takes points from the axes of colour to those of depth; nothing: the bag does not tell. */
+[[nodiscard]] std::optional<Eigen::Isometry3d> depthFromColour(
+    const rosbag::Bag& bag, const ImageTopic& colour, const ImageTopic& depth)
+{
+    const auto ofDepth = extrinsicsOf(bag, depth), ofColour = extrinsicsOf(bag, colour);
+    if (ofDepth && ofColour)
+    {
+        return *ofDepth * ofColour->inverse();
+    }
+    return transformsOf(bag).between(depth.frame, colour.frame);
+}
+}  // namespace
+
+BagCameras readBagCameras(
+    const rosbag::Bag& bag,
+    const ImageTopic& colour,
+    const ImageTopic& depth,
+    const BagOptions& options)
+{
+    BagCameras out;
+    out.unitsPerMetre =
+        options.depthScale > 0 ? options.depthScale : recordedUnits(bag, depth).value_or(1000);
+    out.colour = options.camera.empty() ? cameraOf(bag, colour, options.file)
+                                        : loadTumCamera(options.camera, "").camera;
+    const bool isOneFrame = colour.frame == depth.frame && !colour.frame.empty();
+    if (isOneFrame ? !extrinsicsOf(bag, depth) : depth.isRegistered())
+    {
+        return out;  // the depth image may yet have another size
+    }
+    const auto T_depth_colour = depthFromColour(bag, colour, depth);
+    out.depth = DepthCamera{
+        cameraOf(bag, depth, options.file), T_depth_colour.value_or(Eigen::Isometry3d::Identity())};
+    if (!T_depth_colour)
+    {
+        out.note = "no transform between " + depth.frame + " and " + colour.frame +
+                   ": the two cameras are taken to be in one place";
+    }
+    return out;
+}
+}  // namespace pointplane

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bag_topics.h"
+
+#include <pointplane/mrpt_io/errors.h>
+
+#include <set>
+
+#include "ros_images.h"
+
+namespace pointplane
+{
+using sensor_msgs::CompressedImage;
+using sensor_msgs::Image;
+
+namespace
+{
+[[nodiscard]] bool contains(const std::string& text, const std::string& part)
+{
+    return text.find(part) != std::string::npos;
+}
+}  // namespace
+
+bool ImageTopic::isRegistered() const
+{
+    return contains(name, "registered") || contains(name, "aligned");
+}
+
+std::vector<ImageTopic> imageTopics(const rosbag::Bag& bag)
+{
+    std::vector<ImageTopic> out;
+    rosbag::View all(bag);
+    std::set<std::string> seen;
+    for (const rosbag::ConnectionInfo* connection : all.getConnections())
+    {
+        if (!seen.insert(connection->topic).second)
+        {
+            continue;
+        }
+        const auto add = [&](const auto& image, const std::string& encoding)
+        {
+            out.push_back({connection->topic, image.header.frame_id, encoding, isDepth(image)});
+            return false;
+        };
+        forEachMessage<Image>(
+            bag, connection->topic, [&](const Image& image) { return add(image, image.encoding); });
+        forEachMessage<CompressedImage>(
+            bag,
+            connection->topic,
+            [&](const CompressedImage& image) { return add(image, image.format); });
+    }
+    return out;
+}
+
+ImageTopic chosenTopic(
+    const std::vector<ImageTopic>& topics,
+    const std::string& wanted,
+    bool isDepth,
+    const std::string& file)
+{
+    const std::string kind = isDepth ? "depth" : "colour";
+    std::vector<ImageTopic> candidates, preferred;
+    std::string names;
+    for (const ImageTopic& topic : topics)
+    {
+        names += (names.empty() ? "" : ", ") + topic.name;
+        if (topic.name == wanted)
+        {
+            return topic;
+        }
+        const bool isInfrared = contains(topic.name, "nfra") || contains(topic.name, "/ir/");
+        if (topic.isDepth == isDepth && !isInfrared)
+        {
+            candidates.push_back(topic);
+            if (isDepth ? topic.isRegistered()
+                        : contains(topic.name, "color") || contains(topic.name, "rgb"))
+            {
+                preferred.push_back(topic);
+            }
+        }
+    }
+    if (!wanted.empty())
+    {
+        throw InputError(file + ": has no images on " + wanted + " (those with: " + names + ")");
+    }
+    if (candidates.size() > 1 && preferred.size() == 1)
+    {
+        return preferred.front();
+    }
+    if (candidates.size() != 1)
+    {
+        throw InputError(
+            file + ": has " + std::to_string(candidates.size()) + " topics with " + kind +
+            " images; choose one by --" + kind +
+            "-topic (images are on: " + (names.empty() ? "none" : names) + ")");
+    }
+    return candidates.front();
+}
+}  // namespace pointplane

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pointplane
+{
+/** One picture of a folder: a file, or a frame of a video. */
+struct ImageRef
+{
+    std::string path;
+    long key{0};                  //!< its number
+    std::optional<double> stamp;  //!< where name or list tell it [s]
+};
+
+/** Images of a folder whose names start and end as given, in order of their number or time.
+ *
+ * What is between is a number (frame 17), a decimal number (seconds), or two numbers with a dash
+ * (Redwood: frame and microseconds). Other names are left out. */
+[[nodiscard]] std::vector<ImageRef> imagesIn(
+    const std::filesystem::path& folder,
+    const std::string& prefix = "",
+    const std::string& suffix = "");
+
+/** Of a text that is a finite number and nothing else, in any locale. */
+[[nodiscard]] std::optional<double> numberOf(const std::string& text);
+}  // namespace pointplane
