@@ -7,7 +7,7 @@ namespace pointplane::adversary
 {
 namespace
 {
-struct Case
+struct LimitedProgram
 {
     std::string program;
     std::vector<std::string> args;
@@ -59,7 +59,7 @@ Tally tightLimits(double share)
     writeTumFolder(folder);
     (void)attemptOf("odometry", {in, "--trajectory", text, "--quiet"});
     const test::VirtualCamera camera("", test::patternFrames(30, 64, 48), 52.5);
-    const std::vector<Case> cases{
+    const std::vector<LimitedProgram> cases{
         {"odometry", {in, "-o", out, "--quiet"}, out},
         {"odometry", {in, "--trajectory", out, "--jobs", "1", "--quiet"}, out},
         {"odometry", {in, "--diagnostics", out, "--overlay", dir / "pictures", "--quiet"}, out},
@@ -72,7 +72,7 @@ Tally tightLimits(double share)
          {"sweep", "PoseSolver.alpha", in, "--values", "1", "--gt", text, "--json", out},
          out},
         {"grabber", recorder(5, {"--live", "-o", dir / "recording.rawlog"}), ""}};
-    for (const Case& c : cases)
+    for (const LimitedProgram& c : cases)
     {
         for (Surroundings surroundings : limits(share))
         {

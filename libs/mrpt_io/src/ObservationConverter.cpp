@@ -24,7 +24,7 @@ namespace
 {
 using mrpt::obs::CObservation3DRangeScan;
 
-constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+constexpr float kNoDepth = std::numeric_limits<float>::quiet_NaN();
 
 /** Why a frame cannot be used; caught in convert(). */
 class FrameProblem : public std::runtime_error
@@ -33,7 +33,7 @@ class FrameProblem : public std::runtime_error
     using std::runtime_error::runtime_error;
 };
 
-void require(bool condition, const std::string& problem)
+void requireUsable(bool condition, const std::string& problem)
 {
     if (!condition)
     {
@@ -60,12 +60,12 @@ void require(bool condition, const std::string& problem)
         std::copy_n(from.dist.begin(), camera.distortion.size(), camera.distortion.begin());
         const bool rational =
             std::any_of(from.dist.begin() + 5, from.dist.end(), [](double k) { return k != 0; });
-        require(!rational, name + ": distortion k4 to k6 is not supported");
+        requireUsable(!rational, name + ": distortion k4 to k6 is not supported");
     }
-    require(
+    requireUsable(
         from.distortion != mrpt::img::DistortionModel::kannala_brandt,
         name + ": fisheye distortion is not supported");
-    require(camera.problem().empty(), name + ": " + camera.problem());
+    requireUsable(camera.problem().empty(), name + ": " + camera.problem());
     return camera;
 }
 
@@ -73,9 +73,9 @@ void require(bool condition, const std::string& problem)
 void requirePose(const Eigen::Isometry3d& T, const std::string& name)
 {
     constexpr double kLongestArm = 1e4;  // [m]; covariances lose their last digits beyond
-    require(T.matrix().allFinite(), name + " is not finite");
-    require(T.linear().isUnitary(1e-4), name + " has no rotation matrix");
-    require(T.translation().norm() < kLongestArm, name + " is longer than 10 km");
+    requireUsable(T.matrix().allFinite(), name + " is not finite");
+    requireUsable(T.linear().isUnitary(1e-4), name + " has no rotation matrix");
+    requireUsable(T.translation().norm() < kLongestArm, name + " is longer than 10 km");
 }
 
 [[nodiscard]] bool sameProjection(const PinholeCamera& a, const PinholeCamera& b)
@@ -92,7 +92,7 @@ void requirePose(const Eigen::Isometry3d& T, const std::string& name)
     {
         image.convertTo(bytes, CV_8U, 1.0 / 256);
     }
-    require(bytes.depth() == CV_8U, "intensity image is neither 8 nor 16 bit");
+    requireUsable(bytes.depth() == CV_8U, "intensity image is neither 8 nor 16 bit");
     cv::Mat gray;
     switch (bytes.channels())
     {
@@ -120,7 +120,7 @@ void requirePose(const Eigen::Isometry3d& T, const std::string& name)
         auto* out = depth.ptr<float>(v);
         for (int u = 0; u < cols; ++u)
         {
-            out[u] = in[u] == 0 ? kNone : static_cast<float>(in[u]) * units;
+            out[u] = in[u] == 0 ? kNoDepth : static_cast<float>(in[u]) * units;
         }
     }
     return depth;
@@ -174,14 +174,14 @@ cv::Mat ObservationConverter::Impl::intensityOf(const CObservation3DRangeScan& s
         return grayOf(readImageFile(
             resolved(image.getExternalStorageFile()), cv::IMREAD_ANYCOLOR | cv::IMREAD_ANYDEPTH));
     }
-    require(!image.isEmpty(), "intensity image is empty");
+    requireUsable(!image.isEmpty(), "intensity image is empty");
     return grayOf(image.asCvMatRef());
 }
 
 cv::Mat ObservationConverter::Impl::depthOf(
     const CObservation3DRangeScan& scan, const PinholeCamera& camera) const
 {
-    require(
+    requireUsable(
         std::isfinite(scan.rangeUnits) && scan.rangeUnits > 0,
         "rangeUnits is " + std::to_string(scan.rangeUnits) + ", not a positive number");
     cv::Mat depth;
@@ -193,10 +193,10 @@ cv::Mat ObservationConverter::Impl::depthOf(
     }
     else
     {
-        require(scan.rangeImage.size() != 0, "range image is empty");
+        requireUsable(scan.rangeImage.size() != 0, "range image is empty");
         depth = metres(scan.rangeImage, scan.rangeUnits);
     }
-    require(
+    requireUsable(
         depth.cols == camera.width && depth.rows == camera.height,
         "range image is " + sizeText(depth.cols, depth.rows) + " but cameraParams is for " +
             sizeText(camera.width, camera.height));
@@ -229,7 +229,7 @@ const DepthRegistration& ObservationConverter::Impl::registration(
 void ObservationConverter::Impl::fill(
     const CObservation3DRangeScan& scan, ConvertedFrame& out) const
 {
-    require(scan.hasRangeImage, "observation has no range image");
+    requireUsable(scan.hasRangeImage, "observation has no range image");
     const Eigen::Isometry3d T_robot_body = fromMrpt(scan.sensorPose);
     requirePose(T_robot_body, "sensorPose");
     const PinholeCamera depthCamera = cameraOf(scan.cameraParams, "cameraParams");
@@ -244,7 +244,7 @@ void ObservationConverter::Impl::fill(
     }
     PinholeCamera camera = cameraOf(scan.cameraParamsIntensity, "cameraParamsIntensity");
     const cv::Mat gray = intensityOf(scan);
-    require(
+    requireUsable(
         gray.cols == camera.width && gray.rows == camera.height,
         "intensity image is " + sizeText(gray.cols, gray.rows) +
             " but cameraParamsIntensity is for " + sizeText(camera.width, camera.height));

@@ -8,14 +8,10 @@
 #include <vector>
 
 #include "GzInput.h"
+#include "ObjectScanner.h"
 
 namespace pointplane
 {
-namespace
-{
-constexpr std::uint64_t kMaxPixels = 1ULL << 26U;
-}
-
 mrpt::math::CMatrix_u16 readExternalRange(const std::string& path)
 {
     GzInput in(path);
@@ -26,7 +22,7 @@ mrpt::math::CMatrix_u16 readExternalRange(const std::string& path)
     }
     const std::uint64_t count = static_cast<std::uint64_t>(size[0]) * size[1];
     const std::string sizeText = std::to_string(size[1]) + "x" + std::to_string(size[0]);
-    if (count == 0 || count > kMaxPixels)
+    if (count == 0 || count > scanning::kMaxPixels)
     {
         throw InputError(path + ": is not a range image (its size would be " + sizeText + ")");
     }

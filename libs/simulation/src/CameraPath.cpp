@@ -5,12 +5,12 @@
 
 #include <cmath>
 
+#include "two_pi.h"
+
 namespace pointplane
 {
 namespace
 {
-constexpr double kTwoPi = 6.283185307179586;
-
 Eigen::Matrix3d lookAlong(const Eigen::Vector3d& forward)
 {
     const Eigen::Vector3d z = forward.normalized();

@@ -8,12 +8,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "two_pi.h"
+
 namespace pointplane
 {
 namespace
 {
-constexpr double kTwoPi = 6.283185307179586;
-
 cv::Mat averaged(const std::vector<cv::Mat>& pictures)
 {
     if (pictures.size() == 1)

@@ -3,12 +3,12 @@
 
 #include <cmath>
 
+#include "two_pi.h"
+
 namespace pointplane
 {
 namespace
 {
-constexpr double kTwoPi = 6.283185307179586;
-
 double inverseDepthCylinder(
     const Surface& s, const Eigen::Vector3d& eye, const Eigen::Vector3d& ray)
 {

@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "scenes_internal.h"
+#include "two_pi.h"
 
 namespace pointplane
 {
 namespace
 {
 using Finish = SceneBuilder::Finish;
-constexpr double kTwoPi = 6.283185307179586;
 
 /** Turned by yaw about the vertical, then moved to the place. */
 Eigen::Isometry3d placed(const Eigen::Vector3d& at, double yaw)
