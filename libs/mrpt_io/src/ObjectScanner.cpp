@@ -11,7 +11,6 @@ namespace
 constexpr std::uint8_t kEndFlag = 0x88;
 constexpr std::uint64_t kMaxString = 1ULL << 26U;
 constexpr std::uint64_t kMaxObjects = 1ULL << 16U;
-constexpr std::uint64_t kChunk = 1ULL << 20U;
 constexpr int kMaxDepth = 4;
 
 using scanning::kMaxPixels;
@@ -21,6 +20,7 @@ using scanning::requireKnown;
 
 void ObjectScanner::copy(std::uint64_t size)
 {
+    constexpr std::uint64_t kChunk = 1ULL << 20U;
     // In steps, so that a wrong length costs no more memory than the file has bytes.
     while (size > 0)
     {
