@@ -93,7 +93,8 @@ install_packages() {
     fi
 }
 
-# As many as there are cores, but no more than memory allows: the largest sources take 1.1 GB.
+# As many as there are cores, but no more than memory allows: the largest sources take 1.1 GB,
+# those for the fuzzers 1.5 GB.
 num_jobs() {
     local cores kib limit
     cores=$(nproc)
@@ -102,7 +103,7 @@ num_jobs() {
     if [[ $limit != max ]] && ((limit / 1024 < kib)); then
         kib=$((limit / 1024))
     fi
-    local jobs=$((kib / 1100000))
+    local jobs=$((kib / 1500000))
     ((jobs >= 1)) || jobs=1
     echo $((jobs < cores ? jobs : cores))
 }
