@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "few_points.h"
+#include "feature_counts.h"
 #include "surface_comparison.h"
 
 namespace pointplane
