@@ -107,38 +107,6 @@ TEST(ReferenceWindow, newKeyframeAfterDistanceAngleOrLossOfOverlap)
     EXPECT_TRUE(window.needsKeyframe(shifted(3), 0.49));
 }
 
-/** Four of ten points and one of two planes: (4 + 3) of (10 + 6). Planes that flicker do not make a
- * key frame of a frame that finds the points again. */
-TEST(ReferenceWindow, overlapByHand)
-{
-    ReferenceWindow window({});
-    EXPECT_EQ(window.overlap({}), 0);
-    Reference key = reference(1);
-    key.points.points.resize(10);
-    key.planes.planes.resize(2);
-    window.add(key, true);
-    window.add(reference(2), false);
-    Association ofPrevious, ofKey;
-    ofPrevious.reference = window.active()[0];
-    ofKey.reference = window.active()[1];
-    ofKey.points.resize(3);
-    ofKey.movingPoints.resize(1);
-    ofKey.planes.resize(1);
-    EXPECT_DOUBLE_EQ(window.overlap({ofPrevious, ofKey}), 7.0 / 16);
-    ofKey.points.resize(9);
-    ofKey.planes.clear();
-    EXPECT_DOUBLE_EQ(window.overlap({ofPrevious, ofKey}), 10.0 / 16);
-}
-
-TEST(ReferenceWindow, overlapOfAKeyframeWithoutFeatures)
-{
-    ReferenceWindow window({});
-    window.add(reference(1), true);
-    Association empty;
-    empty.reference = window.active()[0];
-    EXPECT_EQ(window.overlap({empty}), 1);
-}
-
 /** 0.3 m of 0.15 m a view, and 15 deg of 10 deg a view. */
 TEST(ReferenceWindow, viewsByHand)
 {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "feature_counts.h"
+#include "few_points.h"
 #include "surface_comparison.h"
 
 namespace pointplane

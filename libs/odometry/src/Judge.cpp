@@ -10,7 +10,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "feature_counts.h"
+#include "few_points.h"
 
 namespace pointplane
 {
@@ -128,9 +128,8 @@ double Judge::evidence(const Alignment& alignment, const NoiseFactors& usual)
 
 bool Judge::isConvincing(const Alignment& a, const NoiseFactors& usual)
 {
-    const size_t numAgreeing =
-        numAsPoints(static_cast<size_t>(a.estimate.numPointInliers), a.problem.planes.size());
-    return a.holds && numAgreeing >= kFewPoints && (isConfirmed(a) || a.numSought < kHandful) &&
+    const int worth = a.estimate.numPointInliers + 3 * static_cast<int>(a.problem.planes.size());
+    return a.holds && worth >= kFewPoints && (isConfirmed(a) || a.numSought < kHandful) &&
            a.agreement.fraction() > kConvincingSurfaces &&
            a.estimate.pointChi2PerDof < kConvincingRise * usual.points &&
            a.estimate.planeChi2PerDof < kConvincingRise * usual.planes;

@@ -9,8 +9,6 @@
 #include <cmath>
 #include <utility>
 
-#include "feature_counts.h"
-
 namespace pointplane
 {
 bool ReferenceWindow::TParams::isFrameToFrame() const
@@ -68,20 +66,21 @@ bool ReferenceWindow::isNewest(const Reference& reference) const
 
 double ReferenceWindow::overlap(const std::vector<Association>& associations) const
 {
-    const auto newest = std::find_if(
-        associations.begin(),
-        associations.end(),
-        [this](const Association& a) { return isNewest(*a.reference); });
-    if (newest == associations.end())
+    const auto fraction = [](size_t found, size_t all)
+    { return all > 0 ? static_cast<double>(found) / static_cast<double>(all) : 1.0; };
+    double out = associations.empty() ? 0 : 1;
+    for (const Association& a : associations)
     {
-        return associations.empty() ? 0 : 1;
+        if (isNewest(*a.reference))
+        {
+            out = std::min(
+                fraction(
+                    a.points.size() + a.movingPoints.size(), a.reference->points.points.size()),
+                fraction(
+                    a.planes.size() + a.movingPlanes.size(), a.reference->planes.planes.size()));
+        }
     }
-    const Association& a = *newest;
-    const size_t found = numAsPoints(
-        a.points.size() + a.movingPoints.size(), a.planes.size() + a.movingPlanes.size());
-    const size_t all =
-        numAsPoints(a.reference->points.points.size(), a.reference->planes.planes.size());
-    return all > 0 ? static_cast<double>(found) / static_cast<double>(all) : 1;
+    return out;
 }
 
 bool ReferenceWindow::needsKeyframe(const Eigen::Isometry3d& T_world_cam, double overlap) const

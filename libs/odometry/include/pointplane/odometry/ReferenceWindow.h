@@ -20,7 +20,7 @@ class ReferenceWindow
         int maxKeyframes{4};
         double keyframeDistance{0.15};
         double keyframeAngleDeg{10.0};
-        double keyframeMinOverlap{0.5};
+        double keyframeMinOverlap{0.35};
         int maxPlaces{20};
 
         template <class V>
@@ -41,8 +41,8 @@ class ReferenceWindow
             v("keyframeMinOverlap",
               keyframeMinOverlap,
               "-",
-              "or when less than this fraction of the newest key frame's points and planes is "
-              "found again (a plane counts as three points)");
+              "or when less than this fraction of the newest key frame's points or planes is "
+              "found again");
             v("maxPlaces",
               maxPlaces,
               "-",
@@ -70,8 +70,8 @@ class ReferenceWindow
     /** Whether this is the newest frame with points, which overlap() is about. */
     [[nodiscard]] bool isNewest(const Reference& reference) const;
 
-    /** Fraction of the newest key frame's points and planes that was found again, in [0, 1]; a
-     * plane counts as three points. 0 without associations, 1 of a key frame without any. */
+    /** Fraction of the newest key frame's points, or of its planes, that was found again: the
+     * smaller of the two, in [0, 1]; 0 without associations. */
     [[nodiscard]] double overlap(const std::vector<Association>& associations) const;
 
     /** \param overlap of the frame with the newest key frame, in [0, 1] */
