@@ -46,10 +46,10 @@ struct Pairs
 };
 
 /** Whether pairs agree with a motion. */
-class Judge
+class ReprojectionTest
 {
  public:
-    Judge(const Pairs& pairs, const PinholeCamera& camera, const DepthNoise& noise)
+    ReprojectionTest(const Pairs& pairs, const PinholeCamera& camera, const DepthNoise& noise)
         : pairs_(pairs), camera_(camera), noise_(noise)
     {
     }
@@ -183,24 +183,24 @@ std::optional<ImageMotion> ImageAligner::align(
     {
         return {};
     }
-    const Judge judge(pairs, camera, noise_);
+    const ReprojectionTest test(pairs, camera, noise_);
     std::mt19937 random(1);
     std::vector<size_t> best;
     int trials = kMaxTrials;
     for (int t = 0, tries = 0; t < trials && tries < 20 * kMaxTrials; ++tries)
     {
         const size_t s[3] = {random() % n, random() % n, random() % n};
-        if (s[0] == s[1] || s[1] == s[2] || s[0] == s[2] || !judge.isRigid(s))
+        if (s[0] == s[1] || s[1] == s[2] || s[0] == s[2] || !test.isRigid(s))
         {
             continue;
         }
         ++t;
-        std::vector<size_t> found = judge.inliers(judge.fit({s[0], s[1], s[2]}), 2);
+        std::vector<size_t> found = test.inliers(test.fit({s[0], s[1], s[2]}), 2);
         if (found.size() > best.size())
         {
             if (found.size() >= 6)
             {
-                auto again = judge.inliers(judge.fit(found), 2);
+                auto again = test.inliers(test.fit(found), 2);
                 if (again.size() > found.size())
                 {
                     found = std::move(again);
@@ -213,15 +213,15 @@ std::optional<ImageMotion> ImageAligner::align(
     {
         return {};
     }
-    Eigen::Isometry3d T = judge.fit(best);
+    Eigen::Isometry3d T = test.fit(best);
     for (int k = 0; k < 3; ++k)
     {
-        const std::vector<size_t> found = judge.inliers(T, k == 0 ? 2 : 1);
+        const std::vector<size_t> found = test.inliers(T, k == 0 ? 2 : 1);
         if (found.size() < 4)
         {
             break;
         }
-        T = judge.fit(found);
+        T = test.fit(found);
         best = found;
     }
     if (best.size() < kFewPoints)

@@ -22,7 +22,7 @@ constexpr size_t kLag = 10;
 constexpr size_t kLeastFeatures = 2;
 
 /** A feature that the estimate follows shows nothing of its own noise. */
-constexpr double kLeastShare = 0.2;
+constexpr double kLeastOwnShare = 0.2;
 
 /** Before anything is known, each level is this part of the residuals' variance; as if so many
  * views had said so. */
@@ -90,7 +90,7 @@ std::optional<double> ResidualVariogram::variogram(const Snapshot& now, const Sn
         const Eigen::Vector3d d = entry.r - old->r;
         const Eigen::Matrix3d cov = share * (entry.cov + old->cov);
         const double norm2 = d.dot(cov.inverse() * d);
-        if (share >= kLeastShare && std::isfinite(norm2))
+        if (share >= kLeastOwnShare && std::isfinite(norm2))
         {
             squared.push_back(norm2);
         }
