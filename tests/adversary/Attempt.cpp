@@ -193,7 +193,7 @@ std::string wrongWith(const Attempt& a)
     return unless(a.code == 0 || lines == 1, std::to_string(lines) + " lines: " + a.err);
 }
 
-std::string wrongWithGrabber(const Attempt& a)
+std::string wrongWithOwnLines(const Attempt& a)
 {
     Attempt told = a;
     told.err.clear();

@@ -72,7 +72,7 @@ Tally fullDisksOfGrabber(double share)
                 continue;  // this user may not mount a disk
             }
             std::string wrong =
-                wrongWithGrabber(a) + unless(a.code == 0 || a.code == 3, "exit code " + a.err) +
+                wrongWithOwnLines(a) + unless(a.code == 0 || a.code == 3, "exit code " + a.err) +
                 unless(kilobytes != kCopied || a.code == 0, a.err) +
                 unless(
                     kilobytes >= 40 || a.code == 3 || c.name == "preview" || c.name == "live",

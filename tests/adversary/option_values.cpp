@@ -193,7 +193,7 @@ Tally optionValues(double share)
                 fs::copy(whole, folder, fs::copy_options::recursive);
                 const Args args = with(c.args, option.name, value);
                 const Attempt a = run(c, args);
-                std::string wrong = c.app != nullptr ? wrongWith(a) : wrongWithGrabber(a);
+                std::string wrong = c.app != nullptr ? wrongWith(a) : wrongWithOwnLines(a);
                 wrong += unless(
                     !option.isNumber || !isNoNumber(value) || a.code == 2,
                     "taken for a number, exit code " + std::to_string(a.code));

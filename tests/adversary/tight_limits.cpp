@@ -88,7 +88,9 @@ Tally tightLimits(double share)
             }
             test::writeBytes(out, "old");
             const Attempt a = attemptOf(c.program, c.args, surroundings);
-            std::string wrong = c.program == "grabber" ? wrongWithGrabber(a) : wrongWith(a);
+            const bool othersSpeak =
+                c.program == "grabber" || surroundings.memory < Surroundings{}.memory;
+            std::string wrong = othersSpeak ? wrongWithOwnLines(a) : wrongWith(a);
             wrong += unless(a.code == 0 || a.code == 3, "exit code: " + a.err);
             wrong += unless(
                 c.output.empty() || (a.code == 0) == (test::readBytes(out) != "old"),
