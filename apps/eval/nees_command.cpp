@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/evaluation/consistency.h>
 #include <pointplane/evaluation/nees.h>
 #include <pointplane/evaluation/units.h>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pointplane/evaluation/consistency.h>
 #include <pointplane/evaluation/coverage.h>
 #include <pointplane/evaluation/nees.h>
 

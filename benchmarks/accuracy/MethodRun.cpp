@@ -2,6 +2,7 @@
 #include "MethodRun.h"
 
 #include <pointplane/evaluation/ate.h>
+#include <pointplane/evaluation/consistency.h>
 #include <pointplane/evaluation/nees.h>
 #include <pointplane/evaluation/rpe.h>
 #include <pointplane/mrpt_io/errors.h>

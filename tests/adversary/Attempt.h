@@ -70,8 +70,9 @@ class Tally
 /** Empty if the process ended by itself, and said why in one line where its exit code is not 0. */
 [[nodiscard]] std::string wrongWith(const Attempt& attempt);
 
-/** The same of the lines that the program says itself: the grabber also says what it has recorded, and
- * libraries that find no memory (GDAL, which OpenCV's decoders load) say so beside the program. */
+/** The same of the lines that the program says itself: the grabber also says what it has recorded,
+ * and libraries that find no memory (GDAL, which OpenCV's decoders load) say so beside the program.
+ */
 [[nodiscard]] std::string wrongWithOwnLines(const Attempt& attempt);
 
 /** A value that names itself when it is wrong. */

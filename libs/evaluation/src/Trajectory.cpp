@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/covariance.h>
+#include <pointplane/core/se3.h>
 #include <pointplane/evaluation/Statistics.h>
 #include <pointplane/evaluation/Trajectory.h>
 
@@ -169,5 +171,22 @@ void checkOverlap(const Trajectory& groundTruth, const Trajectory& estimate, dou
 double medianInterval(const Trajectory& trajectory)
 {
     return trajectory.size() < 2 ? 0 : statisticsOf(intervals(trajectory)).median;
+}
+
+Trajectory withBody(Trajectory trajectory, const Eigen::Isometry3d& T_body_other)
+{
+    for (Eigen::Isometry3d& pose : trajectory.poses)
+    {
+        pose = pose * T_body_other;
+    }
+    const Matrix6d Ad = adjoint(T_body_other.inverse());
+    for (std::vector<Matrix6d>& covs : trajectory.sinceCovs)
+    {
+        for (Matrix6d& cov : covs)
+        {
+            cov = propagate(Ad, cov);
+        }
+    }
+    return trajectory;
 }
 }  // namespace pointplane

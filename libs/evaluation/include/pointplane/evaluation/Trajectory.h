@@ -78,4 +78,8 @@ void checkOverlap(const Trajectory& groundTruth, const Trajectory& estimate, dou
 
 /** Median of the intervals between stamps [s]; 0 for fewer than two poses. */
 [[nodiscard]] double medianInterval(const Trajectory& trajectory);
+
+/** The trajectory of another frame rigidly attached to the moving body: poses * T_body_other. The
+ * poses' covariances, being left perturbations, stay. */
+[[nodiscard]] Trajectory withBody(Trajectory trajectory, const Eigen::Isometry3d& T_body_other);
 }  // namespace pointplane

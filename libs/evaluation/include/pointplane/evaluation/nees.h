@@ -2,26 +2,14 @@
 #pragma once
 
 #include <pointplane/evaluation/association.h>
-#include <pointplane/evaluation/rpe.h>
+#include <pointplane/evaluation/nees_interval.h>
 
-#include <array>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace pointplane
 {
-/** Length of the increments whose covariance is tested: frames or seconds. */
-struct NeesInterval
-{
-    double delta{1};
-    DeltaUnit unit{DeltaUnit::Frames};
-    bool sinceStart{false};  //!< all increments from the first pose instead: the poses themselves
-};
-
-/** From "1f", "10f", "0.5s" or "start". \throws std::invalid_argument for anything else */
-[[nodiscard]] NeesInterval neesIntervalFromName(const std::string& name);
-[[nodiscard]] std::string nameOf(const NeesInterval& interval);
-
 struct NeesOptions
 {
     double offset{0};  //!< added to the estimate's stamps [s]
@@ -97,55 +85,4 @@ struct NeesRun
  * right only if increments are independent. */
 [[nodiscard]] std::string noteOnUntold(
     const Trajectory& estimate, const std::vector<NeesIncrement>& increments);
-
-/** Mean NEES per degree of freedom against its two-sided 95 % chi-square bounds. */
-struct ConsistencyTest
-{
-    double nees{0};  //!< per degree of freedom; 1 is consistent
-    double lower{0}, upper{0};
-    [[nodiscard]] bool isOptimistic() const { return nees > upper; }
-    [[nodiscard]] bool isConservative() const { return nees < lower; }
-};
-
-/** Consistency of one degree of freedom. */
-struct AxisConsistency
-{
-    ConsistencyTest test;
-    double meanError{0};  //!< [m or rad]
-    double rmsError{0};   //!< [m or rad]
-    double rmsSigma{0};   //!< what the covariance says [m or rad]
-};
-
-struct NeesResult
-{
-    NeesInterval interval;
-    std::size_t increments{0};
-    /** How many of them fit one after the other. Bounds are computed with this number, because
-     * increments that overlap are not independent. */
-    std::size_t independent{0};
-    ConsistencyTest joint, translation, rotation;
-    std::array<AxisConsistency, 6> axes;  //!< x y z rx ry rz in the body frame
-    /** Eigenvalues (ascending) of the whitened errors' second moment: NEES per degree of freedom
-     * along the most conservative to the most optimistic direction; all 1 if consistent. */
-    Vector6d whitenedEigenvalues{Vector6d::Ones()};
-    /** Direction of the most optimistic one, in whitened [x y z rx ry rz]. */
-    Vector6d mostOptimistic{Vector6d::Zero()};
-};
-
-/** Pools the increments of one or more runs. \param independent see NeesResult
- * \throws std::runtime_error if there are fewer than two */
-[[nodiscard]] NeesResult consistencyOf(
-    const std::vector<NeesIncrement>& increments,
-    std::size_t independent,
-    const NeesInterval& interval);
-
-/** How many of the increments, taken greedily in time, do not overlap. */
-[[nodiscard]] std::size_t countIndependent(const std::vector<NeesIncrement>& increments);
-
-/** "consistent", "optimistic: sigmas are too small by a factor of 3.2" or "conservative: ..." */
-[[nodiscard]] std::string verdict(const ConsistencyTest& test);
-
-/** The trajectory of another frame rigidly attached to the moving body: poses * T_body_other. The
- * poses' covariances, being left perturbations, stay. */
-[[nodiscard]] Trajectory withBody(Trajectory trajectory, const Eigen::Isometry3d& T_body_other);
 }  // namespace pointplane

@@ -4,6 +4,7 @@
 #include <pointplane/evaluation/FrameTable.h>
 #include <pointplane/evaluation/HtmlReport.h>
 #include <pointplane/evaluation/ate.h>
+#include <pointplane/evaluation/consistency.h>
 #include <pointplane/evaluation/nees.h>
 #include <pointplane/evaluation/rpe.h>
 

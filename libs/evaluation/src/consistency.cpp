@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/evaluation/chi_square.h>
+#include <pointplane/evaluation/consistency.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+
+namespace pointplane
+{
+namespace
+{
+constexpr double kConfidence = 0.95;
+
+ConsistencyTest testOf(double meanNees, std::size_t dof, std::size_t independent)
+{
+    const double n = static_cast<double>(independent * dof);
+    ConsistencyTest test;
+    test.nees = meanNees / static_cast<double>(dof);
+    test.lower = chiSquareQuantile(0.5 * (1 - kConfidence), n) / n;
+    test.upper = chiSquareQuantile(0.5 * (1 + kConfidence), n) / n;
+    return test;
+}
+
+/** cov^-1/2 error, with the symmetric root so that axes keep their meaning. */
+Vector6d whitened(const NeesIncrement& increment)
+{
+    const Eigen::SelfAdjointEigenSolver<Matrix6d> es(increment.cov);
+    return es.operatorInverseSqrt() * increment.error;
+}
+
+double blockNees(const NeesIncrement& increment, int start)
+{
+    const Eigen::Vector3d e = increment.error.segment<3>(start);
+    const Eigen::Matrix3d C = increment.cov.block<3, 3>(start, start);
+    return e.dot(C.llt().solve(e));
+}
+}  // namespace
+
+std::size_t countIndependent(const std::vector<NeesIncrement>& increments)
+{
+    std::size_t count = 0;
+    std::size_t end = 0;
+    for (const NeesIncrement& increment : increments)
+    {
+        if (count == 0 || increment.i >= end)
+        {
+            ++count;
+            end = increment.j;
+        }
+    }
+    return count;
+}
+
+NeesResult consistencyOf(
+    const std::vector<NeesIncrement>& increments,
+    std::size_t independent,
+    const NeesInterval& interval)
+{
+    if (increments.size() < 2)
+    {
+        throw std::runtime_error(
+            "only " + std::to_string(increments.size()) + " increment(s) of " + nameOf(interval) +
+            " have ground truth at both ends; at least two are needed");
+    }
+    const double n = static_cast<double>(increments.size());
+    double joint = 0;
+    double translation = 0;
+    double rotation = 0;
+    Vector6d perAxis = Vector6d::Zero();
+    Vector6d sum = Vector6d::Zero();
+    Vector6d squares = Vector6d::Zero();
+    Vector6d variances = Vector6d::Zero();
+    Matrix6d secondMoment = Matrix6d::Zero();
+    for (const NeesIncrement& increment : increments)
+    {
+        const Vector6d z = whitened(increment);
+        const Vector6d e2 = increment.error.cwiseAbs2();
+        joint += increment.nees / n;
+        translation += blockNees(increment, 0) / n;
+        rotation += blockNees(increment, 3) / n;
+        perAxis += e2.cwiseQuotient(increment.cov.diagonal()) / n;
+        sum += increment.error / n;
+        squares += e2 / n;
+        variances += increment.cov.diagonal() / n;
+        secondMoment += z * z.transpose() / n;
+    }
+    NeesResult out;
+    out.interval = interval;
+    out.increments = increments.size();
+    out.independent = independent;
+    out.joint = testOf(joint, 6, independent);
+    out.translation = testOf(translation, 3, independent);
+    out.rotation = testOf(rotation, 3, independent);
+    for (std::size_t k = 0; k < 6; ++k)
+    {
+        const auto axis = static_cast<Eigen::Index>(k);
+        out.axes[k].test = testOf(perAxis[axis], 1, independent);
+        out.axes[k].meanError = sum[axis];
+        out.axes[k].rmsError = std::sqrt(squares[axis]);
+        out.axes[k].rmsSigma = std::sqrt(variances[axis]);
+    }
+    const Eigen::SelfAdjointEigenSolver<Matrix6d> es(secondMoment);
+    out.whitenedEigenvalues = es.eigenvalues();
+    out.mostOptimistic = es.eigenvectors().col(5);
+    return out;
+}
+
+std::string verdict(const ConsistencyTest& test)
+{
+    char out[160] = "consistent";
+    if (test.isOptimistic())
+    {
+        std::snprintf(
+            out,
+            sizeof out,
+            "optimistic: the stated standard deviations are too small by a factor of %.2f",
+            std::sqrt(test.nees));
+    }
+    else if (test.isConservative())
+    {
+        std::snprintf(
+            out,
+            sizeof out,
+            "conservative: the stated standard deviations are too large by a factor of %.2f",
+            1 / std::sqrt(test.nees));
+    }
+    return out;
+}
+}  // namespace pointplane

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/evaluation/nees_interval.h>
+
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+
+namespace pointplane
+{
+NeesInterval neesIntervalFromName(const std::string& name)
+{
+    NeesInterval interval;
+    if (name == "start")
+    {
+        interval.sinceStart = true;
+        return interval;
+    }
+    const char* const end = name.data() + name.size();
+    const auto [parsed, error] = std::from_chars(name.data(), end, interval.delta);
+    const std::string unit(parsed, end);
+    interval.unit = unit == "s" ? DeltaUnit::Seconds : DeltaUnit::Frames;
+    const bool isWhole = interval.delta == std::floor(interval.delta);
+    if (error != std::errc() || !(interval.delta > 0) || !std::isfinite(interval.delta) ||
+        (unit != "s" && unit != "f") || (unit == "f" && !isWhole))
+    {
+        throw std::invalid_argument(
+            "'" + name + "' is not an interval; frames or seconds, e.g. 1f, 10f or 1s, or start");
+    }
+    return interval;
+}
+
+std::string nameOf(const NeesInterval& interval)
+{
+    if (interval.sinceStart)
+    {
+        return "start";
+    }
+    char out[64];
+    std::snprintf(out, sizeof out, "%g%s", interval.delta, nameOf(interval.unit).c_str());
+    return out;
+}
+}  // namespace pointplane
