@@ -63,7 +63,7 @@ void AteCommand::addTo(CLI::App& command)
         ->group(group);
     command.add_option("--max-rmse", maxRmse, "Exit with 1 if the RMSE exceeds this [m]")
         ->check(isNotNegative())
-        ->group("Gate");
+        ->group("Limits");
     command.add_flag("--verbose", verbose, "Print the lines of evaluate_ate.py --verbose instead")
         ->group("Output");
     input.addTo(command);

@@ -96,10 +96,10 @@ void NeesCommand::addTo(CLI::App& command)
         ->group("Protocol");
     command.add_option("--min-nees", minNees, "Exit with 1 if a joint NEES per dof is below this")
         ->check(isNotNegative())
-        ->group("Gate");
+        ->group("Limits");
     command.add_option("--max-nees", maxNees, "Exit with 1 if a joint NEES per dof is above this")
         ->check(isNotNegative())
-        ->group("Gate");
+        ->group("Limits");
     input.addTo(command);
     output.addTo(command, "increment");
     html.addTo(command);
@@ -265,7 +265,7 @@ void NeesCommand::run(CommandContext& context) const
 void addNeesCommand(CLI::App& app, CommandContext& context)
 {
     CLI::App& command = *app.add_subcommand(
-        "nees", "Are the covariances honest? Normalised estimation error squared of increments");
+        "nees", "Are the covariances true? Normalised estimation error squared of increments");
     const auto options = std::make_shared<NeesCommand>();
     options->addTo(command);
     command.callback([options, &context] { options->run(context); });

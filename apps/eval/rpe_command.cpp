@@ -41,12 +41,12 @@ void RpeCommand::addTo(CLI::App& command)
     command
         .add_option("--max-rmse", maxRmse, "Exit with 1 if the translation RMSE exceeds this [m]")
         ->check(isNotNegative())
-        ->group("Gate");
+        ->group("Limits");
     command
         .add_option(
             "--max-rmse-deg", maxRmseDeg, "Exit with 1 if the rotation RMSE exceeds this [deg]")
         ->check(isNotNegative())
-        ->group("Gate");
+        ->group("Limits");
     command.add_flag("--verbose", verbose, "Print the lines of evaluate_rpe.py --verbose instead")
         ->group("Output");
     input.addTo(command);

@@ -42,7 +42,7 @@ class ReferenceWindow
               keyframeMinOverlap,
               "-",
               "or when less than this fraction of the newest key frame's points or planes is "
-              "found again");
+              "found again, even by a wide search");
             v("maxPlaces",
               maxPlaces,
               "-",
