@@ -254,7 +254,7 @@ void GrabberRun::finishOutputs()
             live_->finish();
             if (const std::string problem = live_->stats().problem; !problem.empty())
             {
-                fail(problem + "; --live-output ends there, the rest went on");
+                fail(problem);
             }
         }
     }

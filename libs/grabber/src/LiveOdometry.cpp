@@ -73,8 +73,24 @@ void LiveOdometry::work()
     }
     while (const auto pair = latest_.take())
     {
-        process(*pair);
+        try
+        {
+            process(*pair);
+        }
+        catch (const std::exception& e)
+        {
+            giveUp(e, "--live ends there");
+            break;
+        }
     }
+    latest_.close();  // nobody waits for the next frame to be taken
+}
+
+/** The recording goes on: it has priority. */
+void LiveOdometry::giveUp(const std::exception& e, const std::string& what)
+{
+    const std::lock_guard<std::mutex> lock(mutex_);
+    stats_.problem = oneLine(e) + "; " + what + ", the rest went on";
 }
 
 void LiveOdometry::process(const ImagePair& pair)
@@ -108,10 +124,8 @@ void LiveOdometry::write(const RobotMotion& motion, mrpt::Clock::time_point stam
     }
     catch (const EnvironmentError& e)
     {
-        // The recording goes on: it has priority.
         rawlog_.reset();
-        const std::lock_guard<std::mutex> lock(mutex_);
-        stats_.problem = e.what();
+        giveUp(e, "--live-output ends there");
     }
 }
 

@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/mrpt_io/errors.h>
 
+#include <new>
+
 namespace pointplane
 {
 std::string oneLine(const std::exception& e)
 {
+    if (dynamic_cast<const std::bad_alloc*>(&e) != nullptr)
+    {
+        return "out of memory";
+    }
     std::string text = e.what();
     // MRPT: "Message:  <text>\nLocation: ..." once per stack frame, the innermost first.
     const std::string key = "Message:";

@@ -28,7 +28,7 @@ struct LiveStats
     std::uint64_t processed{0};
     std::uint64_t skipped{0};     //!< newer frames came before their turn
     std::uint64_t notTracked{0};  //!< predicted or lost
-    std::string problem;          //!< why the pose rawlog ended, or empty
+    std::string problem;          //!< why the odometry or its rawlog ended early, or empty
 };
 
 /** The odometry on the camera's stream, in a thread of low priority that always takes the newest
@@ -54,6 +54,7 @@ class LiveOdometry
  private:
     void work();
     void process(const ImagePair& pair);
+    void giveUp(const std::exception& e, const std::string& what);
     void write(const RobotMotion& motion, mrpt::Clock::time_point stamp);
 
     const LiveOptions options_;

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/grabber/LiveOdometry.h>
+
+#include <new>
+#include <ostream>
+#include <streambuf>
+
+#include <gtest/gtest.h>
+
+namespace
+{
+using namespace pointplane;
+
+constexpr int kWidth = 64, kHeight = 48;
+
+/** Takes so many lines; then there is no more memory. */
+class ShortMemory : public std::streambuf
+{
+ public:
+    explicit ShortMemory(int lines) : left_(lines) {}
+
+ private:
+    int_type overflow(int_type c) override
+    {
+        if (c == '\n' && --left_ < 0)
+        {
+            throw std::bad_alloc();
+        }
+        return c;
+    }
+    int left_;
+};
+
+ImagePair grey(double stamp)
+{
+    ImagePair pair;
+    pair.stamp = stamp;
+    pair.depth.pixels = cv::Mat(kHeight, kWidth, CV_16UC1, cv::Scalar(1500));
+    pair.colour.stream = StreamKind::Colour;
+    pair.colour.layout = PixelLayout::Rgb8;
+    pair.colour.pixels = cv::Mat(kHeight, kWidth, CV_8UC3, cv::Scalar::all(90));
+    return pair;
+}
+
+TEST(LiveOdometry, anErrorEndsItAndNothingElse)
+{
+    CameraFacts facts;
+    facts.mode = {kWidth, kHeight, 30, ""};
+    facts.registered = true;
+    facts.colourFocal_px = 52.5;
+    const ObservationBuilder builder(nominalCalibration(facts));
+    ShortMemory memory(3);  // the header and two frames
+    std::ostream out(&memory);
+    out.exceptions(std::ios::badbit);
+
+    LiveOptions options;
+    options.waits = true;
+    LiveOdometry live(options, builder, out);
+    for (int k = 0; k < 6; ++k)
+    {
+        live.add(grey(1 + k / 30.0));  // does not wait for who has given up
+    }
+    live.finish();
+
+    EXPECT_EQ(live.stats().problem, "out of memory; --live ends there, the rest went on");
+    EXPECT_EQ(live.stats().processed, 2U);
+}
+}  // namespace
