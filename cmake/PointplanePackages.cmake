@@ -50,7 +50,7 @@ ${about}
 .
 Static libraries, headers and the files for CMake's find_package(pointplane).")
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS
-    "libeigen3-dev, libopencv-dev, libmrpt-obs-dev, zlib1g-dev, libdeflate-dev")
+    "libeigen3-dev, libopencv-dev, libmrpt-obs-dev, zlib1g-dev, libdeflate-dev, libturbojpeg0-dev")
 if(OpenNI2_FOUND)
   string(APPEND CPACK_DEBIAN_DEV_PACKAGE_DEPENDS ", libopenni2-dev")
 endif()

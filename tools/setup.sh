@@ -11,7 +11,7 @@ readonly build_dir=${build_dir:-build/release${CXX:+-${CXX##*/}}}
 # A question mark: not in every release. What it is for is left out, or its tests are skipped.
 build_packages=(
     g++ cmake ninja-build pkgconf
-    libeigen3-dev libopencv-dev libdlib-dev zlib1g-dev libdeflate-dev
+    libeigen3-dev libopencv-dev libdlib-dev zlib1g-dev libdeflate-dev libturbojpeg0-dev
     libmrpt-obs-dev libmrpt-graphslam-dev libcli11-dev nlohmann-json3-dev libgtest-dev libgmock-dev
     libopenni2-dev "libfreenect-dev?" help2man "pybind11-dev?" python3-dev
     "librosbag-storage-dev?" "libsensor-msgs-dev?" "libtf2-msgs-dev?"
