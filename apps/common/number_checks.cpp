@@ -2,6 +2,7 @@
 #include "number_checks.h"
 
 #include <cmath>
+#include <sstream>
 #include <string>
 
 namespace pointplane
@@ -38,5 +39,16 @@ CLI::Validator isNotNegative()
 {
     return numberThat(
         [](double value) { return value >= 0; }, "zero or a positive number", "NONNEGATIVE");
+}
+
+CLI::Validator isBetween(double least, double most)
+{
+    std::ostringstream from, to;
+    from << least;
+    to << most;
+    return numberThat(
+        [least, most](double value) { return value >= least && value <= most; },
+        "a number from " + from.str() + " to " + to.str(),
+        "in [" + from.str() + " - " + to.str() + "]");
 }
 }  // namespace pointplane

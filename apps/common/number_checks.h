@@ -9,7 +9,8 @@ namespace pointplane
  * digits.
  * @{ */
 [[nodiscard]] CLI::Validator isFinite();
-[[nodiscard]] CLI::Validator isPositive();     //!< and finite
-[[nodiscard]] CLI::Validator isNotNegative();  //!< and finite
+[[nodiscard]] CLI::Validator isPositive();                          //!< and finite
+[[nodiscard]] CLI::Validator isNotNegative();                       //!< and finite
+[[nodiscard]] CLI::Validator isBetween(double least, double most);  //!< or one of them
 /** @} */
 }  // namespace pointplane

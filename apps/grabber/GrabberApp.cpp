@@ -26,6 +26,7 @@ bool GrabberOptions::recordsRawlog() const { return !output.empty() && !recordsO
 
 namespace
 {
+constexpr double kMostFrames = 1e9;  // a year of them
 /** As the command line has them, before they are understood. */
 struct Words
 {
@@ -90,10 +91,10 @@ void addRecordingOptions(CLI::App& app, GrabberOptions& o, Words& words)
         ->check(isPositive())
         ->group(group);
     app.add_option("--frames", o.capture.maxFrames, "Stop after so many frames")
-        ->check(isPositive())
+        ->check(isBetween(1, kMostFrames))
         ->group(group);
     app.add_option("--warm-up", o.capture.warmUp, "Seconds before recording begins")
-        ->check(CLI::Range(0.2, 60.0))
+        ->check(isBetween(0.2, 60))
         ->capture_default_str()
         ->group(group);
     app.add_option(

@@ -193,7 +193,9 @@ Tally optionValues(double share)
                 fs::copy(whole, folder, fs::copy_options::recursive);
                 const Args args = with(c.args, option.name, value);
                 const Attempt a = run(c, args);
-                std::string wrong = c.app != nullptr ? wrongWith(a) : wrongWithOwnLines(a);
+                // Besides what is wrong, eval says where its report is, and the lab how far it is.
+                const bool mayTellMore = c.app == nullptr || a.code != 2;
+                std::string wrong = mayTellMore ? wrongWithOwnLines(a) : wrongWith(a);
                 wrong += unless(
                     !option.isNumber || !isNoNumber(value) || a.code == 2,
                     "taken for a number, exit code " + std::to_string(a.code));

@@ -244,6 +244,8 @@ TEST_F(OpenNi2Recording, badRequestsAreExplained)
     EXPECT_THAT(messageOf({}), HasSubstr("nothing to do"));
     EXPECT_THAT(messageOf({"-o", dir_ / "out.bag"}), HasSubstr("must end in .rawlog or .oni"));
     EXPECT_EQ(record("", {"--jpeg", "101"}), 2);
+    EXPECT_EQ(record("", {"--warm-up", "nan"}), 2);
+    EXPECT_EQ(record("", {"--frames", "99999999999999999999"}), 2);  // recorded for ever
     EXPECT_EQ(record("", {"--device", dir_ / "missing.oni"}), 2);
     writeBytes(out_, "precious");
     EXPECT_EQ(record("", {"--frames", "3"}), 2);
