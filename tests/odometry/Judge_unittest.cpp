@@ -119,19 +119,29 @@ TEST(Judge, farFromThePredictionOnlyWhatConvincesIsBelieved)
     }
 }
 
-TEST(Judge, moreEvidenceIsMoreSurfacesAndMorePoints)
+TEST(Judge, moreSurfacesAndMorePointsAreBetter)
 {
     const Alignment good = makeAlignment(kCertain);
-    const auto evidence = [](const Alignment& a) { return Judge::evidence(a, kUsual); };
     Alignment fewer = good;
     fewer.estimate.numPointInliers = 100;
-    EXPECT_LT(evidence(fewer), evidence(good));
+    EXPECT_TRUE(Judge::isBetter(good, fewer, kUsual));
     Alignment less = good;
     less.agreement = {700, 100, 200};
-    EXPECT_LT(evidence(less), evidence(good));
+    EXPECT_TRUE(Judge::isBetter(good, less, kUsual));
     Alignment held = less;
     held.holds = true;
-    EXPECT_GT(evidence(held), evidence(good));
+    EXPECT_TRUE(Judge::isBetter(held, good, kUsual));
+    EXPECT_FALSE(Judge::isBetter(good, good, kUsual));
+}
+
+/** All of the few points that are left in view then agree. */
+TEST(Judge, aMotionThatLooksAwayFromMostPointsIsNotBetter)
+{
+    const Alignment good = makeAlignment(kCertain);
+    Alignment away = good;
+    away.numSought = away.estimate.numPointInliers = 40;
+    EXPECT_TRUE(Judge::isBetter(good, away, kUsual));
+    EXPECT_FALSE(Judge::isBetter(away, good, kUsual));
 }
 
 /** A motion between that of the still world and that of what moves agrees with neither. */
@@ -141,7 +151,7 @@ TEST(Judge, moreSurfacesDoNotOutweighResidualsOfNoMotion)
     right.agreement = {600, 0, 400};
     Alignment between = makeAlignment(kCertain);
     between.estimate.pointChi2PerDof = 20;
-    EXPECT_LT(Judge::evidence(between, kUsual), Judge::evidence(right, kUsual));
+    EXPECT_TRUE(Judge::isBetter(right, between, kUsual));
 }
 
 Rivalry rivalryOf(double surfaceFirst, double surfaceSecond)

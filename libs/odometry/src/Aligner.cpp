@@ -130,8 +130,7 @@ Alignment Aligner::align(
         (verifies && !Judge::isConvincing(out, errors.usual())))
     {
         Alignment wide = attempt(scene, start, Search::Wide);
-        if (!verifies ||
-            Judge::evidence(wide, errors.usual()) > Judge::evidence(out, errors.usual()))
+        if (!verifies || Judge::isBetter(wide, out, errors.usual()))
         {
             out = std::move(wide);
         }
@@ -230,8 +229,7 @@ void Aligner::searchImages(const Scene& scene, Alignment& best) const
             T_prev_world * reference->T_world_cam * motion->T_cur_ref.inverse();
         Alignment other =
             attempt(scene, {T_prev_cur, scene.predicted.motion.mean.velocity}, Search::Wide);
-        if (Judge::evidence(other, scene.errors.usual()) >
-            Judge::evidence(best, scene.errors.usual()))
+        if (Judge::isBetter(other, best, scene.errors.usual()))
         {
             best = std::move(other);
         }

@@ -28,9 +28,11 @@ class Judge
      * \param usual variance of the residuals so far, over the propagated one */
     void contradict(Alignment& alignment, const NoiseFactors& usual) const;
 
-    /** How much speaks for an alignment, to compare it with others of the same frame.
+    /** Which of two alignments of a frame more speaks for. Points that either motion puts into view
+     * count for both: one that looks away from most points has not found more of them.
      * \param usual variance of the residuals so far, over the propagated one */
-    [[nodiscard]] static double evidence(const Alignment& alignment, const NoiseFactors& usual);
+    [[nodiscard]] static bool isBetter(
+        const Alignment& alignment, const Alignment& other, const NoiseFactors& usual);
 
     /** Whether it needs no comparison with others, and is believed even far from the prediction. */
     [[nodiscard]] static bool isConvincing(const Alignment& alignment, const NoiseFactors& usual);
