@@ -162,6 +162,11 @@ void OutputGuard::addOutput(const std::string& option, const std::string& path)
     {
         return;
     }
+    if (path == "-")
+    {
+        throw InputError(
+            option + " -: give /dev/stdout for the standard output, ./- for a file of this name");
+    }
     std::error_code error;
     const auto status = fs::status(path, error);
     if (fs::is_directory(status) || path.back() == '/')

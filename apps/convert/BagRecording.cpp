@@ -49,7 +49,9 @@ class BagRecording : public Recording
     {
         if (!std::filesystem::is_regular_file(options.file))
         {
-            throw InputError("cannot open " + options.file + ": no such file");
+            throw InputError(
+                "cannot open " + options.file + ": " +
+                (std::filesystem::exists(options.file) ? "not a file" : "no such file"));
         }
         try
         {

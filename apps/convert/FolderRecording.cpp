@@ -20,7 +20,8 @@ namespace
 {
 namespace fs = std::filesystem;
 
-constexpr std::uint16_t kNoReading = 65535;  //!< 7-Scenes; farther than any camera sees
+constexpr std::uint16_t kNoReading = 65535;     //!< 7-Scenes; farther than any camera sees
+constexpr double kLatestStamp = 99999999999.0;  //!< of lists of images, too [s]
 
 [[nodiscard]] cv::Mat readImage(const std::string& path, int flags)
 {
@@ -83,6 +84,11 @@ FolderRecording::FolderRecording(const FolderOptions& options)
     {
         unitsPerMetre_ = options.depthScale;
     }
+    if (!(unitsPerMetre_ > 0))
+    {
+        throw InputError(
+            folder_ + ": its depth units are not positive; give them by --depth-scale");
+    }
     fps_ = options.fps > 0 ? options.fps : layout_.fps.value_or(30);
     const auto areStamped = [](const std::vector<ImageRef>& images)
     {
@@ -92,11 +98,14 @@ FolderRecording::FolderRecording(const FolderOptions& options)
     hasStamps_ = options.fps <= 0 && areStamped(layout_.colour) && areStamped(layout_.depth);
     if (hasStamps_)
     {
+        checkStamps();
         pairByStamp(options.maxDifference);
     }
     else
     {
+        checkNumbers(options.fps > 0);
         pairByNumber();
+        checkStamps();
     }
     if (pairs_.empty())
     {
@@ -118,6 +127,40 @@ FolderRecording::FolderRecording(const FolderOptions& options)
 }
 
 FolderRecording::~FolderRecording() = default;
+
+void FolderRecording::checkNumbers(bool isRateAsked) const
+{
+    for (const auto* images : {&layout_.colour, &layout_.depth})
+    {
+        for (const ImageRef& image : *images)
+        {
+            if (!image.isNumbered)
+            {
+                throw InputError(
+                    image.path + ": is named by a time, not by a number" +
+                    (isRateAsked ? "; leave --fps out" : ", but other images are numbered"));
+            }
+        }
+    }
+}
+
+void FolderRecording::checkStamps() const
+{
+    for (const auto* images : {&layout_.colour, &layout_.depth})
+    {
+        for (const ImageRef& image : *images)
+        {
+            const double stamp = stampOf(image);
+            if (!(stamp >= 0 && stamp <= kLatestStamp))
+            {
+                std::ostringstream out;
+                out << (image.path.empty() ? folder_ : image.path) << ": its time, " << stamp
+                    << " s, is not a time stamp; check stamps or rate";
+                throw InputError(out.str());
+            }
+        }
+    }
+}
 
 void FolderRecording::pairByStamp(double maxDifference)
 {
@@ -150,6 +193,7 @@ void FolderRecording::pairByNumber()
         if (found != depthOf.end())
         {
             pairs_.emplace_back(i, found->second);
+            depthOf.erase(found);  // 7.jpg beside 7.png is one frame
         }
     }
 }
@@ -183,6 +227,15 @@ void FolderRecording::readDepth(const ImageRef& image, RegisteredScan& scan) con
     scan.unitsPerMetre = unitsPerMetre_;
 }
 
+void FolderRecording::checkCamera(const PinholeCamera& camera, const char* which) const
+{
+    const std::string problem = camera.problem();
+    if (!problem.empty())
+    {
+        throw BadFrame(folder_ + ": calibration of the " + which + " camera: " + problem);
+    }
+}
+
 void FolderRecording::setCameras(RegisteredScan& scan, const std::string& name) const
 {
     scan.camera = layout_.camera->camera;
@@ -203,11 +256,13 @@ void FolderRecording::setCameras(RegisteredScan& scan, const std::string& name) 
             name + ": is " + sizeText(scan.colour) + ", but the camera is for " +
             std::to_string(scan.camera.width) + "x" + std::to_string(scan.camera.height));
     }
+    checkCamera(scan.camera, "colour");
     if (layout_.depthCamera)
     {
         scan.depthCamera = DepthCamera{*layout_.depthCamera, Eigen::Isometry3d::Identity()};
         scan.depthCamera->camera.width = scan.depth.cols;
         scan.depthCamera->camera.height = scan.depth.rows;
+        checkCamera(scan.depthCamera->camera, "depth");
     }
     else if (scan.depth.size() != scan.colour.size())
     {
@@ -255,10 +310,10 @@ double FolderRecording::progress() const
 
 std::vector<std::string> FolderRecording::notes() const
 {
-    std::ostringstream layout;
+    std::ostringstream layout, rate;
+    rate << "frames numbered at " << fps_ << " Hz";
     layout << "read as " << layout_.name << ", " << unitsPerMetre_ << " depth units per metre, "
-           << (hasStamps_ ? std::string("stamps of the recording")
-                          : "frames numbered at " + std::to_string(std::lround(fps_)) + " Hz");
+           << (hasStamps_ ? "stamps of the recording" : rate.str());
     std::vector<std::string> out{layout.str()};
     if (!hasStamps_)
     {

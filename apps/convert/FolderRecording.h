@@ -34,11 +34,14 @@ class FolderRecording : public Recording
     [[nodiscard]] std::vector<std::string> notes() const override;
 
  private:
+    void checkNumbers(bool isRateAsked) const;
+    void checkStamps() const;
     void pairByStamp(double maxDifference);
     void pairByNumber();
     [[nodiscard]] double stampOf(const ImageRef& image) const;
     [[nodiscard]] cv::Mat colourOf(const ImageRef& image);
     void readDepth(const ImageRef& image, RegisteredScan& scan) const;
+    void checkCamera(const PinholeCamera& camera, const char* which) const;
     void setCameras(RegisteredScan& scan, const std::string& name) const;
 
     struct Video;

@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <limits>
 
 #include <zlib.h>
 
@@ -52,9 +53,14 @@ KlgRecording::KlgRecording(const KlgOptions& options) : options_(options)
             "cannot open " + options.file + ": " +
             (error ? error.message() : std::string(std::strerror(errno))));
     }
-    if (!read(numFrames_) || numFrames_ <= 0)
+    if (!read(numFrames_) || numFrames_ < 0 || isAtEnd())
     {
         throw InputError(options.file + ": is not a klg log, or has no frames");
+    }
+    isUnclosed_ = numFrames_ == 0;
+    if (isUnclosed_)
+    {
+        numFrames_ = std::numeric_limits<std::int32_t>::max();
     }
 }
 
@@ -82,11 +88,27 @@ std::string KlgRecording::where() const
     return options_.file + ": frame " + std::to_string(next_ - 1);
 }
 
+bool KlgRecording::isAtEnd() { return static_cast<std::uint64_t>(file_.tellg()) == fileSize_; }
+
 std::optional<RecordedFrame> KlgRecording::stopped()
 {
-    damage_ = options_.file + ": truncated or damaged in frame " + std::to_string(next_ - 1) +
-              " of " + std::to_string(numFrames_);
-    next_ = numFrames_;
+    damage_ = options_.file + ": " + (next_ == 1 ? "is not a klg log, or " : "") +
+              "truncated or damaged in frame " + std::to_string(next_ - 1) +
+              (isUnclosed_ ? std::string() : " of " + std::to_string(numFrames_));
+    return {};
+}
+
+std::optional<RecordedFrame> KlgRecording::ended()
+{
+    if (isUnclosed_)
+    {
+        damage_ = options_.file + ": tells no number of frames, as its recording was broken off";
+    }
+    else if (!isAtEnd())
+    {
+        damage_ = options_.file + ": goes on behind the " + std::to_string(numFrames_) +
+                  " frames that it tells of";
+    }
     return {};
 }
 
@@ -147,9 +169,13 @@ cv::Mat KlgRecording::colourOf(const std::vector<unsigned char>& bytes) const
 
 std::optional<RecordedFrame> KlgRecording::next()
 {
-    if (next_ == numFrames_)
+    if (!damage_.empty())
     {
         return {};
+    }
+    if (next_ == numFrames_ || (isUnclosed_ && isAtEnd()))
+    {
+        return ended();
     }
     ++next_;
     std::int64_t microseconds = 0;

@@ -21,7 +21,8 @@ struct KlgOptions
 
 /** A log of Kintinuous or ElasticFusion: an int32 with the number of frames; each frame an int64
  * with its time [us], int32 sizes of depth and colour, depth (16 bit, plain or zlib) and colour
- * (8 bit RGB, plain or JPEG). Little endian. Written by Logger2, read by its RawLogReader. */
+ * (8 bit RGB, plain or JPEG). Little endian. Written by Logger2, which tells the number in the end
+ * and 0 until then; read by its RawLogReader. */
 class KlgRecording : public Recording
 {
  public:
@@ -37,14 +38,16 @@ class KlgRecording : public Recording
     template <class T>
     [[nodiscard]] bool read(T& value);
     [[nodiscard]] bool read(std::vector<unsigned char>& bytes, std::int32_t size);
+    [[nodiscard]] bool isAtEnd();
     [[nodiscard]] std::optional<RecordedFrame> stopped();
+    [[nodiscard]] std::optional<RecordedFrame> ended();
     [[nodiscard]] cv::Mat depthOf(const std::vector<unsigned char>& bytes) const;
     [[nodiscard]] cv::Mat colourOf(const std::vector<unsigned char>& bytes) const;
     [[nodiscard]] std::string where() const;
 
     KlgOptions options_;
     TumCamera camera_;
-    bool isNominal_{false};
+    bool isNominal_{false}, isUnclosed_{false};
     std::ifstream file_;
     std::uint64_t fileSize_{0};
     std::int32_t numFrames_{0}, next_{0};

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TumFolder.h"
 
+#include <pointplane/core/byte_order_mark.h>
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/mrpt_poses.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -20,6 +22,7 @@ std::vector<TumImage> readTumListing(const std::string& folder, const std::strin
     {
         throw InputError("cannot open " + path + ": " + std::strerror(errno));
     }
+    skipByteOrderMark(file);
     std::vector<TumImage> images;
     std::string line;
     for (int number = 1; std::getline(file, line); ++number)
@@ -38,7 +41,8 @@ std::vector<TumImage> readTumListing(const std::string& folder, const std::strin
         try
         {
             const auto time = stampFromText(stamp);
-            images.push_back({time, toSeconds(time), folder + "/" + name});
+            images.push_back(
+                {time, toSeconds(time), (std::filesystem::path(folder) / name).string()});
         }
         catch (const InputError& e)
         {

@@ -146,6 +146,11 @@ std::vector<std::string> TumRecording::notes() const
               << " s: " << colourAlone << " colour and " << depthAlone << " depth images";
         out.push_back(alone.str());
     }
+    if (!camera_.guessed.empty())
+    {
+        out.push_back(
+            "camera: " + camera_.guessed + ", by the folder's name; --camera takes another");
+    }
     std::vector<double> delays;
     for (const auto& [c, d] : pairs_)
     {

@@ -27,6 +27,28 @@ namespace
         ".png", ".jpg", ".jpeg", ".pgm", ".ppm", ".bmp", ".tif", ".tiff", ".exr"};
     return std::find(known.begin(), known.end(), extension) != known.end();
 }
+/** Of a name that is a time since 1970: seconds with a decimal point, or so many digits that they
+ * are milli-, micro- or nanoseconds of the years 2001 to 2286. */
+[[nodiscard]] std::optional<double> stampOf(const std::string& name, double number)
+{
+    if (name.find('.') != std::string::npos)
+    {
+        return number;
+    }
+    switch (std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isdigit(c); })
+                ? name.size()
+                : 0)
+    {
+        case 13:
+            return number / 1e3;
+        case 16:
+            return number / 1e6;
+        case 19:
+            return number / 1e9;
+        default:
+            return {};
+    }
+}
 }  // namespace
 
 std::optional<double> numberOf(const std::string& text)
@@ -70,11 +92,16 @@ std::vector<ImageRef> imagesIn(
         {
             image.stamp = 1e-6 * *second;
         }
-        else if (stem.find('.') != std::string::npos)
+        else
         {
-            image.stamp = *first;
+            image.stamp = stampOf(stem, *first);
         }
-        image.key = std::abs(*first) < 1e15 ? std::lround(*first) : 0;
+        image.isNumbered = second || !image.stamp;
+        if (image.isNumbered && !(std::abs(*first) < 1e15))
+        {
+            continue;
+        }
+        image.key = image.isNumbered ? std::lround(*first) : 0;
         out.push_back(image);
     }
     std::sort(

@@ -22,6 +22,11 @@ namespace fs = std::filesystem;
 [[nodiscard]] std::vector<double> numbersOf(const fs::path& path)
 {
     std::ifstream file(path);
+    if (!file || fs::is_directory(path))
+    {
+        throw InputError(
+            "cannot open " + path.string() + ": " + (file ? "not a file" : "no such file"));
+    }
     std::string text((std::istreambuf_iterator<char>(file)), {});
     std::replace(text.begin(), text.end(), ',', ' ');
     std::istringstream words(text);
@@ -47,6 +52,10 @@ namespace fs = std::filesystem;
         throw InputError(path.string() + ": is not a 3x3 or 4x4 matrix");
     }
     const std::size_t columns = m.size() == 9 ? 3 : 4;
+    if (m[2 * columns] != 0 || m[2 * columns + 1] != 0 || m[2 * columns + 2] != 1)
+    {
+        throw InputError(path.string() + ": the third row of a camera's matrix is 0 0 1");
+    }
     PinholeCamera out;
     out.width = out.height = 0;
     out.fx = m[0];
@@ -135,6 +144,18 @@ namespace fs = std::filesystem;
     return found->get<double>();
 }
 
+/** Pixels of a side. */
+[[nodiscard]] int sizeOf(const nlohmann::json& json, const char* key, const fs::path& path)
+{
+    constexpr double kLargest = 65535;
+    const double size = valueOf(json, key, path);
+    if (!(size >= 1 && size <= kLargest))
+    {
+        throw InputError(path.string() + ": '" + key + "' is not a number of pixels");
+    }
+    return static_cast<int>(size);
+}
+
 /** Replica as rendered for iMAP and NICE-SLAM: results/frame000000.jpg, results/depth000000.png,
  * cam_params.json beside or above. */
 [[nodiscard]] std::optional<FolderLayout> replica(const fs::path& folder)
@@ -154,8 +175,8 @@ namespace fs = std::filesystem;
         {
             const nlohmann::json& c = json->contains("camera") ? (*json)["camera"] : *json;
             PinholeCamera camera = pinhole(
-                static_cast<int>(valueOf(c, "w", path)),
-                static_cast<int>(valueOf(c, "h", path)),
+                sizeOf(c, "w", path),
+                sizeOf(c, "h", path),
                 valueOf(c, "fx", path),
                 valueOf(c, "cx", path),
                 valueOf(c, "cy", path));
@@ -253,8 +274,8 @@ void readRecord3d(const fs::path& folder, FolderLayout& out)
             throw InputError(path.string() + ": K is not a list of 9 numbers");
         }
         PinholeCamera camera = pinhole(
-            static_cast<int>(valueOf(*json, "w", path)),
-            static_cast<int>(valueOf(*json, "h", path)),
+            sizeOf(*json, "w", path),
+            sizeOf(*json, "h", path),
             K[0].get<double>(),
             K[6].get<double>(),
             K[7].get<double>());
@@ -264,6 +285,10 @@ void readRecord3d(const fs::path& folder, FolderLayout& out)
         if (json->contains("fps"))
         {
             out.fps = valueOf(*json, "fps", path);
+            if (!(*out.fps > 0))
+            {
+                throw InputError(path.string() + ": 'fps' is not a positive number");
+            }
         }
         if (json->contains("frameTimestamps") && (*json)["frameTimestamps"].is_array())
         {
@@ -285,7 +310,7 @@ void readRecord3d(const fs::path& folder, FolderLayout& out)
 void readPublishedCamera(const fs::path& folder, FolderLayout& out)
 {
     const std::string path = fs::absolute(folder).lexically_normal().string();
-    if (path.find("bonn") != std::string::npos)
+    if (path.find("rgbd_bonn") != std::string::npos)
     {
         PinholeCamera camera = pinhole(640, 480, 542.822841, 315.593520, 237.756098);
         camera.fy = 542.576870;

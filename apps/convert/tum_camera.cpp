@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tum_camera.h"
 
+#include <pointplane/core/byte_order_mark.h>
 #include <pointplane/mrpt_io/errors.h>
 
 #include <mrpt/config/CConfigFile.h>
@@ -58,6 +59,7 @@ const std::array<Preset, 3> kPresets{{
 [[nodiscard]] std::optional<TumCamera> fromLine(const std::string& path)
 {
     std::ifstream file(path);
+    skipByteOrderMark(file);
     std::vector<double> numbers;
     std::string line;
     while (std::getline(file, line))
@@ -189,7 +191,9 @@ TumCamera loadTumCamera(const std::string& camera, const std::string& folder)
                                                 name.find(preset.name) != std::string::npos);
         if (guessed || camera == preset.name)
         {
-            return fromPreset(preset);
+            TumCamera out = fromPreset(preset);
+            out.guessed = guessed ? preset.name : "";
+            return out;
         }
     }
     if (camera.empty())

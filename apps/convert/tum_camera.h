@@ -14,6 +14,7 @@ struct TumCamera
     PinholeCamera camera;
     double unitsPerMetre{5000};  //!< of depth images
     bool tellsUnits{false};      //!< not the usual ones
+    std::string guessed{};       //!< name of the preset, if the folder's name told it
     ShutterModel shutter;        //!< depthDelay is measured from the stamps instead
 };
 

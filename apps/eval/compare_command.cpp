@@ -67,11 +67,22 @@ std::string behindText(const std::optional<BootstrapInterval>& behind, bool best
         behind->excludesZero() ? "" : " ns");
 }
 
+[[nodiscard]] bool isBest(const Comparison& c, std::size_t run, std::size_t best)
+{
+    return c.isComparable() && run == best;
+}
+
+/** Its name, or null if the runs cannot be compared. */
+[[nodiscard]] nlohmann::ordered_json nameOfBest(const Comparison& c, std::size_t best)
+{
+    return c.isComparable() ? nlohmann::ordered_json(c.runs[best].name) : nullptr;
+}
+
 /** What a reader must know of runs that have different frames; empty otherwise. */
 std::string noteOf(const Comparison& c)
 {
     return c.sameFrames ? ""
-           : c.numCommonPairs >= 2
+           : c.isComparable()
                ? format(
                      "the runs have different frames: mm and deg are those of the %zu pairs that "
                      "all "
@@ -105,13 +116,14 @@ void printTable(const Comparison& c, const std::string& protocol, std::ostream& 
             "%-32s%9.3f%s %-27s%9.4f%s %-27s%9.3f%s%7zu%6.1f%%\n",
             name.c_str(),
             1000 * r.translation.value,
-            k == c.bestTranslation ? "*" : " ",
-            behindText(r.translationBehindBest, k == c.bestTranslation, 1000).c_str(),
+            isBest(c, k, c.bestTranslation) ? "*" : " ",
+            behindText(r.translationBehindBest, isBest(c, k, c.bestTranslation), 1000).c_str(),
             kDegreesPerRadian * r.rotation.value,
-            k == c.bestRotation ? "*" : " ",
-            behindText(r.rotationBehindBest, k == c.bestRotation, kDegreesPerRadian).c_str(),
+            isBest(c, k, c.bestRotation) ? "*" : " ",
+            behindText(r.rotationBehindBest, isBest(c, k, c.bestRotation), kDegreesPerRadian)
+                .c_str(),
             1000 * r.ate.translation.rmse,
-            k == c.bestAte ? "*" : " ",
+            isBest(c, k, c.bestAte) ? "*" : " ",
             r.rpe.translation.count,
             100 * r.rpe.coverage.share);
     }
@@ -135,9 +147,9 @@ nlohmann::ordered_json toJson(const Comparison& c, const std::string& protocol)
     json["title"] = "Comparison";
     json["protocol"] = protocol;
     json["units"] = {{"translation", "m"}, {"rotation", "deg"}};
-    json["bestTranslation"] = c.runs[c.bestTranslation].name;
-    json["bestRotation"] = c.runs[c.bestRotation].name;
-    json["bestAte"] = c.runs[c.bestAte].name;
+    json["bestTranslation"] = nameOfBest(c, c.bestTranslation);
+    json["bestRotation"] = nameOfBest(c, c.bestRotation);
+    json["bestAte"] = nameOfBest(c, c.bestAte);
     json["pairsInCommon"] = c.numCommonPairs;
     if (!c.sameFrames)
     {
@@ -206,9 +218,9 @@ HtmlReport reportOf(
         rows.push_back(
             {r.name,
              format("%.3f", 1000 * r.translation.value),
-             behindText(r.translationBehindBest, k == c.bestTranslation, 1000),
+             behindText(r.translationBehindBest, isBest(c, k, c.bestTranslation), 1000),
              format("%.4f", kDegreesPerRadian * r.rotation.value),
-             behindText(r.rotationBehindBest, k == c.bestRotation, kDegreesPerRadian),
+             behindText(r.rotationBehindBest, isBest(c, k, c.bestRotation), kDegreesPerRadian),
              format("%.3f", 1000 * r.ate.translation.rmse),
              format("%.1f %%", 100 * r.rpe.coverage.share)});
         paths.push_back({r.name, estimates[k], r.ate, rpe.scale});

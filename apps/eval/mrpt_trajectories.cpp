@@ -17,7 +17,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
-#include <regex>
+#include <string_view>
 #include <tuple>
 
 namespace pointplane
@@ -29,6 +29,8 @@ StampedPose stamped(double stamp, const PoseGaussian& pose)
     return {stamp, pose.mean, pose.cov, {}, FrameStatus::Tracked};
 }
 
+constexpr const char* kDigits = "0123456789";
+
 /** What the label of a motion since an earlier frame says, LABEL_since_N beside LABEL_pose. */
 struct Since
 {
@@ -38,13 +40,20 @@ struct Since
 
 std::optional<Since> sinceOf(const std::string& label)
 {
-    static const std::regex pattern("(.*)_since_([1-9][0-9]{0,3})");
-    std::smatch match;
-    if (!std::regex_match(label, match, pattern))
+    static const std::string kSince = "_since_";
+    constexpr std::size_t kMostDigits = 4;
+    const std::size_t at = label.rfind(kSince);
+    if (at == std::string::npos)
     {
         return std::nullopt;
     }
-    return Since{match.str(1) + "_pose", std::stoul(match.str(2))};
+    const std::string number = label.substr(at + kSince.size());
+    if (number.empty() || number.size() > kMostDigits || number[0] == '0' ||
+        number.find_first_not_of(kDigits) != std::string::npos)
+    {
+        return std::nullopt;
+    }
+    return Since{label.substr(0, at) + "_pose", std::stoul(number)};
 }
 
 /** What a comment says about the frame of a camera that was not tracked; docs/rawlogs.md. */
@@ -56,16 +65,31 @@ struct FrameMark
 
 std::optional<FrameMark> markOf(const std::string& comment)
 {
-    static const std::regex pattern(
-        "pointplane-status label=(.*) frame=[0-9]+ (predicted|lost)(:.*)?");
-    std::smatch match;
-    if (!std::regex_match(comment, match, pattern))
+    static const std::string kStart = "pointplane-status label=", kFrame = " frame=";
+    if (comment.compare(0, kStart.size(), kStart) != 0)
     {
         return std::nullopt;
     }
-    return FrameMark{
-        match.str(1) + "_pose",
-        match.str(2) == "lost" ? FrameStatus::Lost : FrameStatus::Predicted};
+    for (std::size_t at = comment.find(kFrame); at != std::string::npos;
+         at = comment.find(kFrame, at + 1))
+    {
+        const std::size_t number = at + kFrame.size();
+        const std::size_t end =
+            std::min(comment.find_first_not_of(kDigits, number), comment.size());
+        const auto says = [&](std::string_view status)
+        {
+            const std::size_t after = end + status.size();
+            return end > number && comment.compare(end, status.size(), status) == 0 &&
+                   (after == comment.size() || comment[after] == ':');
+        };
+        if (says(" lost") || says(" predicted"))
+        {
+            return FrameMark{
+                comment.substr(kStart.size(), at - kStart.size()) + "_pose",
+                says(" lost") ? FrameStatus::Lost : FrameStatus::Predicted};
+        }
+    }
+    return std::nullopt;
 }
 
 /** pointplane-odometry writes a pose for every frame of the camera LABEL, labelled LABEL_pose. */

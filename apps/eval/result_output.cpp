@@ -125,7 +125,7 @@ void printTable(const ScoredResult& result, std::ostream& out)
     {
         const Statistics& s = row.statistics;
         out << format(
-            "%-17s%12.6f%12.6f%12.6f%12.6f%12.6f%12.6f\n",
+            "%-17s %11.6f %11.6f %11.6f %11.6f %11.6f %11.6f\n",
             (row.name + " [" + row.unit + "]").c_str(),
             s.rmse,
             s.mean,

@@ -96,10 +96,9 @@ void RunSummary::print(std::ostream& out, bool profile) const
     std::snprintf(
         line,
         sizeof(line),
-        "%s: %zu frames: %zu tracked, %zu predicted, %zu lost; path %.3f m; %.1f ms/frame "
+        ": %zu frames: %zu tracked, %zu predicted, %zu lost; path %.3f m; %.1f ms/frame "
         "(odometry "
         "%.1f), %.1f fps\n",
-        label.c_str(),
         numFrames,
         numTracked,
         numPredicted,
@@ -108,7 +107,7 @@ void RunSummary::print(std::ostream& out, bool profile) const
         1e3 * seconds / frames,
         sum.msTotal / frames,
         frames / std::max(seconds, 1e-9));
-    out << line;
+    out << label << line;
     for (const UntrackedFrames& group : untracked)
     {
         out << "  " << lineOf(group) << "\n";

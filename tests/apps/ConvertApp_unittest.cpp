@@ -224,6 +224,34 @@ TEST_F(ConvertApp, cameraFiles)
     EXPECT_THROW((void)loadTumCamera("fr7", in_), InputError);
 }
 
+TEST_F(ConvertApp, listsMayHaveAByteOrderMarkAndAbsoluteNames)
+{
+    const std::string mark = "\xEF\xBB\xBF";
+    writeBytes(dir_ / "in/rgb.txt", mark + "1305031102.175304 " + dir_ / "in/rgb/0.png" + "\n");
+    writeBytes(dir_ / "in/depth.txt", mark + "# depth\n1305031102.160407 depth/0.png\n");
+    writeBytes(dir_ / "in/camera.txt", mark + "26.2 26.1 15.5 11.5 0 0 0 0 0 32 24 5000\n");
+    ASSERT_EQ(run({in_, "-o", out_}), kExitOk) << text_;
+    EXPECT_EQ(scansOf(out_).size(), 1U);
+}
+
+TEST_F(ConvertApp, aGuessedCameraIsTold)
+{
+    const std::string folder = dir_ / "fr1_x";
+    std::filesystem::create_directories(folder);
+    for (const char* name : {"rgb.png", "depth.png"})
+    {
+        cv::imwrite(
+            folder + "/" + name,
+            cv::Mat(480, 640, name[0] == 'r' ? CV_8UC3 : CV_16UC1, cv::Scalar::all(1)));
+    }
+    writeBytes(folder + "/rgb.txt", "1 rgb.png\n");
+    writeBytes(folder + "/depth.txt", "1 depth.png\n");
+    ASSERT_EQ(run({folder, "-o", out_}), kExitOk) << text_;
+    EXPECT_THAT(text_, HasSubstr("camera: fr1, by the folder's name"));
+    ASSERT_EQ(run({folder, "-o", out_, "--camera", "fr1"}), kExitOk) << text_;
+    EXPECT_THAT(text_, testing::Not(HasSubstr("by the folder's name")));
+}
+
 TEST_F(ConvertApp, mistakesAreNamed)
 {
     const auto expect = [this](const std::string& text, std::vector<std::string> more = {})

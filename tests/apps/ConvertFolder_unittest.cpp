@@ -251,6 +251,79 @@ TEST_F(ConvertFolder, otherFoldersAreErrorsThatSayWhatIsKnown)
     EXPECT_THAT(text_, HasSubstr("number"));
 }
 
+TEST_F(ConvertFolder, longNumbersAreTimesSince1970)
+{
+    write("in/camera.txt", kCamera);
+    for (const char* unit : {"000", "000000", "000000000"})
+    {
+        std::filesystem::remove_all(dir_ / "in/rgb");
+        std::filesystem::remove_all(dir_ / "in/depth");
+        for (int i = 0; i < 3; ++i)
+        {
+            const std::string name = std::to_string(1305031102 + i) + unit + ".png";
+            writeImage("in/rgb/" + name, colourImage(i));
+            writeImage("in/depth/" + name, depthImage(i));
+        }
+        ASSERT_EQ(run({"folder", in_}), kExitOk) << text_;
+        EXPECT_THAT(text_, HasSubstr("stamps of the recording"));
+        expectFrames(1);
+        EXPECT_NEAR(frames()[0].stamp, 1305031102, 1e-6);
+        EXPECT_EQ(run({"folder", in_, "--fps", "30"}), kExitBadInput);
+        EXPECT_THAT(text_, HasSubstr("leave --fps out"));
+    }
+}
+
+TEST_F(ConvertFolder, eachNumberIsOneFrame)
+{
+    writeFrames("in/rgb/%d.jpg", "in/depth/%d.png");
+    writeFrames("in/rgb/%d.png", "in/depth/%d.png");
+    write("in/camera.txt", kCamera);
+    ASSERT_EQ(run({"folder", in_}), kExitOk) << text_;
+    EXPECT_THAT(text_, HasSubstr("3 frames"));
+    EXPECT_THAT(text_, HasSubstr("\n3 images without a partner"));
+}
+
+TEST_F(ConvertFolder, impossibleCalibrationsRatesAndTimesAreRefused)
+{
+    const auto expect = [this](const std::string& text)
+    {
+        EXPECT_EQ(run({"folder", in_}), kExitBadInput) << text;
+        EXPECT_THAT(text_, HasSubstr(text));
+        EXPECT_FALSE(std::filesystem::exists(out_));
+    };
+    writeFrames("in/rgb/%d.jpg", "in/depth/%d.png");
+    const auto metadata = [this](const std::string& size, const std::string& more)
+    {
+        write(
+            "in/metadata.json",
+            R"({"K": [60, 0, 0, 0, 61, 0, 31.5, 23.5, 1], "h": 48, "w": )" + size + more + "}");
+    };
+    metadata("64", R"(, "fps": 0)");
+    expect("metadata.json: 'fps' is not a positive number");
+    metadata("64", R"(, "fps": 1e-300)");
+    expect("is not a time stamp");
+    metadata("64", R"(, "frameTimestamps": [1, 2, 1e300])");
+    expect("is not a time stamp");
+    metadata("1e20", "");
+    expect("metadata.json: 'w' is not a number of pixels");
+    std::filesystem::remove(dir_ / "in/metadata.json");
+
+    write("in/camera_matrix.csv", "0, 0, 31.5\n0, 60, 23.5\n0, 0, 1\n");
+    expect("calibration of the colour camera: focal length is zero");
+    write("in/camera_matrix.csv", "60, 0, 0\n0, 60, 0\n31.5, 23.5, 1\n");
+    expect("camera_matrix.csv: the third row of a camera's matrix is 0 0 1");
+    std::filesystem::remove(dir_ / "in/camera_matrix.csv");
+    std::filesystem::create_directory(dir_ / "in/camera_matrix.csv");
+    expect("cannot open " + in_ + "/camera_matrix.csv: not a file");
+}
+
+TEST_F(ConvertFolder, aTownInThePathIsNoCamera)
+{
+    writeFrames("in/bonn/rgb/%d.jpg", "in/bonn/depth/%d.png");
+    EXPECT_EQ(run({"folder", in_ + "/bonn"}), kExitBadInput);
+    EXPECT_THAT(text_, HasSubstr("--camera"));
+}
+
 TEST(ProblemOfStamps, saysWhatIsWrong)
 {
     std::vector<double> even, rounded, jittering, back, gaps;

@@ -112,6 +112,24 @@ TEST_F(ConvertKlg, truncatedAnywhereKeepsWhatIsBefore)
     EXPECT_EQ(run({"klg", dir_ / "none.klg"}), kExitBadInput);
 }
 
+/** The number of frames is written when the recording ends. */
+TEST_F(ConvertKlg, framesBehindTheNumberAreTold)
+{
+    std::string bytes = log(3, true);
+    bytes[0] = 0;
+    EXPECT_EQ(convert(bytes), kExitIncomplete);
+    EXPECT_THAT(text_, HasSubstr("tells no number of frames"));
+    EXPECT_EQ(frames().size(), 3U);
+    EXPECT_EQ(convert(bytes.substr(0, bytes.size() - 1)), kExitIncomplete);
+    EXPECT_THAT(text_, HasSubstr("truncated or damaged in frame 2\n"));
+    EXPECT_EQ(frames().size(), 2U);
+    bytes[0] = 2;
+    EXPECT_EQ(convert(bytes), kExitIncomplete);
+    EXPECT_THAT(text_, HasSubstr("goes on behind the 2 frames"));
+    EXPECT_EQ(frames().size(), 2U);
+    EXPECT_EQ(convert(std::string(4, '\0')), kExitBadInput);
+}
+
 TEST_F(ConvertKlg, damagedFramesAreLeftOut)
 {
     const std::string one = log(1, true);

@@ -285,6 +285,15 @@ TEST_F(OdometryApp, nominalIntrinsicsAreTold)
     }
 }
 
+TEST_F(OdometryApp, labelsOfAnyLengthLeaveTheSummaryWhole)
+{
+    const std::string label = "front camera " + std::string(300, 'x');
+    const Outcome outcome =
+        runOn(2, [&](int, CObservation3DRangeScan& scan) { scan.sensorLabel = label; });
+    EXPECT_THAT(outcome.out, HasSubstr(label + ": 2 frames: "));
+    EXPECT_THAT(outcome.out, HasSubstr(" fps\n"));
+}
+
 TEST_F(OdometryApp, otherCamerasAreNamed)
 {
     const Outcome outcome = runOn(

@@ -189,6 +189,7 @@ TEST_F(Outputs, whatCannotBeWrittenIsRefusedBeforeTheRun)
         EXPECT_EQ(files(), before);
     }
     expectRefused({in_, "--overlay", in_}, "is not a folder");
+    expectRefused({in_, "--trajectory", "-"}, "--trajectory -: give /dev/stdout");
 }
 
 TEST_F(Outputs, linksAreWrittenThrough)

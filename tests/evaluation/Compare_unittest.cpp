@@ -144,5 +144,7 @@ TEST(Compare, onlyPairsThatBothRunsHaveCount)
     const Comparison none = compareRuns(truth, {shifted, runs[1]}, overOneSecond(), {}, {});
     EXPECT_EQ(none.runs[0].pairsInCommon, 0u);
     EXPECT_FALSE(none.runs[0].translationBehindBest.has_value());
+    EXPECT_FALSE(none.isComparable());
+    EXPECT_TRUE(c.isComparable());
     EXPECT_THROW((void)compareRuns(truth, runs, {}, {}, {}), std::invalid_argument);
 }

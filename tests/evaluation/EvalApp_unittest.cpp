@@ -20,12 +20,12 @@ namespace
 test::AppRun run(const std::vector<std::string>& args) { return test::runApp(runEval, args); }
 
 /** Straight motion at 10 Hz, `factor` times as fast as 1 m/s. */
-std::string straightLine(double factor)
+std::string straightLine(double factor, double later = 0)
 {
     std::ostringstream out;
     for (int i = 0; i <= 50; ++i)
     {
-        out << 0.1 * i << " " << 0.1 * i * factor << " 0 0 0 0 0 1\n";
+        out << 0.1 * i + later << " " << 0.1 * i * factor << " 0 0 0 0 0 1\n";
     }
     return out.str();
 }
@@ -119,6 +119,26 @@ TEST_F(EvalApp, compareMarksTheBest)
     EXPECT_NEAR(json["runs"][0]["translationBehindBest"]["value"], 0.05, 1e-9);
     EXPECT_THAT(test::readBytes(files / "report/index.html"), HasSubstr("Comparison of 2 runs"));
     EXPECT_EQ(run({"compare", truth}).code, 2);
+}
+
+TEST_F(EvalApp, runsThatCannotBeComparedHaveNoBest)
+{
+    const std::string shifted = writeFile(files, "shifted.txt", straightLine(1.1, 0.001));
+    const test::AppRun r = run({"compare", truth, shifted, estimate, "--json", files / "out.json"});
+    EXPECT_EQ(r.code, 0) << r.err;
+    EXPECT_THAT(r.out, HasSubstr("their errors cannot be compared"));
+    EXPECT_EQ(r.out.find('*'), std::string::npos) << r.out;
+    EXPECT_TRUE(
+        nlohmann::json::parse(test::readBytes(files / "out.json"))["bestTranslation"].is_null());
+}
+
+/** Millimetres taken for metres. */
+TEST_F(EvalApp, columnsStayApartWhereErrorsAreHuge)
+{
+    const std::string huge = writeFile(files, "huge.txt", straightLine(1e9));
+    EXPECT_THAT(
+        run({"ate", truth, huge}).out,
+        testing::Not(testing::ContainsRegex("[0-9][.][0-9]{6}[0-9]")));
 }
 
 TEST_F(EvalApp, reportsOfOneRun)

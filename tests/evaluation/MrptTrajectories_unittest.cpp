@@ -389,6 +389,34 @@ TEST(MrptTrajectories, marksOfLostFramesInARawlogAreReadAndSaid)
     EXPECT_EQ(json["coverage"][0]["frames"]["lost"], 10);
 }
 
+/** A regular expression would take the stack. */
+TEST(MrptTrajectories, labelsAndCommentsOfAnyLengthAndInLinesAreRead)
+{
+    test::TempDir dir;
+    const std::string camera = "two\nlines" + std::string(1 << 20U, 'x');
+    RawlogWriter writer(dir / "long.rawlog");
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+        writer.write(observationOf(k, camera + "_pose"));
+        if (k > 0)
+        {
+            writer.write(observationOf(k, camera + "_since_1"));
+        }
+    }
+    mrpt::obs::CObservationComment comment;
+    comment.timestamp = fromSeconds(estimate().stamps[2]);
+    for (const char* status : {" frame=2 found", " frame=2 lost: no\nimage"})
+    {
+        comment.text = "pointplane-status label=" + camera + status;
+        writer.write(comment);
+    }
+    writer.close();
+    const Trajectory read = readRawlogTrajectory(dir / "long.rawlog", "");
+    ASSERT_EQ(read.status.size(), 3U);
+    EXPECT_EQ(read.status[1], FrameStatus::Tracked);
+    EXPECT_EQ(read.status[2], FrameStatus::Lost);
+}
+
 TEST(MrptTrajectories, neesHintsAtAnotherBody)
 {
     test::TempDir dir;

@@ -40,6 +40,30 @@ TEST(TrajectoryText, readsTumWithCommentsCommasTabsAndCarriageReturns)
     EXPECT_TRUE(t.covs.empty());
 }
 
+TEST(TrajectoryText, readsBehindAByteOrderMark)
+{
+    test::TempDir files;
+    const std::string mark = "\xEF\xBB\xBF";
+    EXPECT_EQ(
+        readTrajectoryText(writeFile(files, "t.txt", mark + "1.5 1 2 3 0 0 0 2\n")).size(), 1U);
+    EXPECT_EQ(
+        readTrajectoryText(writeFile(files, "c.txt", mark + "# c\n1.5 1 2 3 0 0 0 2\n")).size(),
+        1U);
+    EXPECT_THAT(messageOf(writeFile(files, "e.txt", "")), HasSubstr("(0 lines)"));
+}
+
+TEST(TrajectoryText, decimalCommasAreNotColumns)
+{
+    test::TempDir files;
+    EXPECT_THAT(
+        messageOf(writeFile(files, "t.txt", "1305031102,5 1 2 3 0 0 0 1\n")),
+        HasSubstr("t.txt:1: '1305031102,5' has a decimal comma"));
+    EXPECT_THAT(messageOf(writeFile(files, "m.txt", "7 1 2,5 3 0,3 0 0\n")), HasSubstr("'2,5'"));
+    EXPECT_EQ(readTrajectoryText(writeFile(files, "c.txt", "1,1,2,3,0,0,0,1\n")).size(), 1U);
+    EXPECT_EQ(
+        readTrajectoryText(writeFile(files, "b.txt", "1, 1, 2 ,3 ,0 , 0, 0, 1\n")).size(), 1U);
+}
+
 TEST(TrajectoryText, readsMrptInterpolatorText)
 {
     test::TempDir files;

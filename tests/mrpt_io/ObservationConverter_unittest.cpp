@@ -430,6 +430,15 @@ TEST(ShutterComment, roundTripPerLabel)
     EXPECT_EQ(comment.text, "pointplane-camera label=OTHER intrinsics=nominal");
     converter.readComment(comment);
     EXPECT_TRUE(converter.convert(*scan).frame.camera.isNominal);
+    scan->sensorLabel = "front camera\n100%20";
+    comment.text = cameraComment(scan->sensorLabel, {}, true);
+    EXPECT_EQ(comment.text, "pointplane-camera label=front%20camera%0A100%2520 intrinsics=nominal");
+    converter.readComment(comment);
+    EXPECT_TRUE(converter.convert(*scan).frame.camera.isNominal);
+    scan->sensorLabel = "50%";  // as it was written before
+    comment.text = "pointplane-camera label=50% intrinsics=nominal";
+    converter.readComment(comment);
+    EXPECT_TRUE(converter.convert(*scan).frame.camera.isNominal);
     comment.text = "driver: left the garage";
     EXPECT_NO_THROW(converter.readComment(comment));
 }

@@ -86,6 +86,12 @@ TEST(ParamsIni, readsEveryTypeAndComments)
     EXPECT_EQ(params.beta.name, "orb");
 }
 
+TEST(ParamsIni, readsBehindAByteOrderMark)
+{
+    EXPECT_EQ(errorOf("\xEF\xBB\xBF[Alpha]\ncount = 1\n"), "no error");
+    EXPECT_EQ(errorOf("\xEF\xBB\xBF\ncount = 1\n"), "x.ini:2: key 'count' before any [Section]");
+}
+
 TEST(ParamsIni, mistakesAreNamedWithFileLineAndWhatWasMeant)
 {
     EXPECT_EQ(

@@ -155,7 +155,7 @@ Comparison compareRuns(
             commonErrors(estimates[k], run.rpe, estimates[best], out.runs[best].rpe, error);
         run.pairsInCommon = both.a.size();
         options.blockLength = blockLengthOf(run.rpe);
-        return k == best || both.a.size() < 2
+        return k == best || both.a.size() < 2 || !out.isComparable()
                    ? std::nullopt
                    : std::optional(bootstrapRmseDifference(both.a, both.b, options));
     };

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/byte_order_mark.h>
 #include <pointplane/evaluation/trajectory_text.h>
 
 #include <algorithm>
@@ -47,6 +48,24 @@ std::vector<double> parseNumbers(const std::string& text, const std::string& pat
         numbers.push_back(value);
         at = stop;
     }
+}
+
+/** \return a number like 1,5 in a line of columns separated by blanks, or nothing: commas alone
+ * separate columns, too */
+std::string decimalComma(const std::string& text)
+{
+    std::istringstream words(text);
+    std::string out;
+    std::size_t count = 0;
+    for (std::string word; words >> word; ++count)
+    {
+        const std::size_t comma = word.find(',');
+        if (out.empty() && comma > 0 && comma != std::string::npos && comma + 1 < word.size())
+        {
+            out = word;
+        }
+    }
+    return count >= kMrptColumns ? out : "";
 }
 
 Eigen::Isometry3d poseFromQuaternion(const std::vector<double>& v)
@@ -137,6 +156,7 @@ Trajectory readTrajectoryText(const std::string& path)
     {
         throw std::runtime_error("cannot read trajectory '" + path + "'");
     }
+    skipByteOrderMark(file);
     std::vector<StampedPose> poses;
     FrameMarks marks;
     LeftOut notFinite{"NaN or infinity"};
@@ -150,6 +170,10 @@ Trajectory readTrajectoryText(const std::string& path)
         {
             marks.read(text, path, line, poses.empty() ? 0 : poses.back().stamp);
             continue;
+        }
+        if (text.find(',') != std::string::npos && !decimalComma(text).empty())
+        {
+            failAt(path, line, "'" + decimalComma(text) + "' has a decimal comma; write points");
         }
         const std::vector<double> v = parseNumbers(text, path, line);
         if (v.empty())

@@ -19,6 +19,39 @@ constexpr const char* kMark = "pointplane-camera";
 {
     return InputError("comment '" + std::string(kMark) + "': " + what);
 }
+/** Words end at blanks: these are written as %20, like those of addresses. */
+[[nodiscard]] std::string escaped(const std::string& label)
+{
+    std::ostringstream out;
+    out << std::hex << std::uppercase;
+    for (const char c : label)
+    {
+        const auto byte = static_cast<unsigned char>(c);
+        if (byte <= ' ' || byte == 0x7f || c == '%')
+        {
+            out << '%' << (byte < 0x10 ? "0" : "") << static_cast<unsigned>(byte);
+        }
+        else
+        {
+            out << c;
+        }
+    }
+    return out.str();
+}
+
+[[nodiscard]] std::string unescaped(const std::string& word)
+{
+    std::string out;
+    for (std::size_t i = 0; i < word.size(); ++i)
+    {
+        const std::string digits = word.substr(i + 1, 2);
+        const bool isCode = word[i] == '%' && digits.size() == 2 &&
+                            digits.find_first_not_of("0123456789ABCDEFabcdef") == std::string::npos;
+        out += isCode ? static_cast<char>(std::stoi(digits, nullptr, 16)) : word[i];
+        i += isCode ? digits.size() : 0;
+    }
+    return out;
+}
 }  // namespace
 
 std::optional<CameraComment> parseCameraComment(const std::string& text)
@@ -37,7 +70,7 @@ std::optional<CameraComment> parseCameraComment(const std::string& text)
         const std::string value = equals == std::string::npos ? "" : word.substr(equals + 1);
         if (key == "label")
         {
-            out.label = value;
+            out.label = unescaped(value);
             continue;
         }
         if (key == "intrinsics")
@@ -75,7 +108,7 @@ std::optional<CameraComment> parseCameraComment(const std::string& text)
 
 std::string cameraComment(const std::string& label, const ShutterModel& shutter, bool isNominal)
 {
-    std::string out = std::string(kMark) + " label=" + label;
+    std::string out = std::string(kMark) + " label=" + escaped(label);
     out += isNominal ? " intrinsics=nominal" : "";
     const auto append = [&out](const char* key, double value)
     {

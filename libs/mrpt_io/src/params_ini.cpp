@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/byte_order_mark.h>
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/params_ini.h>
 
@@ -183,6 +184,7 @@ const char* ParameterRef::typeName() const
 void parseIni(const std::string& text, const std::string& name, const ParameterTable& table)
 {
     std::istringstream lines(text);
+    skipByteOrderMark(lines);
     std::string line, section;
     std::set<std::string> seen;
     for (int number = 1; std::getline(lines, line); ++number)

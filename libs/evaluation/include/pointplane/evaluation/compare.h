@@ -32,6 +32,9 @@ struct Comparison
     std::size_t bestTranslation{0}, bestRotation{0}, bestAte{0};  //!< indices of the smallest RMSE
     std::size_t numCommonPairs{0};                                //!< that all runs have
     bool sameFrames{true};                                        //!< no run has others
+
+    /** Otherwise the smallest RMSE does not make a run the best one. */
+    [[nodiscard]] bool isComparable() const { return numCommonPairs >= 2; }
 };
 
 /** Scores several estimates of the same ground truth. `rpe` must list its pairs (fixed delta), or

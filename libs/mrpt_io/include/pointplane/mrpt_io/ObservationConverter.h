@@ -45,8 +45,8 @@ class ObservationConverter
 
     /** Reads the shutter model of a comment of the form
      *     pointplane-camera label=L readoutColour=0.02 readoutDepth=0.02 depthDelay=-0.01
-     * (seconds; see ShutterModel; absent = not known). Other comments are ignored.
-     * \throws InputError naming the key if such a comment cannot be understood */
+     * (seconds; see ShutterModel; absent = not known; a blank in the label is %20). Other comments
+     * are ignored. \throws InputError naming the key if such a comment cannot be understood */
     void readComment(const mrpt::obs::CObservationComment& comment);
 
     /** \param scan not changed; external data that were read are not kept in it
