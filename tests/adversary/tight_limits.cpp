@@ -92,9 +92,9 @@ Tally tightLimits(double share)
             // The recorder and the lab say more than why they fail; so do libraries without memory.
             const bool saysMore = c.program == "grabber" || c.program == "lab" ||
                                   surroundings.memory < Surroundings{}.memory;
-            std::string wrong = saysMore ? wrongWithOwnLines(a) : wrongWith(a);
-            const bool saidRunFailed = c.program == "lab" && a.code == 1;  // in its output, too
+            const bool saidRunFailed = c.program == "lab" && a.code == 1;  // where runs are listed
             const bool ended = a.code == 0 || saidRunFailed;
+            std::string wrong = saidRunFailed ? "" : saysMore ? wrongWithOwnLines(a) : wrongWith(a);
             wrong += unless(ended || a.code == 3, "exit code: " + a.err);
             wrong += unless(
                 c.output.empty() || ended == (test::readBytes(out) != "old"), "earlier output");
