@@ -130,7 +130,11 @@ Alignment Aligner::align(
         (verifies && !Judge::isConvincing(out, errors.usual())))
     {
         Alignment wide = attempt(scene, start, Search::Wide);
-        if (!verifies || Judge::isBetter(wide, out, errors.usual()))
+        if (verifies)
+        {
+            Judge::keepBetter(out, std::move(wide), errors.usual());
+        }
+        else
         {
             out = std::move(wide);
         }
@@ -229,10 +233,7 @@ void Aligner::searchImages(const Scene& scene, Alignment& best) const
             T_prev_world * reference->T_world_cam * motion->T_cur_ref.inverse();
         Alignment other =
             attempt(scene, {T_prev_cur, scene.predicted.motion.mean.velocity}, Search::Wide);
-        if (Judge::isBetter(other, best, scene.errors.usual()))
-        {
-            best = std::move(other);
-        }
+        Judge::keepBetter(best, std::move(other), scene.errors.usual());
         if (Judge::isConvincing(best, scene.errors.usual()))
         {
             return;

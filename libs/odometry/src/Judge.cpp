@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 #include "few_points.h"
 
@@ -68,25 +69,25 @@ double maxSigma(const Matrix6d& cov)
     return std::sqrt(std::max(0.0, es.eigenvalues().maxCoeff()));
 }
 
-/** Fraction of the points in view that agrees with the estimate; smaller if there are few.
- * \param numSought that should be in view */
-double pointShare(const Alignment& a, int numSought)
+/** Fraction of the points in view that agrees with the estimate; smaller if there are few. */
+double pointShare(const Alignment& a)
 {
-    return static_cast<double>(a.estimate.numPointInliers) / std::max(numSought, kHandful);
+    return static_cast<double>(a.estimate.numPointInliers) / std::max(a.numSought, kHandful);
 }
 
-/** How much speaks for an alignment. */
-double evidence(const Alignment& a, int numSought, const NoiseFactors& usual)
+/** How much speaks for an alignment, to compare it with others of the same frame. */
+double evidence(const Alignment& alignment, const NoiseFactors& usual)
 {
     const double surfaces =
-        a.agreement.fraction() * std::min(1.0, 1.0 * a.agreement.seen() / Judge::kEnoughSurfaces);
-    const bool isMotion = a.estimate.pointChi2PerDof < kNoMotionRise * usual.points;
-    return (a.holds ? 1 : 0) + (isMotion ? 1 : 0) + surfaces + pointShare(a, numSought);
+        alignment.agreement.fraction() *
+        std::min(1.0, 1.0 * alignment.agreement.seen() / Judge::kEnoughSurfaces);
+    const bool isMotion = alignment.estimate.pointChi2PerDof < kNoMotionRise * usual.points;
+    return (alignment.holds ? 1 : 0) + (isMotion ? 1 : 0) + surfaces + pointShare(alignment);
 }
 
 /** Whether the prediction tells that a motion is right, or most points in view: those do not agree
  * on a wrong one. */
-bool isConfirmed(const Alignment& a) { return !a.isUnforeseen || pointShare(a, a.numSought) > 0.5; }
+bool isConfirmed(const Alignment& a) { return !a.isUnforeseen || pointShare(a) > 0.5; }
 
 /** Whether it rests on planes that may be others: points in view should agree, and do not. */
 bool isOfDoubtfulPlanes(const Alignment& a)
@@ -128,10 +129,13 @@ std::string Judge::fewPointsAgree(const Alignment& alignment)
     return out.str();
 }
 
-bool Judge::isBetter(const Alignment& alignment, const Alignment& other, const NoiseFactors& usual)
+void Judge::keepBetter(Alignment& best, Alignment other, const NoiseFactors& usual)
 {
-    const int numSought = std::max(alignment.numSought, other.numSought);
-    return evidence(alignment, numSought, usual) > evidence(other, numSought, usual);
+    best.numSought = other.numSought = std::max(best.numSought, other.numSought);
+    if (evidence(other, usual) > evidence(best, usual))
+    {
+        best = std::move(other);
+    }
 }
 
 bool Judge::isConvincing(const Alignment& a, const NoiseFactors& usual)

@@ -28,11 +28,11 @@ class Judge
      * \param usual variance of the residuals so far, over the propagated one */
     void contradict(Alignment& alignment, const NoiseFactors& usual) const;
 
-    /** Which of two alignments of a frame more speaks for. Points that either motion puts into view
-     * count for both: one that looks away from most points has not found more of them.
+    /** Of two alignments of a frame, keeps the one that more speaks for. From here on, points that
+     * either put into view count as sought: the few that are left in view of a motion that looks
+     * away from the others do not confirm it.
      * \param usual variance of the residuals so far, over the propagated one */
-    [[nodiscard]] static bool isBetter(
-        const Alignment& alignment, const Alignment& other, const NoiseFactors& usual);
+    static void keepBetter(Alignment& best, Alignment other, const NoiseFactors& usual);
 
     /** Whether it needs no comparison with others, and is believed even far from the prediction. */
     [[nodiscard]] static bool isConvincing(const Alignment& alignment, const NoiseFactors& usual);
