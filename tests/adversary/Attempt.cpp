@@ -202,7 +202,7 @@ std::string wrongWithOwnLines(const Attempt& a)
     {
         told.err += line.rfind("pointplane", 0) == 0 ? line + "\n" : "";
     }
-    return wrongWith(told);
+    return wrongWith(told.err.empty() ? a : told);
 }
 
 void Tally::add(const Attempt& attempt, const std::string& wrong, const std::string& name)

@@ -94,7 +94,7 @@ Tally tightLimits(double share)
                                   surroundings.memory < Surroundings{}.memory;
             const bool saidRunFailed = c.program == "lab" && a.code == 1;  // where runs are listed
             const bool ended = a.code == 0 || saidRunFailed;
-            std::string wrong = saidRunFailed ? "" : saysMore ? wrongWithOwnLines(a) : wrongWith(a);
+            std::string wrong = saysMore ? wrongWithOwnLines(a) : wrongWith(a);
             wrong += unless(ended || a.code == 3, "exit code: " + a.err);
             wrong += unless(
                 c.output.empty() || ended == (test::readBytes(out) != "old"), "earlier output");

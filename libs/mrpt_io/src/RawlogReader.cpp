@@ -186,14 +186,17 @@ void RawlogReader::Impl::askMrpt(const std::string& what)
     }
     catch (const std::exception& e)
     {
-        if (!in.problem().empty() || in.end() != GzInput::End::Open)
+        // MRPT reads on behind the end of a whole file, too, where it takes a class for another
+        // version.
+        const bool isWhole = sum() == Sum::Right;
+        if (!isWhole && (!in.problem().empty() || in.end() != GzInput::End::Open))
         {
             endHere(oneLine(e));
             return;
         }
         endHere(
             RawlogEnd::NotSupported,
-            what + (sum() == Sum::Right ? "" : " (or damage: the file has no checksum)"));
+            what + (isWhole ? "" : " (or damage: the file has no checksum)"));
     }
 }
 
