@@ -27,6 +27,7 @@ namespace
         ".png", ".jpg", ".jpeg", ".pgm", ".ppm", ".bmp", ".tif", ".tiff", ".exr"};
     return std::find(known.begin(), known.end(), extension) != known.end();
 }
+
 /** Of a name that is a time since 1970: seconds with a decimal point, or so many digits that they
  * are milli-, micro- or nanoseconds of the years 2001 to 2286. */
 [[nodiscard]] std::optional<double> stampOf(const std::string& name, double number)

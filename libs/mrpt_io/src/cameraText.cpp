@@ -19,6 +19,7 @@ constexpr const char* kMark = "pointplane-camera";
 {
     return InputError("comment '" + std::string(kMark) + "': " + what);
 }
+
 /** Words end at blanks: these are written as %20, like those of addresses. */
 [[nodiscard]] std::string escaped(const std::string& label)
 {
