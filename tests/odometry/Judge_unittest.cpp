@@ -69,6 +69,25 @@ TEST(Judge, fewPointsMayAgreeByChance)
     EXPECT_FALSE(restsOnChance(kCertain, 100, 5)) << "they were searched for where they are";
 }
 
+/** Without depth, no surface can contradict: most points have to agree. */
+TEST(Judge, whereNoSurfaceIsSeenMostPointsHaveToAgree)
+{
+    for (const double sigma : {kCertain, kUncertain})
+    {
+        Alignment a = makeAlignment(sigma);
+        a.agreement = {};
+        a.pointSupport = 5;
+        Judge(OdometryParams{}).judge(a);
+        EXPECT_TRUE(Judge::isConvincing(a, kUsual));
+        EXPECT_FALSE(Judge::restsOnChance(a));
+        a.estimate.numPointInliers = 100;
+        EXPECT_FALSE(Judge::isConvincing(a, kUsual));
+        EXPECT_TRUE(Judge::restsOnChance(a));
+        a.pointSupport = 9;
+        EXPECT_FALSE(Judge::restsOnChance(a)) << "so many do not agree by chance";
+    }
+}
+
 TEST(Judge, planesAreDoubtedWherePointsShouldAgree)
 {
     const auto judged = [](double sigma, int inView, int surfaces)

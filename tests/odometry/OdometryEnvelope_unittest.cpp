@@ -63,6 +63,33 @@ TEST_F(OdometryEnvelope, halfASecondMissing)
     }
 }
 
+/** For two thirds of a second there is no depth. Points go on; frames without depth are no key
+ * frames. */
+TEST_F(OdometryEnvelope, depthIsMissingForTwentyFrames)
+{
+    int numKeyframes = 0;
+    for (int i = 0; i < 45; ++i)
+    {
+        RgbdFrame frame = desk().frame(i);
+        const bool isBlind = i >= 20 && i < 40;
+        if (isBlind)
+        {
+            frame.depth = cv::Mat(frame.depth.size(), CV_32FC1, cv::Scalar(0));
+        }
+        const OdometryResult result = process(i, frame);
+        EXPECT_EQ(result.status, i == 0 ? TrackingStatus::First : TrackingStatus::Tracked)
+            << i << ": " << result.reason;
+        if (i > 0)
+        {
+            EXPECT_LT(
+                test::normalisedError(desk().sequence().trueMotion(i - 1, i), result.increment), 3)
+                << i;
+        }
+        numKeyframes += isBlind && odometry.isKeyframe() ? 1 : 0;
+    }
+    EXPECT_EQ(numKeyframes, 0);
+}
+
 /** A few points on the folds of blank walls agree with a motion along them by chance. */
 TEST(OdometryEnvelopeOfBlankWalls, fewPointsAfterAGapDoNotDecide)
 {
@@ -88,6 +115,7 @@ TEST_F(OdometryEnvelope, blindForASecondAndBackInAKnownPlace)
     {
         RgbdFrame frame = desk().frame(i);
         frame.depth.setTo(std::numeric_limits<float>::quiet_NaN());
+        frame.gray.setTo(0);
         const OdometryResult blind = odometry.process(frame);
         EXPECT_EQ(blind.status, TrackingStatus::Predicted);
         EXPECT_GT(blind.diagnostics.maxSigmaTranslation, 0);

@@ -60,13 +60,21 @@ void expectPredicted(const RgbdFrame& bad)
 }
 }  // namespace
 
+/** The points of the references have depth: the image alone tells the motion. */
 TEST(OdometryFailures, allDepthMissing)
 {
     RgbdFrame frame = good(kBad);
-    frame.depth.setTo(kNaN);
-    expectPredicted(frame);
-    frame.depth.setTo(0);
-    expectPredicted(frame);
+    for (const float none : {kNaN, 0.0F})
+    {
+        frame.depth.setTo(none);
+        const Outcome outcome(frame);
+        EXPECT_EQ(outcome.at.status, TrackingStatus::Tracked) << outcome.at.reason;
+        EXPECT_THAT(
+            outcome.at.pose.mean,
+            test::IsNearPose(
+                CachedSequence::corner().sequence().trueMotion(0, kBad), 0.005, 0.005));
+        expectRecovered(outcome);
+    }
 }
 
 TEST(OdometryFailures, oneValidPixel)
@@ -74,7 +82,18 @@ TEST(OdometryFailures, oneValidPixel)
     RgbdFrame frame = good(kBad);
     frame.depth.setTo(kNaN);
     frame.depth.at<float>(120, 160) = 1.5F;
-    expectPredicted(frame);
+    const Outcome outcome(frame);
+    EXPECT_EQ(outcome.at.status, TrackingStatus::Tracked) << outcome.at.reason;
+    expectRecovered(outcome);
+}
+
+TEST(OdometryFailures, noDepthAndNoPoints)
+{
+    RgbdFrame frame = good(kBad);
+    frame.depth.setTo(kNaN);
+    OdometryParams params;
+    params.pipeline.usePoints = false;
+    EXPECT_EQ(Outcome(frame, params).at.status, TrackingStatus::Predicted);
 }
 
 TEST(OdometryFailures, sequenceThatBeginsWithoutDepth)

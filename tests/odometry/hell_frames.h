@@ -81,6 +81,8 @@ class CheckedOdometry
  public:
     explicit CheckedOdometry(const OdometryParams& params = {}) : odometry_(params) {}
 
+    [[nodiscard]] bool isKeyframe() const { return odometry_.features().isKeyframe; }
+
     OdometryResult process(const RgbdFrame& frame)
     {
         SCOPED_TRACE(testing::Message() << "result number " << numResults_++);

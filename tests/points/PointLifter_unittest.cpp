@@ -63,6 +63,18 @@ TEST(PointLifter, wallByHand)
     }
 }
 
+/** 570.25 px is 1.001 m beside the axis at 2 m. Across the ray, it is as certain as the pixel. */
+TEST(PointLifter, withoutDepthAPointIsAnywhereAlongItsRay)
+{
+    const PointFeature point = PointLifter(DepthNoise{}).onRay(wall(kNan), {570.25, 240}, 2);
+    EXPECT_FALSE(point.hasDepth);
+    EXPECT_THAT(point.p_cam.mean, IsMatrixNear(Eigen::Vector3d(1.001, 0, 2), 1e-12));
+    const Eigen::Vector3d across = Eigen::Vector3d(2, 0, -1.001).normalized();
+    const double sigmaPixel = 2 * DepthNoise{}.sigmaPixelPx / 500;
+    EXPECT_NEAR(std::sqrt(across.dot(point.p_cam.cov * across)), sigmaPixel * across.x(), 1e-9);
+    EXPECT_NEAR(std::sqrt(point.p_cam.cov(2, 2)), 2, 1e-9);
+}
+
 /** [P17 Eq. 1]: "the respective depth pixel value", whatever is beside it. */
 TEST(PointLifter, nearestIsOneReading)
 {

@@ -19,6 +19,7 @@ constexpr int kRuns = 600;
 struct Consistency
 {
     double nees{0};             //!< mean e^T cov^-1 e, of 6
+    double chi2{0};             //!< of the points, per degree of freedom
     double shapeDifference{0};  //!< Frobenius norm of the whitened sample covariance minus I
 };
 
@@ -27,7 +28,8 @@ Consistency consistency(
     const PoseSolver::TParams& params,
     const std::optional<Matrix6d>& priorCov = std::nullopt,
     double noiseScale = 1,
-    const NoiseFactors& noise = {})
+    const NoiseFactors& noise = {},
+    const std::function<void(std::vector<PointPair>&)>& change = {})
 {
     const PoseSolver solver(params);
     Consistency out;
@@ -43,8 +45,14 @@ Consistency consistency(
             prior.mean.T_prev_cur = se3Exp(-xi) * world.T_prev_cur;
             prior.pose = test::inverse(*priorCov);
         }
-        const PoseEstimate e = solver.solve(
-            {world.drawPoints(noiseScale), world.drawPlanes(noiseScale), prior, noise}, prior.mean);
+        PoseProblem problem{
+            world.drawPoints(noiseScale), world.drawPlanes(noiseScale), prior, noise};
+        if (change)
+        {
+            change(problem.points);
+        }
+        const PoseEstimate e = solver.solve(problem, prior.mean);
+        out.chi2 += e.pointChi2PerDof / kRuns;
         errors.push_back(leftError(world.T_prev_cur, e.pose().mean));
         out.nees += test::squaredMahalanobis(errors.back(), e.pose().cov) / kRuns;
         meanCov += e.pose().cov / kRuns;
@@ -76,6 +84,28 @@ TEST(PoseSolverCovariance, ofPoints)
 {
     auto world = makeWorld(31, 40, 0);
     expectConsistent(consistency(world, test::gaussianSolver()));
+}
+
+/** Half of the points have no depth in the current frame. It is guessed, 10 % wrong. */
+TEST(PoseSolverCovariance, ofPointsWithoutDepth)
+{
+    auto world = makeWorld(39, 40, 0);
+    const auto forgetDepth = [&](std::vector<PointPair>& points)
+    {
+        for (size_t i = 0; i < points.size(); i += 2)
+        {
+            PointGaussian& cur = points[i].cur;
+            const double guess = world.sampler().uniform(0.9, 1.1);
+            cur.mean *= guess;
+            cur.cov = guess * guess * cur.cov + cur.mean * cur.mean.transpose();
+            points[i].hasDepth = false;
+        }
+    };
+    const Consistency c =
+        consistency(world, test::gaussianSolver(), std::nullopt, 1, {}, forgetDepth);
+    expectConsistent(c);
+    // 100 residuals of 40 points tell 6 parameters.
+    EXPECT_NEAR(c.chi2, 94.0 / 100, 0.03);
 }
 
 TEST(PoseSolverCovariance, ofPlanes)

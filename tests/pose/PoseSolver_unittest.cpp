@@ -156,8 +156,12 @@ TEST(PoseSolver, gradientOfThePapersCostVanishes)
             const Residual r = pointResidual(pair, e.motion.mean);
             norms.push_back(r.r.dot(weightsOf(r) * r.r));
         }
-        std::vector<double> sorted = norms;  // medianVariance() reorders them
-        const double limit = tukeySigmas * std::max(1.0, std::sqrt(medianVariance(sorted)));
+        std::vector<double> relative;
+        for (const double norm : norms)
+        {
+            relative.push_back(norm / medianChi2(3));
+        }
+        const double limit = tukeySigmas * std::max(1.0, std::sqrt(medianVariance(relative)));
         for (size_t i = 0; i < points.size(); ++i)
         {
             const double u = std::sqrt(norms[i]) / limit;

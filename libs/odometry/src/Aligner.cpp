@@ -177,12 +177,12 @@ Alignment Aligner::attempt(const Scene& scene, const Motion& start, Search searc
         estimate(scene, coarse, out);
     }
     judge_.judge(out);
-    if (params_.fuses() && out.isUnforeseen)
+    settleRivals(scene, out);
+    verify(scene, out);
+    if (params_.fuses() && (out.isUnforeseen || out.agreement.seen() == 0))
     {
         out.pointSupport = solver_.pointSupport(out.problem, out.estimate);
     }
-    settleRivals(scene, out);
-    verify(scene, out);
     return out;
 }
 
@@ -309,7 +309,7 @@ void Aligner::verify(const Scene& scene, Alignment& alignment)
     {
         alignment.numSought +=
             numInView(*reference, scene.current.frame, T_cur_world * reference->T_world_cam);
-        if (alignment.agreement.seen() < Judge::kEnoughSurfaces)
+        if (hasDepth(scene.current.frame) && alignment.agreement.seen() < Judge::kEnoughSurfaces)
         {
             const DepthMotion depth = depthMotion(
                 scene.track, *reference, scene.current.frame, motion, scene.errors.shutter());

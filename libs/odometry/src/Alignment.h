@@ -24,7 +24,7 @@ struct Alignment
     bool isUnforeseen{false};     //!< the prediction does not tell which feature is which
     Agreement agreement;          //!< of the surfaces seen before with this frame's depth image
     int numSought{0};             //!< points of the references that should be in view
-    /** PoseSolver::pointSupport() of an unforeseen motion. */
+    /** PoseSolver::pointSupport() of a motion that is unforeseen or shown by no surface. */
     double pointSupport{std::numeric_limits<double>::infinity()};
     std::string unsettled;  //!< why another motion may be the camera's (RivalMotions), or empty
     bool holds{false};      //!< the estimate is to be believed

@@ -85,9 +85,15 @@ double evidence(const Alignment& alignment, const NoiseFactors& usual)
     return (alignment.holds ? 1 : 0) + (isMotion ? 1 : 0) + surfaces + pointShare(alignment);
 }
 
-/** Whether the prediction tells that a motion is right, or most points in view: those do not agree
- * on a wrong one. */
-bool isConfirmed(const Alignment& a) { return !a.isUnforeseen || pointShare(a) > 0.5; }
+/** Most points in view do not agree on a wrong motion. */
+bool mostPointsAgree(const Alignment& a) { return pointShare(a) > 0.5; }
+
+/** Whether the prediction tells that a motion is right, as far as surfaces can contradict it, or
+ * most points in view. */
+bool isConfirmed(const Alignment& a)
+{
+    return (!a.isUnforeseen && a.agreement.seen() > 0) || mostPointsAgree(a);
+}
 
 /** Whether it rests on planes that may be others: points in view should agree, and do not. */
 bool isOfDoubtfulPlanes(const Alignment& a)
@@ -141,8 +147,9 @@ void Judge::keepBetter(Alignment& best, Alignment other, const NoiseFactors& usu
 bool Judge::isConvincing(const Alignment& a, const NoiseFactors& usual)
 {
     const int worth = a.estimate.numPointInliers + 3 * static_cast<int>(a.problem.planes.size());
-    return a.holds && worth >= kFewPoints && (isConfirmed(a) || a.numSought < kHandful) &&
-           a.agreement.fraction() > kConvincingSurfaces &&
+    const bool isSeen =
+        a.agreement.seen() > 0 ? a.agreement.fraction() > kConvincingSurfaces : mostPointsAgree(a);
+    return a.holds && worth >= kFewPoints && (isConfirmed(a) || a.numSought < kHandful) && isSeen &&
            a.estimate.pointChi2PerDof < kConvincingRise * usual.points &&
            a.estimate.planeChi2PerDof < kConvincingRise * usual.planes;
 }

@@ -188,9 +188,11 @@ void Odometry::Impl::measure(const Features& current, Alignment& alignment, Odom
          current.bend});
     showPairs(alignment.associations, &analysis, shown);
     shown.moving = Aligner::findMoving(frontEnd, current, track, errors, alignment);
+    // Without depth, it shows nothing that others could be compared with.
     const bool isKeyframe =
-        track.needsKeyframe(motion.mean.T_prev_cur, track.overlap(alignment.associations)) ||
-        Judge::needsNewView(alignment, shown.moving.share());
+        hasDepth(current.frame) &&
+        (track.needsKeyframe(motion.mean.T_prev_cur, track.overlap(alignment.associations)) ||
+         Judge::needsNewView(alignment, shown.moving.share()));
     Reference reference = referenceOf(current);
     shown.isKeyframe = isKeyframe;
     if (isKeyframe)

@@ -108,6 +108,7 @@ void PairBuilder::build(
             pair.reference = reference.id;
             pair.inReference = track.ref;
             pair.feature = cellOf(cur.uv_px);
+            pair.hasDepth = cur.hasDepth;
             if (current_.bend > 0)
             {
                 pair.refPatch = patchOf(ref.uv_px, camera);

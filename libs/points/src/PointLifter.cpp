@@ -110,6 +110,17 @@ std::optional<PointFeature> PointLifter::lift(
     return out;
 }
 
+PointFeature PointLifter::onRay(
+    const RgbdFrame& frame, const Eigen::Vector2d& uv_px, double z) const
+{
+    PointFeature out;
+    out.uv_px = uv_px;
+    out.hasDepth = false;
+    out.p_cam = backProject(frame.camera, noise_.sigmaPixelPx, z, uv_px, z);
+    out.theta_m = {0, 0, -1 / z};
+    return out;
+}
+
 LiftedPoints PointLifter::liftAll(
     const RgbdFrame& frame, const std::vector<Eigen::Vector2d>& uv_px) const
 {

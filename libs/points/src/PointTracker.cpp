@@ -33,7 +33,8 @@ struct PointTracker::Search
     PatchSearch ofPatch;
     double radius_px;
     bool isWide;
-    size_t step{1};  //!< every step-th point
+    bool hasDepth{true};  //!< the frame in which points are searched for
+    size_t step{1};       //!< every step-th point
 };
 
 struct PointTracker::Sought
@@ -171,7 +172,9 @@ std::optional<PointTrack> PointTracker::trackOf(
     {
         return {};
     }
-    auto feature = lifter_.lift(frame, Eigen::Vector2f(position.x, position.y).cast<double>());
+    const Eigen::Vector2d uv_px = Eigen::Vector2f(position.x, position.y).cast<double>();
+    auto feature = search.hasDepth ? lifter_.lift(frame, uv_px)
+                                   : lifter_.onRay(frame, uv_px, (T_cur_ref * ref.p_cam.mean).z());
     if (!feature)
     {
         return {};
@@ -196,10 +199,11 @@ std::vector<PointTrack> PointTracker::track(
     {
         return tracks;
     }
-    const Search search = searchFor(
+    Search search = searchFor(
         radiusFactor * params_.searchRadiusFraction * frame.gray.cols,
         radiusFactor > 1,
         reference.points.size());
+    search.hasDepth = hasDepth(frame);
     std::vector<Sought> sought = inView(reference, frame, T_cur_ref, search);
     cv::parallel_for_(
         cv::Range(0, static_cast<int>(sought.size())),

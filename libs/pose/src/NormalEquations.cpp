@@ -155,6 +155,14 @@ double NormalEquations::gain(size_t i) const
     return isPoint(i) ? 1 / noise_.points : solver_.params.alpha / noise_.planes;  // [P17 Eq. 10]
 }
 
+int NormalEquations::dof(size_t i) const { return isPoint(i) ? points_[i].dof() : 3; }
+
+/** Squared norm over the median of those of its kind. */
+double NormalEquations::relativeNorm(size_t i) const
+{
+    return residuals_[i].squaredNorm / medianChi2(dof(i));
+}
+
 void NormalEquations::add(FeatureSum& sum, size_t i) const
 {
     const auto& [residual, W, squaredNorm] = residuals_[i];
@@ -163,7 +171,7 @@ void NormalEquations::add(FeatureSum& sum, size_t i) const
     const double g = gain(i);
     sum.cost += g * cost;
     sum.weightedChi2 += w * squaredNorm;
-    sum.weightSum += w;
+    sum.dof += w * dof(i);
     sum.numInliers += w > 0.5 ? 1 : 0;
     if (w > 0)
     {
@@ -208,7 +216,7 @@ double NormalEquations::robustVariance() const
     for (size_t i = 0; i < points_.size(); ++i)
     {
         const double z = points_[i].cur.mean.z();
-        normsAndSurfaces.emplace_back(residuals_[i].squaredNorm, z * z);
+        normsAndSurfaces.emplace_back(relativeNorm(i), z * z);
     }
     return medianVariance(normsAndSurfaces);
 }
@@ -218,7 +226,7 @@ double NormalEquations::relativeMedian(size_t begin, size_t end) const
     std::vector<double> norms;
     for (size_t i = begin; i < end; ++i)
     {
-        norms.push_back(residuals_[i].squaredNorm);
+        norms.push_back(relativeNorm(i));
     }
     return medianVariance(norms);
 }

@@ -16,7 +16,7 @@ struct FeatureSum
     Matrix12d M{Matrix12d::Zero()};  //!< J^T w^2 W Sigma W J / f, for the sandwich
     Vector12d g{Vector12d::Zero()};  //!< J^T w W r / f
     double cost{0};
-    double weightedChi2{0}, weightSum{0};
+    double weightedChi2{0}, dof{0};  //!< sums over the pairs, by weight
     int numInliers{0};
 };
 
@@ -90,6 +90,8 @@ class NormalEquations
     [[nodiscard]] double gain(size_t i) const;
     [[nodiscard]] bool isPoint(size_t i) const { return i < points_.size(); }
     [[nodiscard]] std::pair<double, double> robust(double squaredNorm, bool isPoint) const;
+    [[nodiscard]] int dof(size_t i) const;
+    [[nodiscard]] double relativeNorm(size_t i) const;
     [[nodiscard]] double robustVariance() const;
     [[nodiscard]] double relativeMedian(size_t begin, size_t end) const;
 

@@ -212,8 +212,8 @@ PoseEstimate PoseSolver::solve(const PoseProblem& problem, const Motion& start) 
     {
         out.infoPlanes /= settings_.params.alpha;
     }
-    out.pointChi2PerDof = p.weightSum > 0 ? p.weightedChi2 / (3 * p.weightSum) : 0;
-    out.planeChi2PerDof = m.weightSum > 0 ? m.weightedChi2 / (3 * m.weightSum) : 0;
+    out.pointChi2PerDof = p.dof > 0 ? p.weightedChi2 / p.dof : 0;
+    out.planeChi2PerDof = m.dof > 0 ? m.weightedChi2 / m.dof : 0;
     out.numPointInliers = p.numInliers;
     out.norms = equations.norms();
     return out;

@@ -20,6 +20,9 @@ namespace
  * nothing. */
 constexpr double kLeastShare = 0.03;
 
+bool hasDepth(const PointPair& pair) { return pair.hasDepth; }
+bool hasDepth(const PlanePair&) { return true; }
+
 /** Feature and index of all pairs, those of the same feature one after the other. */
 template <class Pairs>
 std::vector<std::pair<int, size_t>> sortedByFeature(const Pairs& pairs)
@@ -261,6 +264,7 @@ std::vector<FeatureResidual> SolutionAnalysis::residuals(
         for (auto member = begin; member != it; ++member)
         {
             const auto& pair = pairs[member->second];
+            const double isWhole = hasDepth(pair) ? 1 : 0;
             const Residual& residual = equations_.residual(offset + member->second);
             const Matrix312d J = equations_.jacobian(offset + member->second);
             const Eigen::Matrix3d information = residual.curCov.inverse();
@@ -270,9 +274,9 @@ std::vector<FeatureResidual> SolutionAnalysis::residuals(
                 pair.inReference,
                 residual.R_prev_r * residual.r,
                 propagate(residual.R_prev_r, residual.curCov),
-                1 - 2.0 / 3 * J.cwiseProduct(follows.transpose()).sum(),
-                seen.cwiseProduct(of.points * J.transpose()).sum(),
-                seen.cwiseProduct(of.planes * J.transpose()).sum(),
+                isWhole * (1 - 2.0 / 3 * J.cwiseProduct(follows.transpose()).sum()),
+                isWhole * seen.cwiseProduct(of.points * J.transpose()).sum(),
+                isWhole * seen.cwiseProduct(of.planes * J.transpose()).sum(),
                 equations_.weight(offset + member->second)};
         }
     }

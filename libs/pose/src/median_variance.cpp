@@ -2,24 +2,23 @@
 #include <pointplane/pose/median_variance.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 namespace pointplane
 {
-namespace
-{
-constexpr double kMedianChi2Of3 = 2.366;
-}  // namespace
+double medianChi2(int dof) { return dof == 2 ? 2 * std::log(2.0) : 2.366; }
 
-double medianVariance(std::vector<double>& squaredNorms)
+double medianVariance(std::vector<double>& relativeNorms)
 {
-    if (squaredNorms.empty())
+    if (relativeNorms.empty())
     {
         return 0;
     }
-    const auto middle = squaredNorms.begin() + static_cast<std::ptrdiff_t>(squaredNorms.size() / 2);
-    std::nth_element(squaredNorms.begin(), middle, squaredNorms.end());
-    return *middle / kMedianChi2Of3;
+    const auto middle =
+        relativeNorms.begin() + static_cast<std::ptrdiff_t>(relativeNorms.size() / 2);
+    std::nth_element(relativeNorms.begin(), middle, relativeNorms.end());
+    return *middle;
 }
 
 double medianVariance(std::vector<std::pair<double, double>>& normsAndWeights)
@@ -35,7 +34,7 @@ double medianVariance(std::vector<std::pair<double, double>>& normsAndWeights)
         left -= weight;
         if (left <= 0)
         {
-            return norm / kMedianChi2Of3;
+            return norm;
         }
     }
     return 0;

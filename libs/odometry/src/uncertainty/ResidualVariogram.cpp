@@ -92,7 +92,7 @@ std::optional<double> ResidualVariogram::variogram(const Snapshot& now, const Sn
         const double norm2 = d.dot(cov.inverse() * d);
         if (share >= kLeastOwnShare && std::isfinite(norm2))
         {
-            squared.push_back(norm2);
+            squared.push_back(norm2 / medianChi2(3));
         }
     }
     if (squared.size() < kLeastFeatures)

@@ -69,6 +69,11 @@ class PointLifter
     [[nodiscard]] std::optional<PointFeature> lift(
         const RgbdFrame& frame, const Eigen::Vector2d& uv_px) const;
 
+    /** A point without depth: anywhere along its ray. Its covariance leaves the depth open, so that
+     * it counts across the ray only. \param z guessed depth [m], > 0 */
+    [[nodiscard]] PointFeature onRay(
+        const RgbdFrame& frame, const Eigen::Vector2d& uv_px, double z) const;
+
     /** The points that have usable depth. \param uv_px raw pixels of the colour image */
     [[nodiscard]] LiftedPoints liftAll(
         const RgbdFrame& frame, const std::vector<Eigen::Vector2d>& uv_px) const;

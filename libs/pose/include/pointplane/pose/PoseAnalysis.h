@@ -51,7 +51,9 @@ struct CameraInformation
  * noise explains. If the noise is w_points (w_planes) times the propagated covariance, and w is
  * that of the feature's own kind, then the expectation of r^T curCov^-1 r / 3 is
  *
- *     own * w + ofPoints * w_points + ofPlanes * w_planes */
+ *     own * w + ofPoints * w_points + ofPlanes * w_planes
+ *
+ * All three are zero for a point without depth: it shows a part of the noise only. */
 struct FeatureResidual
 {
     int reference{0}, inReference{-1};                //!< as in the pair

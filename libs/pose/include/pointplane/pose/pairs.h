@@ -45,6 +45,10 @@ struct PointPair
     int inReference{-1};                      //!< which of that frame's points ref is
     int feature{-1};                          //!< pairs of equal ones err together; -1: of its own
     int refPatch{-1}, curPatch{-1};           //!< of their images; -1: depth has no smooth error
+    bool hasDepth{true};                      //!< else cur may be anywhere along its ray
+
+    /** Directions in which the two can disagree. */
+    [[nodiscard]] int dof() const { return hasDepth ? 3 : 2; }
 };
 
 /** The same plane seen twice. */

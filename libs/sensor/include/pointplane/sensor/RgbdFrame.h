@@ -29,4 +29,7 @@ struct RgbdFrame
     PinholeCamera camera;  //!< of both images
     ShutterModel shutter;  //!< as far as the source knows it
 };
+
+/** Whether the depth image has readings: in a hundredth of its pixels at least. */
+[[nodiscard]] bool hasDepth(const RgbdFrame& frame);
 }  // namespace pointplane
