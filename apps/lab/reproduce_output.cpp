@@ -152,7 +152,8 @@ nlohmann::ordered_json toJson(const Reproduction& result)
     for (std::size_t k = 0; k < result.cornerScores.size(); ++k)
     {
         const LabScore& score = result.cornerScores[k];
-        nlohmann::ordered_json run{{"variant", result.cornerVariants[k].name}};
+        const Variant& v = result.cornerVariants[k];
+        nlohmann::ordered_json run{{"variant", v.name}, {"settings", v.settings}};
         if (score.rpe)
         {
             run["translation"] = score.rpe->translation.rmse;
