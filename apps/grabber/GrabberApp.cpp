@@ -13,6 +13,7 @@
 #include "device_list.h"
 #include "number_checks.h"
 #include "run_program.h"
+#include "standard_streams.h"
 #include <CLI/CLI.hpp>
 
 namespace pointplane
@@ -162,7 +163,7 @@ VideoMode parseMode(const std::string& text)
     VideoMode mode;
     int used = 0;
     const int fields =
-        std::sscanf(text.c_str(), "%dx%d@%d%n", &mode.width, &mode.height, &mode.fps, &used);
+        std::sscanf(text.c_str(), "%9dx%9d@%9d%n", &mode.width, &mode.height, &mode.fps, &used);
     if (fields != 3 || static_cast<std::size_t>(used) != text.size() || mode.width <= 0 ||
         mode.height <= 0 || mode.fps <= 0)
     {
@@ -227,6 +228,10 @@ int runGrabber(const std::vector<std::string>& args, std::ostream& out, std::ost
         err,
         [&]
         {
+            if (words.list || options.live)
+            {
+                requireStandardOutput();
+            }
             if (words.list)
             {
                 return listCameras(makeCameraDrivers(options.driver), out, err);
