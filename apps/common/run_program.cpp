@@ -132,22 +132,15 @@ int report(const std::string& program, std::ostream& err)
     {
         return say(e.what(), kExitBadInput);
     }
-    catch (const std::bad_alloc&)
-    {
-        return say("out of memory", kExitEnvironment);
-    }
-    catch (const cv::Exception& e)
-    {
-        return e.code == cv::Error::StsNoMem ? say("out of memory", kExitEnvironment)
-                                             : say(oneLine(e), kExitBadInput);
-    }
     catch (const std::system_error& e)
     {
         return say(e.what(), kExitEnvironment);
     }
     catch (const std::exception& e)
     {
-        return say(oneLine(e), isRefusalOfSystem(e) ? kExitEnvironment : kExitBadInput);
+        return say(
+            oneLine(e),
+            isOutOfMemory(e) || isRefusalOfSystem(e) ? kExitEnvironment : kExitBadInput);
     }
 }
 }  // namespace
