@@ -58,16 +58,14 @@ TEST(ShortMemory, isNoDamageOfARawlog)
         writer.write(*test::sampleScan(1, 2000, 1500));
         writer.close();
     }
-    EXPECT_EQ(
-        withoutMemory(
-            [&]
-            {
-                RawlogReader reader(dir / "in.rawlog");
-                while (reader.next())
-                {
-                }
-            }),
-        kToldTheMachine);
+    RawlogReader reader(dir / "in.rawlog");
+    const auto readAll = [&]
+    {
+        while (reader.next())
+        {
+        }
+    };
+    EXPECT_EQ(withoutMemory(readAll), kToldTheMachine);
 }
 
 TEST(ShortMemory, isNoProblemOfAFrame)
