@@ -4,6 +4,7 @@
 #include <pointplane/mrpt_io/errors.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <ostream>
@@ -34,6 +35,7 @@ struct Words
     std::string mode{"640x480@30"};
     std::string registration{"auto"};
     std::string images{"embedded"};
+    std::string wait{"0"};  // a flag that is a number drops its decimals, and 1e9 is 1
     double splitMinutes{0};
     bool list{false};
 };
@@ -66,9 +68,8 @@ void addCameraOptions(CLI::App& app, GrabberOptions& o, Words& words)
            "--lock-white-balance", o.capture.lockWhiteBalance, "Keep colours after the warm-up")
         ->group(group);
     app.add_flag(
-           "--wait{1e9}",
-           o.waitSeconds,
-           "Wait for a camera to appear (--wait=S: at most S seconds)")
+           "--wait{1e9}", words.wait, "Wait for a camera to appear (--wait=S: at most S seconds)")
+        ->check(isNotNegative().description(""))
         ->group(group);
     app.add_option("--timeout", o.capture.stallTimeout, "Give up a silent camera after [s]")
         ->check(isPositive())
@@ -180,6 +181,7 @@ void understand(const Words& words, GrabberOptions& o)
         {"off", RegistrationChoice::Off}};
     o.camera.mode = parseMode(words.mode);
     o.camera.registration = registrations.at(words.registration);
+    o.waitSeconds = std::strtod(words.wait.c_str(), nullptr);
     o.recording.path = o.output;
     o.recording.splitAfter = 60.0 * words.splitMinutes;
     o.recording.encoding.storage =

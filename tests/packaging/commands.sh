@@ -89,7 +89,7 @@ tum_folder() {
 
 programs() {
     local name
-    prepare pointplane-simulate corner -o in.rawlog --duration 2.5 --size 320x240 --quiet
+    prepare pointplane-simulate corner -o in.rawlog --duration 1.8 --size 320x240 --quiet
     for name in a b; do
         ln -s in.rawlog $name.rawlog
     done
