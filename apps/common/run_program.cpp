@@ -3,15 +3,12 @@
 
 #include <pointplane/mrpt_io/errors.h>
 
-#include <opencv2/core.hpp>
-
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
 #include <iostream>
 #include <memory>
-#include <new>
 #include <system_error>
 #include <vector>
 
