@@ -227,11 +227,6 @@ std::vector<Chart> alphaCharts(const Reproduction& result)
 }
 }  // namespace
 
-double finalError(const Reproduction& result, std::size_t corner)
-{
-    return PosesFromStart(result.cornerTruth, result.cornerScores[corner].estimate).finalError();
-}
-
 std::vector<NamedChart> figuresOf(const Reproduction& result)
 {
     std::vector<NamedChart> out;
