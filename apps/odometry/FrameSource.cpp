@@ -126,9 +126,8 @@ std::vector<std::string> FrameSource::notes() const
     if (isNominal_)
     {
         out.emplace_back(
-            "camera: nominal intrinsics, nobody calibrated it; the covariances take them for 2 % "
-            "off "
-            "(a calibration makes poses better)");
+            "camera: nominal intrinsics, nobody calibrated it; they count as 2 % off at first, and "
+            "are learnt while the camera moves (a calibration makes poses better)");
     }
     if (numReplaced_ > 0)
     {

@@ -86,6 +86,7 @@ void RunSummary::add(const OutputItem& item)
     if (motion.status == TrackingStatus::First || motion.status == TrackingStatus::Tracked)
     {
         sum.depthNoise = d.depthNoise;
+        sum.lens = d.lens;
     }
 }
 
@@ -122,6 +123,10 @@ void RunSummary::print(std::ostream& out, bool profile) const
         out << note << "\n";
     }
     out << "depth noise: " << describe(sum.depthNoise) << "\n";
+    if (const std::string lens = describe(sum.lens); !lens.empty())
+    {
+        out << "lens, learnt from the motion: " << lens << "\n";
+    }
     if (profile)
     {
         std::snprintf(

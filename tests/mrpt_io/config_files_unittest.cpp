@@ -147,6 +147,7 @@ const PapersValue kNamed[] = {
     {"Pose estimation: Sigma = H^-1", "PoseSolver.covariance", "hessian"},
     {"Pose estimation: that of each increment", "Covariance.model", "independent"},
     {"nothing is said of the shutter", "Shutter.correct", "false"},
+    {"nothing is said of the calibration", "Lens.selfCalibrate", "false"},
 };
 INSTANTIATE_TEST_SUITE_P(Paper, PapersConfiguration, testing::ValuesIn(kNamed));
 

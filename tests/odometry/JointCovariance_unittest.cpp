@@ -215,7 +215,7 @@ TEST(JointCovariance, errorsOfTheCameraAreTheSameInAllFrames)
     JointCovariance::TParams params;
     params.history = 30;
     CameraVector sigmas;
-    sigmas << 0.5, 2, 2, 3, 0, 0, 0, 0;
+    sigmas << 0.5, 2, 2, 3, 0, 0, 0, 0, 0;
     JointCovariance joint(params);
     joint.start(1, Matrix6d::Zero());
     joint.changeCamera(sigmas.cwiseAbs2().asDiagonal());

@@ -27,15 +27,16 @@ PinholeCamera camera(double fy = 480)
 /** The k-th error as it changes a calibration. */
 PinholeCamera changed(PinholeCamera c, int k, double by)
 {
-    c.cx += k == 1 ? by : 0;
-    c.cy += k == 2 ? by : 0;
-    c.fx *= k == 3 ? 1 + by : 1;
-    c.fy *= k == 3 ? 1 + by : 1;
+    c.cx += k == kPrincipalPointX ? by : 0;
+    c.cy += k == kPrincipalPointY ? by : 0;
+    c.fx *= k == kFocalLength ? 1 + by : 1;
+    c.fy *= k == kFocalLength ? 1 + by : 1;
+    c.distortion[0] += k == kRadial ? by : 0;
     return c;
 }
 
 /** Of all depths, changed by the k-th error. */
-double scale(int k, double by) { return k == 4 ? 1 + by : 1; }
+double scale(int k, double by) { return k == kDepthScale ? 1 + by : 1; }
 
 Eigen::Vector3d lifted(const PinholeCamera& c, const Eigen::Vector2d& uv_px, double z)
 {
@@ -63,7 +64,7 @@ ByCamera differences(F&& of)
 {
     constexpr double kStep = 1e-4;
     ByCamera out = ByCamera::Zero();
-    for (int k = 1; k < kFirstShutterError; ++k)
+    for (int k = 1; k < kReadoutColour; ++k)
     {
         out.col(k) = (of(k, kStep) - of(k, -kStep)) / (2 * kStep);
     }
@@ -79,7 +80,10 @@ TEST(cameraErrors, ofAPointByHand)
     EXPECT_NEAR(J(1, 2), -2.0 / 480, 1e-12);
     EXPECT_NEAR(J(0, 3), -0.5, 1e-12);
     EXPECT_NEAR(J(1, 3), 0.25, 1e-12);
-    EXPECT_THAT(J.col(4), test::IsMatrixNear(Eigen::Vector3d(0.5, -0.25, 2), 1e-12));
+    // Half a metre to the right and a quarter up, at 2 m: r^2 = 5/64.
+    EXPECT_NEAR(J(0, kRadial), -0.5 * 5 / 64, 1e-12);
+    EXPECT_NEAR(J(1, kRadial), 0.25 * 5 / 64, 1e-12);
+    EXPECT_THAT(J.col(kDepthScale), test::IsMatrixNear(Eigen::Vector3d(0.5, -0.25, 2), 1e-12));
 }
 
 TEST(cameraErrors, beforeTheFirstFrame)
@@ -92,7 +96,7 @@ TEST(cameraErrors, beforeTheFirstFrame)
     ShutterCalibrator::TParams shutter;
     shutter.sigmaPrior = 0.02;
     CameraVector variances;
-    variances << 0.01, 4, 4, 9e-6, 2.5e-5, 4e-4, 4e-4, 4e-4;
+    variances << 0.01, 4, 4, 9e-6, 0, 2.5e-5, 4e-4, 4e-4, 4e-4;
     EXPECT_THAT(
         cameraCovariance(calibration, shutter, camera()),
         test::IsMatrixNear(CameraMatrix(variances.asDiagonal()), 1e-12));
@@ -122,6 +126,24 @@ TEST(cameraErrors, nominalIntrinsicsAreThoseOfAModelOfCamera)
     EXPECT_NEAR(sigma(3), 0.1, 1e-12);
 }
 
+/** A lens is as little known as depth is bent, and much less if nobody calibrated it. */
+TEST(cameraErrors, whatIsToBeLearntOfALens)
+{
+    PinholeCamera c = camera();
+    c.fx = c.fy = 500;
+    EXPECT_EQ(lensVariances(c, 0), LensVector::Zero().eval());
+    const double squaredRadius = (1.28 * 1.28 + 0.96 * 0.96) / 12;
+    const double bent = 0.005 / squaredRadius;
+    EXPECT_THAT(
+        lensVariances(c, 0.005), test::IsMatrixNear(LensVector(0, 0, 0, bent * bent), 1e-12));
+    c.isNominal = true;
+    const double unknown = 0.02 / squaredRadius;
+    EXPECT_THAT(
+        lensVariances(c, 0.005),
+        test::IsMatrixNear(LensVector(12.8 * 12.8, 12.8 * 12.8, 4e-4, unknown * unknown), 1e-9));
+    EXPECT_NEAR(cameraCovariance({}, {}, c)(kRadial, kRadial), unknown * unknown, 1e-12);
+}
+
 TEST(cameraErrors, asCalibrationsChange)
 {
     for (const double fy : {480.0, -480.0})  // negative: the image's y axis points up
@@ -136,7 +158,10 @@ TEST(cameraErrors, asCalibrationsChange)
         const Eigen::Vector3d theta_m(0.2, -0.4, 0.6);
         const ByCamera plane = differences(
             [&](int k, double by)
-            { return Eigen::Vector3d(fitted(changed(c, k, by), c, theta_m) / scale(k, by)); });
+            {
+                by = k == kRadial ? 0 : by;  // it bends planes, which is not modelled
+                return Eigen::Vector3d(fitted(changed(c, k, by), c, theta_m) / scale(k, by));
+            });
         EXPECT_THAT(planeByCamera(theta_m, c), test::IsMatrixNear(plane, 1e-6));
     }
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/core/covariance.h>
+#include <pointplane/core/se3.h>
 #include <pointplane/pose/PoseSolver.h>
 
 #include <Eigen/Cholesky>
@@ -330,6 +331,38 @@ TEST(Sensitivity, theCameraIsToldByTheResiduals)
     const CameraVector found = camera.information.ldlt().solve(camera.gradient);
     EXPECT_THAT(found, test::IsMatrixNear(errors, 3e-4));
     EXPECT_GT(errors.norm(), 0.01);
+}
+
+/** Each reference has a pose that errs in its own way. Together they say nothing right of the
+ * camera; each with a motion of its own does. */
+TEST(Sensitivity, theCameraIsToldByReferencesThatAreWrong)
+{
+    PoseProblem problem = makeProblem(91);
+    test::GaussianSampler sampler(92);
+    const CameraVector errors = 0.01 * sampler.vector<kNumCameraErrors>();
+    const Eigen::Isometry3d wrong = se3Exp(0.01 * sampler.vector<6>());
+    const auto random = [&] {
+        return ByCamera(
+            0.02 * sampler.vector<3>() * sampler.vector<kNumCameraErrors>().transpose());
+    };
+    problem.planes.clear();
+    for (PointPair& pair : problem.points)
+    {
+        pair.dCur_dV.setZero();
+        pair.dRef_dCamera = random();
+        pair.dCur_dCamera = random();
+        pair.ref.mean += pair.dRef_dCamera * errors;
+        pair.cur.mean += pair.dCur_dCamera * errors;
+        if (pair.reference == 2)
+        {
+            pair.ref.mean = wrong * pair.ref.mean;
+        }
+    }
+    const PoseAnalysis analysis = solve(problem).analysis;
+    const auto found = [](const CameraInformation& camera) -> CameraVector
+    { return camera.information.ldlt().solve(camera.gradient); };
+    EXPECT_THAT(found(analysis.cameraByReference), test::IsMatrixNear(errors, 5e-4));
+    EXPECT_GT((found(analysis.camera) - errors).norm(), 0.01);
 }
 
 /** All that the estimate depends on moves: so does the estimate. */

@@ -119,7 +119,12 @@ Alignment Aligner::align(
     const Stopwatch watch;
     const Prediction predicted = track.prediction(current.frame.stamp);
     const Scene scene{
-        frontEnd, current, track, errors, predicted, PairBuilder(track.previous(), current)};
+        frontEnd,
+        current,
+        track,
+        errors,
+        predicted,
+        PairBuilder(track.previous(), current, errors.lens().errors(current.frame.camera))};
     // [P17, section Matching] capitalises on small motion.
     const Eigen::Isometry3d expected =
         searchesAhead_ ? predicted.pose.mean : Eigen::Isometry3d::Identity();

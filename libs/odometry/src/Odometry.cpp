@@ -72,6 +72,7 @@ OdometryResult Odometry::Impl::process(const RgbdFrame& frame)
         result.diagnostics.maxSigmaRotation = sigma.tail<3>().maxCoeff();
     }
     count(shown, result.diagnostics);
+    result.diagnostics.lens = errors.lens().learnt(frame.camera);
     result.diagnostics.msTotal = total.ms();
     return result;
 }
@@ -88,6 +89,7 @@ void Odometry::Impl::place(const RgbdFrame& frame, OdometryResult& result)
         return lose(frame.stamp, "its time stamp is not after the previous frame's", result);
     }
     RgbdFrame own = frame;
+    own.camera.isNominal = own.camera.isNominal || params.lens.nominal;
     if (!images.renew(own) && !track.isEmpty())
     {
         // Nothing was measured: the camera, or what carries its images, has stopped.
@@ -167,10 +169,10 @@ void Odometry::Impl::measure(const Features& current, Alignment& alignment, Odom
     const double dt = alignment.predicted.dt;
     const MotionGaussian& motion = alignment.estimate.motion;
     PairBuilder(track.previous(), current)
-        .addShutterErrors(
+        .addCameraErrors(
             alignment.associations,
             errors.shutter(),
-            motion.mean.velocity,
+            motion.mean,
             alignment.problem.points,
             alignment.problem.planes);
     const PoseAnalysis analysis = aligner.analyse(alignment);
@@ -182,6 +184,7 @@ void Odometry::Impl::measure(const Features& current, Alignment& alignment, Odom
          track.motionNoise(dt),
          track.acceleration2(),
          errors.shutter().complete(current.frame.shutter),
+         current.frame.camera,
          current.bend});
     showPairs(alignment.associations, &analysis, shown);
     shown.moving = Aligner::findMoving(frontEnd, current, track, errors, alignment);

@@ -6,6 +6,8 @@
 #include <pointplane/odometry/uncertainty/camera_errors.h>
 #include <pointplane/pose/residuals.h>
 
+#include <Eigen/Cholesky>
+
 #include <algorithm>
 #include <cmath>
 
@@ -34,6 +36,19 @@ int patchOf(const Eigen::Vector2d& uv_px, const PinholeCamera& camera)
     };
     return kPatchesPerSide * part(uv_px.y(), camera.height) + part(uv_px.x(), camera.width);
 }
+/** A pair of points as both views together put it: its noise has nothing to do with the residual.
+ * With the measured ones, a camera that shrinks all residuals would seem right. */
+struct FusedPoint
+{
+    FusedPoint(const PointPair& pair, const Motion& motion)
+    {
+        const Residual residual = pointResidual(pair, motion);
+        const Eigen::Vector3d share = residual.cov.ldlt().solve(residual.r);
+        inPrevious = pair.ref.mean - pair.ref.cov * share;
+        inCurrent = pair.cur.mean + pair.cur.cov * motion.T_prev_cur.linear().transpose() * share;
+    }
+    Eigen::Vector3d inPrevious, inCurrent;
+};
 }  // namespace
 
 void PairBuilder::build(
@@ -45,6 +60,14 @@ void PairBuilder::build(
     points.clear();
     planes.clear();
     const PinholeCamera& camera = current_.frame.camera;
+    const bool isCorrected = !camera_.isZero(0);
+    const auto correct = [&](Eigen::Vector3d& feature, auto byCamera)
+    {
+        if (isCorrected)
+        {
+            feature += byCamera(feature, camera) * camera_;
+        }
+    };
     const ShutterCorrection current(shutter.complete(current_.frame.shutter), camera.height);
     for (const Association& association : associations)
     {
@@ -58,30 +81,30 @@ void PairBuilder::build(
             const PlaneFeature& cur = current_.planes.planes[static_cast<size_t>(match.cur)];
             PlaneGaussian past_ref = ref.plane_cam;
             past_ref.theta_m += past.planeJacobian(ref) * reference.velocity;
-            planes.push_back(
-                {transformed(T_prev_ref, past_ref),
-                 cur.plane_cam,
-                 current.planeJacobian(cur),
-                 transformJacobian(T_prev_ref, past_ref.theta_m) *
-                     planeByCamera(past_ref.theta_m, camera),
-                 planeByCamera(cur.plane_cam.theta_m, camera),
-                 reference.id,
-                 match.ref,
-                 match.cur});
+            correct(past_ref.theta_m, planeByCamera);
+            PlanePair pair;
+            pair.ref = transformed(T_prev_ref, past_ref);
+            pair.cur = cur.plane_cam;
+            correct(pair.cur.theta_m, planeByCamera);
+            pair.dCur_dV = current.planeJacobian(cur);
+            pair.reference = reference.id;
+            pair.inReference = match.ref;
+            pair.feature = match.cur;
+            planes.push_back(pair);
         }
         for (const PointTrack& track : association.points)
         {
             const PointFeature& ref = reference.points.points[static_cast<size_t>(track.ref)];
             const PointFeature& cur = track.cur;
             PointPair pair;
-            pair.ref.mean =
-                T_prev_ref * (ref.p_cam.mean + past.pointJacobian(ref) * reference.velocity);
+            Eigen::Vector3d past_ref =
+                ref.p_cam.mean + past.pointJacobian(ref) * reference.velocity;
+            correct(past_ref, pointByCamera);
+            pair.ref.mean = T_prev_ref * past_ref;
             pair.ref.cov = propagate(T_prev_ref.linear(), ref.p_cam.cov);
             pair.cur = cur.p_cam;
+            correct(pair.cur.mean, pointByCamera);
             pair.dCur_dV = current.pointJacobian(cur);
-            pair.dRef_dCamera = T_prev_ref.linear() * pointByCamera(ref.p_cam.mean, camera);
-            pair.dCur_dCamera = pointByCamera(cur.p_cam.mean, camera);
-            pair.dCur_dCamera.col(0) = cur.ofVignetting_m;
             pair.reference = reference.id;
             pair.inReference = track.ref;
             pair.feature = cellOf(cur.uv_px);
@@ -95,44 +118,51 @@ void PairBuilder::build(
     }
 }
 
-void PairBuilder::addShutterErrors(
+void PairBuilder::addCameraErrors(
     const std::vector<Association>& associations,
     const ShutterCalibrator& shutter,
-    const Vector6d& velocity,
+    const Motion& motion,
     std::vector<PointPair>& points,
     std::vector<PlanePair>& planes) const
 {
-    const int height = current_.frame.camera.height;
-    const ShutterCorrection current(shutter.complete(current_.frame.shutter), height);
+    const PinholeCamera& camera = current_.frame.camera;
+    const ShutterCorrection current(shutter.complete(current_.frame.shutter), camera.height);
     const Eigen::Matrix3d ofCurrent = shutter.estimated(current_.frame.shutter).asDiagonal();
     auto point = points.begin();
     auto plane = planes.begin();
     for (const Association& association : associations)
     {
         const Reference& reference = *association.reference;
-        const ShutterCorrection past(shutter.complete(reference.shutter), height);
+        const ShutterCorrection past(shutter.complete(reference.shutter), camera.height);
         const Eigen::Matrix3d ofReference = shutter.estimated(reference.shutter).asDiagonal();
         const Eigen::Isometry3d T_prev_ref =
             previous_.T_world_cam.inverse() * reference.T_world_cam;
+        const Eigen::Isometry3d T_ref_prev = T_prev_ref.inverse();
         for (const PlaneMatch& match : association.planes)
         {
             const PlaneFeature& ref = reference.planes.planes[static_cast<size_t>(match.ref)];
             const PlaneFeature& cur = current_.planes.planes[static_cast<size_t>(match.cur)];
             const Eigen::Vector3d theta_m =
                 ref.plane_cam.theta_m + past.planeJacobian(ref) * reference.velocity;
-            plane->dRef_dCamera.rightCols<3>() = transformJacobian(T_prev_ref, theta_m) *
-                                                 past.planeByShutter(ref, reference.velocity) *
-                                                 ofReference;
-            plane->dCur_dCamera.rightCols<3>() = current.planeByShutter(cur, velocity) * ofCurrent;
+            ByCamera ofRef = planeByCamera(theta_m, camera);
+            ofRef.rightCols<3>() = past.planeByShutter(ref, reference.velocity) * ofReference;
+            plane->dRef_dCamera = transformJacobian(T_prev_ref, theta_m) * ofRef;
+            plane->dCur_dCamera = planeByCamera(cur.plane_cam.theta_m, camera);
+            plane->dCur_dCamera.rightCols<3>() =
+                current.planeByShutter(cur, motion.velocity) * ofCurrent;
             ++plane;
         }
         for (const PointTrack& track : association.points)
         {
             const PointFeature& ref = reference.points.points[static_cast<size_t>(track.ref)];
-            point->dRef_dCamera.rightCols<3>() =
-                T_prev_ref.linear() * past.pointByShutter(ref, reference.velocity) * ofReference;
+            const FusedPoint fused(*point, motion);
+            ByCamera ofRef = pointByCamera(T_ref_prev * fused.inPrevious, camera);
+            ofRef.rightCols<3>() = past.pointByShutter(ref, reference.velocity) * ofReference;
+            point->dRef_dCamera = T_prev_ref.linear() * ofRef;
+            point->dCur_dCamera = pointByCamera(fused.inCurrent, camera);
+            point->dCur_dCamera.col(kVignetting) = track.cur.ofVignetting_m;
             point->dCur_dCamera.rightCols<3>() =
-                current.pointByShutter(track.cur, velocity) * ofCurrent;
+                current.pointByShutter(track.cur, motion.velocity) * ofCurrent;
             ++point;
         }
     }

@@ -82,19 +82,24 @@ NormalEquations::CameraColumns NormalEquations::cameraColumns() const
     CameraColumns out;
     for (size_t i = 0; i < residuals_.size(); ++i)
     {
-        const auto& [residual, W, squaredNorm] = residuals_[i];
-        const double w = robust(squaredNorm, isPoint(i)).first;
-        if (w > 0)
-        {
-            const ByCamera& K = residual.ofCamera;
-            const ByCamera weighted = gain(i) * w * W * K;
-            out.H.topRows<6>() += residual.J.transpose() * weighted;
-            out.H.bottomRows<6>() += residual.J_V.transpose() * weighted;
-            out.own.information += K.transpose().lazyProduct(weighted);
-            out.own.gradient += weighted.transpose() * residual.r;
-        }
+        addCamera(out, i);
     }
     return out;
+}
+
+void NormalEquations::addCamera(CameraColumns& columns, size_t i) const
+{
+    const auto& [residual, W, squaredNorm] = residuals_[i];
+    const double w = robust(squaredNorm, isPoint(i)).first;
+    if (w > 0)
+    {
+        const ByCamera& K = residual.ofCamera;
+        const ByCamera weighted = gain(i) * w * W * K;
+        columns.H.topRows<6>() += residual.J.transpose() * weighted;
+        columns.H.bottomRows<6>() += residual.J_V.transpose() * weighted;
+        columns.own.information += K.transpose().lazyProduct(weighted);
+        columns.own.gradient += weighted.transpose() * residual.r;
+    }
 }
 
 NormalEquations::Weighted NormalEquations::weighted(size_t i, const Motion& motion) const

@@ -74,6 +74,9 @@ class NormalEquations
     };
     [[nodiscard]] CameraColumns cameraColumns() const;
 
+    /** Adds those of one residual. */
+    void addCamera(CameraColumns& columns, size_t i) const;
+
  private:
     /** A residual, the weight matrix that it is given, and its squared norm by that. */
     struct Weighted

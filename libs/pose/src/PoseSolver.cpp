@@ -247,6 +247,7 @@ PoseAnalysis PoseSolver::analyse(const PoseProblem& problem, const PoseEstimate&
     out.sensitivity.camera = -at.H_inverse * camera.H;
     out.camera = camera.own;  // at the solution, the gradient of the motion is zero
     out.camera.information += camera.H.transpose() * out.sensitivity.camera;
+    out.cameraByReference = analysis.cameraByReference();
     out.pointVariance = equations.pointVariance();
     out.planeVariance = equations.planeVariance();
     if (analysis.numGroups() > 1)

@@ -6,6 +6,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <Eigen/QR>
 
 #include <algorithm>
 #include <limits>
@@ -155,6 +156,42 @@ Disagreement SolutionAnalysis::disagreementOf(const Groups& groups, const Matrix
         out.observed += gradient.dot(known.solve(gradient));
         out.expected += known.solve(Matrix6d(covOfGradient.topLeftCorner<6, 6>())).trace();
     }
+    return out;
+}
+
+CameraInformation SolutionAnalysis::cameraByReference() const
+{
+    struct Group
+    {
+        FeatureSum motion;
+        NormalEquations::CameraColumns camera;
+    };
+    std::map<int, Group> groups;
+    const auto add = [&](const auto& pairs, size_t offset)
+    {
+        for (size_t i = 0; i < pairs.size(); ++i)
+        {
+            Group& group = groups[pairs[i].reference];
+            equations_.add(group.motion, offset + i);
+            equations_.addCamera(group.camera, offset + i);
+        }
+    };
+    add(problem_.points, 0);
+    add(problem_.planes, problem_.points.size());
+    CameraInformation out;
+    for (const auto& [reference, group] : groups)
+    {
+        // Of some directions, a reference may tell nothing.
+        const Matrix6d H = group.motion.H.topLeftCorner<6, 6>();
+        const Eigen::Matrix<double, 6, kNumCameraErrors> ofCamera = group.camera.H.topRows<6>();
+        const Eigen::Matrix<double, 6, kNumCameraErrors> follows =
+            H.completeOrthogonalDecomposition().solve(ofCamera);
+        out.information += group.camera.own.information - ofCamera.transpose() * follows;
+        out.gradient += group.camera.own.gradient - follows.transpose() * group.motion.g.head<6>();
+    }
+    const double numReferences = std::max(1.0, static_cast<double>(groups.size()));
+    out.information /= numReferences;
+    out.gradient /= numReferences;
     return out;
 }
 

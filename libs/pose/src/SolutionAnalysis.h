@@ -33,6 +33,9 @@ class SolutionAnalysis
     [[nodiscard]] Disagreement pointDisagreement(const Matrix12d& cov) const;
     [[nodiscard]] Disagreement planeDisagreement(const Matrix12d& cov) const;
 
+    /** See PoseAnalysis. */
+    [[nodiscard]] CameraInformation cameraByReference() const;
+
     /** See PoseSolver. */
     [[nodiscard]] double pointSupport() const;
 

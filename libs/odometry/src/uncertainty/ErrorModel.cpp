@@ -61,7 +61,8 @@ ErrorModel::ErrorModel(const OdometryParams& params)
       fuses_(params.pipeline.fuses()),
       noise_(params.noiseScale),
       variogram_(params.noiseScale.timeConstant),
-      shutter_(params.shutter)
+      shutter_(params.shutter),
+      lens_(params.lens)
 {
 }
 
@@ -83,6 +84,11 @@ JointCovariance::Measurement ErrorModel::learn(const Measured& frame)
         shutter_.update(frame.analysis.camera, noise_.overCautious());
     out.cameraGain.bottomRightCorner<3, 3>() = shutter.gain;
     out.cameraNoise.bottomRightCorner<3, 3>() = shutter.noise;
+    const LensCalibrator::Change lens = lens_.update(
+        frame.analysis.cameraByReference, frame.camera, frame.bend, noise_.overCautious());
+    constexpr int first = kPrincipalPointX, size = kNumLensErrors;
+    out.cameraGain.block<size, size>(first, first) = lens.gain;
+    out.cameraNoise.block<size, size>(first, first) = lens.noise;
     return out;
 }
 

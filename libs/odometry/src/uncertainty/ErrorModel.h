@@ -4,6 +4,7 @@
 #include <pointplane/odometry/OdometryParams.h>
 #include <pointplane/odometry/Reference.h>
 #include <pointplane/odometry/uncertainty/JointCovariance.h>
+#include <pointplane/odometry/uncertainty/LensCalibrator.h>
 #include <pointplane/odometry/uncertainty/NoiseScale.h>
 #include <pointplane/odometry/uncertainty/ResidualVariogram.h>
 #include <pointplane/odometry/uncertainty/ShutterCalibrator.h>
@@ -29,8 +30,9 @@ namespace pointplane
  * - Predicted motion: the previous pose and velocity, and white acceleration: MotionModel, which
  *   Track owns.
  * - k: errors of the camera that all frames share: vignetting, principal point, focal length,
- *   scale of depth, and the shutter. All are considered, the shutter's are learnt: camera_errors,
- *   ShutterCalibrator.
+ *   radial distortion, scale of depth, and the shutter. All are considered: camera_errors. The
+ *   shutter's are learnt, and those of a lens that nobody calibrated: ShutterCalibrator,
+ *   LensCalibrator.
  * - e: noise of the frame's own points and planes, learnt from how residuals change from frame to
  *   frame: ResidualVariogram. And acceleration while the images are exposed: exposure_errors.
  *
@@ -48,6 +50,7 @@ class ErrorModel
     [[nodiscard]] NoiseFactors usual() const { return noise_.residuals(); }
 
     [[nodiscard]] const ShutterCalibrator& shutter() const { return shutter_; }
+    [[nodiscard]] const LensCalibrator& lens() const { return lens_; }
 
     /** A measured frame. */
     struct Measured
@@ -59,7 +62,8 @@ class ErrorModel
         Matrix12d motionNoise;  //!< of its prediction, by what the motion model adds in dt
         Vector6d acceleration2{Vector6d::Zero()};  //!< MotionModel::acceleration2()
         ShutterModel shutter{0, 0, 0};             //!< ShutterCalibrator::complete()
-        double bend{0};                            //!< DepthNoise::sigmaRelative
+        PinholeCamera camera;
+        double bend{0};  //!< DepthNoise::sigmaRelative
     };
 
     /** Learns from the frame. \return what its estimate's errors come from */
@@ -77,5 +81,6 @@ class ErrorModel
     NoiseScale noise_;
     ResidualVariogram variogram_;
     ShutterCalibrator shutter_;
+    LensCalibrator lens_;
 };
 }  // namespace pointplane

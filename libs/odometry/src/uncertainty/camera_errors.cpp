@@ -10,7 +10,28 @@ namespace
 /** What cameras of one model differ by, where nobody calibrated this one: focal length, and the
  * principal point over the width of the image. */
 constexpr double kNominal = 0.02;
+
+/** Mean squared distance of the image's pixels from its centre, over the focal length: of the
+ * normalised radius. */
+double meanSquaredRadius(const PinholeCamera& camera)
+{
+    const double width = camera.width / camera.fx, height = camera.height / camera.fy;
+    return (width * width + height * height) / 12;
+}
 }  // namespace
+
+LensVector lensVariances(const PinholeCamera& camera, double bend)
+{
+    // A lens that turns rays by the part e of their angle has k1 r^2 = e.
+    const double radial = bend / meanSquaredRadius(camera);
+    LensVector sigmas(0, 0, 0, radial);
+    if (camera.isNominal)
+    {
+        const double centre = kNominal * camera.width;
+        sigmas = {centre, centre, kNominal, std::max(bend, kNominal) / meanSquaredRadius(camera)};
+    }
+    return sigmas.cwiseAbs2();
+}
 
 CameraMatrix cameraCovariance(
     const JointCovariance::TParams& calibration,
@@ -18,35 +39,35 @@ CameraMatrix cameraCovariance(
     const PinholeCamera& camera)
 {
     const double time = shutter.correct && shutter.selfCalibrate ? shutter.sigmaPrior : 0;
-    double centre = calibration.principalPoint, focalLength = calibration.focalLength;
-    if (camera.isNominal)
-    {
-        centre = std::max(centre, kNominal * camera.width);
-        focalLength = std::max(focalLength, kNominal);
-    }
     CameraVector sigmas;
-    sigmas << calibration.vignetting, centre, centre, focalLength, calibration.depthScale, time,
-        time, time;
-    return sigmas.cwiseAbs2().asDiagonal();
+    sigmas << calibration.vignetting, calibration.principalPoint, calibration.principalPoint,
+        calibration.focalLength, 0, calibration.depthScale, time, time, time;
+    CameraVector variances = sigmas.cwiseAbs2();
+    auto ofLens = variances.segment<kNumLensErrors>(kPrincipalPointX);
+    ofLens = ofLens.cwiseMax(lensVariances(camera, 0)).eval();
+    return variances.asDiagonal();
 }
 
 ByCamera pointByCamera(const Eigen::Vector3d& p_cam, const PinholeCamera& camera)
 {
+    const double z = p_cam.z(), squaredRadius = p_cam.head<2>().squaredNorm() / (z * z);
+    const Eigen::Vector3d inwards(-p_cam.x(), -p_cam.y(), 0);
     ByCamera out = ByCamera::Zero();
-    out.leftCols<kFirstShutterError>() << Eigen::Vector3d::Zero(),
-        Eigen::Vector3d(-p_cam.z() / camera.fx, 0, 0),
-        Eigen::Vector3d(0, -p_cam.z() / camera.fy, 0), Eigen::Vector3d(-p_cam.x(), -p_cam.y(), 0),
-        p_cam;
+    out.col(kPrincipalPointX) << -z / camera.fx, 0, 0;
+    out.col(kPrincipalPointY) << 0, -z / camera.fy, 0;
+    out.col(kFocalLength) = inwards;
+    out.col(kRadial) = squaredRadius * inwards;
+    out.col(kDepthScale) = p_cam;
     return out;
 }
 
 ByCamera planeByCamera(const Eigen::Vector3d& theta_m, const PinholeCamera& camera)
 {
     ByCamera out = ByCamera::Zero();
-    out.leftCols<kFirstShutterError>() << Eigen::Vector3d::Zero(),
-        Eigen::Vector3d(0, 0, theta_m.x() / camera.fx),
-        Eigen::Vector3d(0, 0, theta_m.y() / camera.fy),
-        Eigen::Vector3d(theta_m.x(), theta_m.y(), 0), -theta_m;
+    out.col(kPrincipalPointX) << 0, 0, theta_m.x() / camera.fx;
+    out.col(kPrincipalPointY) << 0, 0, theta_m.y() / camera.fy;
+    out.col(kFocalLength) << theta_m.x(), theta_m.y(), 0;
+    out.col(kDepthScale) = -theta_m;
     return out;
 }
 }  // namespace pointplane

@@ -5,6 +5,7 @@
 #include <pointplane/odometry/PointStage.h>
 #include <pointplane/odometry/ReferenceWindow.h>
 #include <pointplane/odometry/uncertainty/JointCovariance.h>
+#include <pointplane/odometry/uncertainty/LensCalibrator.h>
 #include <pointplane/odometry/uncertainty/MotionModel.h>
 #include <pointplane/odometry/uncertainty/NoiseScale.h>
 #include <pointplane/odometry/uncertainty/ShutterCalibrator.h>
@@ -78,6 +79,7 @@ struct OdometryParams
     PipelineParams pipeline;
     DepthNoise depthNoise;
     ShutterCalibrator::TParams shutter;
+    LensCalibrator::TParams lens;
     PointStage::TParams points;
     PointTracker::TParams pointTracker;
     PointDetector::TParams pointDetector;
@@ -102,6 +104,7 @@ struct OdometryParams
         f("Pipeline", pipeline);
         f("DepthNoise", depthNoise);
         f("Shutter", shutter);
+        f("Lens", lens);
         f("Points", points);
         f("Reference", reference);
         f("Covariance", covariance);

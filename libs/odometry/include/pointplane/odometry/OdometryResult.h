@@ -23,6 +23,18 @@ enum class TrackingStatus
 /** "first", "tracked", "predicted" or "lost". */
 [[nodiscard]] const char* toString(TrackingStatus status);
 
+/** What the camera's motion has told of a lens that nobody calibrated. */
+struct LearntLens
+{
+    /** What the true calibration has more than the given one: principal point x, y [px], focal
+     * length [relative], radial distortion k1. */
+    Eigen::Vector4d errors{0, 0, 0, 0};
+    Eigen::Vector4d sigmas{0, 0, 0, 0};  //!< their standard deviations; 0: not learnt
+};
+
+/** One line for users; empty if nothing is learnt. */
+[[nodiscard]] std::string describe(const LearntLens& lens);
+
 /** What happened inside one frame. */
 struct FrameDiagnostics
 {
@@ -43,6 +55,7 @@ struct FrameDiagnostics
     double maxSigmaTranslation{0};  //!< largest standard deviation of the increment [m]
     double maxSigmaRotation{0};     //!< [rad]
     DepthNoise depthNoise;          //!< of the camera, as learnt so far
+    LearntLens lens;                //!< likewise
     double msPoints{0}, msPlanes{0}, msMatching{0}, msPose{0}, msTotal{0};  //!< wall time [ms]
 };
 

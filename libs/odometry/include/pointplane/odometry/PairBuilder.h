@@ -3,6 +3,7 @@
 
 #include <pointplane/odometry/Features.h>
 #include <pointplane/odometry/Reference.h>
+#include <pointplane/pose/MotionGaussian.h>
 #include <pointplane/pose/pairs.h>
 
 #include <vector>
@@ -13,13 +14,17 @@ class ShutterCalibrator;
 
 /** Turns associations into pairs for the solver. References are moved into the camera of the
  * previous measured frame and freed from the rolling shutter. Of the current frame, pairs say how
- * they depend on its velocity. */
+ * they depend on its velocity. What was learnt of the lens is corrected. */
 class PairBuilder
 {
  public:
-    /** \param previous, current must live as long as this */
-    PairBuilder(const Reference& previous, const Features& current)
-        : previous_(previous), current_(current)
+    /** \param previous, current must live as long as this
+     * \param camera its errors as learnt so far (LensCalibrator::errors()) */
+    PairBuilder(
+        const Reference& previous,
+        const Features& current,
+        const CameraVector& camera = CameraVector::Zero())
+        : previous_(previous), current_(current), camera_(camera)
     {
     }
 
@@ -30,12 +35,12 @@ class PairBuilder
         std::vector<PointPair>& points,
         std::vector<PlanePair>& planes) const;
 
-    /** Adds how the pairs change with errors of the shutter's times, once the current frame's
-     * velocity is known. \param points, planes that build() has made of the same associations */
-    void addShutterErrors(
+    /** Adds how the pairs change with errors of the camera, once the motion is known.
+     * \param points, planes that build() has made of the same associations */
+    void addCameraErrors(
         const std::vector<Association>& associations,
         const ShutterCalibrator& shutter,
-        const Vector6d& velocity,
+        const Motion& motion,
         std::vector<PointPair>& points,
         std::vector<PlanePair>& planes) const;
 
@@ -45,5 +50,6 @@ class PairBuilder
  private:
     const Reference& previous_;
     const Features& current_;
+    CameraVector camera_;
 };
 }  // namespace pointplane

@@ -68,6 +68,9 @@ struct PoseAnalysis
 {
     Sensitivity sensitivity;
     CameraInformation camera;
+    /** The same by each reference with a motion of its own, averaged over the references: poses of
+     * references that were estimated with a wrong camera would confirm it. */
+    CameraInformation cameraByReference;
     double pointVariance{0};  //!< of the points' residuals, over the propagated one; 0 = none
     double planeVariance{0};  //!< the same of planes
     Disagreement pointDisagreement;  //!< of the references' points, with all other features

@@ -6,16 +6,24 @@
 
 namespace pointplane
 {
-/** Errors of the camera, the same in all frames, in this order: vignetting [-]; principal point x,
- * y [px]; focal length, scale of depth [relative]; readout of colour, readout of depth, delay of
- * depth [s]. */
-constexpr int kNumCameraErrors = 8;
-constexpr int kFirstShutterError = 5;
+/** Errors of the camera, the same in all frames. */
+enum CameraError : int
+{
+    kVignetting,       //!< [-]
+    kPrincipalPointX,  //!< [px]
+    kPrincipalPointY,  //!< [px]
+    kFocalLength,      //!< [relative]
+    kRadial,           //!< radial distortion k1 [-]
+    kDepthScale,       //!< [relative]
+    kReadoutColour,    //!< [s]
+    kReadoutDepth,     //!< [s]
+    kDepthDelay,       //!< [s]
+    kNumCameraErrors
+};
 using CameraVector = Eigen::Matrix<double, kNumCameraErrors, 1>;
 using CameraMatrix = Eigen::Matrix<double, kNumCameraErrors, kNumCameraErrors>;
 using ByCamera = Eigen::Matrix<double, 3, kNumCameraErrors>;         //!< a feature or residual
 using MotionByCamera = Eigen::Matrix<double, 12, kNumCameraErrors>;  //!< pose and velocity
-constexpr int kDepthScale = 4;  //!< its place among the errors of the camera
 
 /** A smooth error of depth scales the depths of each patch of an image by a factor of its own. */
 constexpr int kPatchesPerSide = 4;

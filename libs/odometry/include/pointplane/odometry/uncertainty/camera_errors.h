@@ -8,6 +8,16 @@
 
 namespace pointplane
 {
+constexpr int kNumLensErrors = 4;  //!< from the principal point on
+using LensVector = Eigen::Matrix<double, kNumLensErrors, 1>;
+using LensMatrix = Eigen::Matrix<double, kNumLensErrors, kNumLensErrors>;
+
+/** Variances of what a calibration does not tell of a lens: nothing, if there is one, but that rays
+ * are turned as far as depth is bent; much if the intrinsics are nominal.
+ * \param bend smooth error of depth, as a fraction of it (DepthNoise::sigmaRelative)
+ * \return of principal point [px^2], focal length [relative] and radial distortion */
+[[nodiscard]] LensVector lensVariances(const PinholeCamera& camera, double bend);
+
 /** Covariance of the camera's errors before the first frame. If its intrinsics are nominal, they
  * are as uncertain as cameras of one model differ. */
 [[nodiscard]] CameraMatrix cameraCovariance(
@@ -22,6 +32,7 @@ namespace pointplane
 
 /** How a plane moves with errors of the calibration by which it was fitted to inverse depths.
  * \param theta_m plane in the camera [1/m]
- * \return [1/m] per error; zero for vignetting and the shutter */
+ * \return [1/m] per error; zero for vignetting, the shutter, and radial distortion, which bends it
+ */
 [[nodiscard]] ByCamera planeByCamera(const Eigen::Vector3d& theta_m, const PinholeCamera& camera);
 }  // namespace pointplane
