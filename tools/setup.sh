@@ -19,10 +19,10 @@ build_packages=(
 [[ ${CXX:-} != *clang* ]] || build_packages+=(clang)
 # MRPT's own programs and data sets, which the tests run on our output; a browser for the reports;
 # the documentation of the code must be complete; spelling and format; Debian packages and the Python
-# module.
+# module; what commands of the documents need.
 readonly test_packages=(
     mrpt-apps mrpt-common doxygen "doxygen-awesome-css?" "chromium?" "codespell?" "clang-format-14?"
-    dpkg-dev lintian python3-numpy
+    dpkg-dev lintian python3-numpy fakeroot time
 )
 
 say() { printf '\n== %s\n' "$*"; }

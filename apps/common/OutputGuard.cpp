@@ -9,6 +9,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "standard_streams.h"
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -63,6 +64,13 @@ OutputGuard::File OutputGuard::fileAt(const std::string& path)
     return file;
 }
 
+OutputGuard::File OutputGuard::inputFolderAt(const std::string& path)
+{
+    File folder = fileAt(path);
+    folder.holdsInputs = true;
+    return folder;
+}
+
 bool OutputGuard::same(const File& a, const File& b)
 {
     return a.path == b.path || (a.inode != 0 && a.inode == b.inode && a.device == b.device);
@@ -105,7 +113,7 @@ void OutputGuard::keepApart(const Output& output, const File& input)
             output.option + " " + output.name + ": would write over the input " + input.path +
             "; give another name");
     }
-    if (isIn(first, input))
+    if (input.holdsInputs && isIn(first, input))
     {
         throw InputError(
             output.option + " " + output.name + ": is in the folder of the inputs, " + input.path +
@@ -113,16 +121,27 @@ void OutputGuard::keepApart(const Output& output, const File& input)
     }
 }
 
-void OutputGuard::checkInput(const std::string& path) const
+void OutputGuard::check(const File& input) const
 {
-    if (outputs_.empty() || path.empty())
-    {
-        return;
-    }
-    const File input = fileAt(path);
     for (const Output& output : outputs_)
     {
         keepApart(output, input);
+    }
+}
+
+void OutputGuard::checkInput(const std::string& path) const
+{
+    if (!outputs_.empty() && !path.empty())
+    {
+        check(fileAt(path));
+    }
+}
+
+void OutputGuard::checkInputFolder(const std::string& path) const
+{
+    if (!outputs_.empty() && !path.empty())
+    {
+        check(inputFolderAt(path));
     }
 }
 
@@ -132,6 +151,15 @@ void OutputGuard::addInput(const std::string& path)
     if (!path.empty())
     {
         inputs_.push_back(fileAt(path));
+    }
+}
+
+void OutputGuard::addInputFolder(const std::string& path)
+{
+    checkInputFolder(path);
+    if (!path.empty())
+    {
+        inputs_.push_back(inputFolderAt(path));
     }
 }
 
@@ -176,6 +204,10 @@ void OutputGuard::addOutput(const std::string& option, const std::string& path)
     if (fs::is_block_file(status))
     {
         throw InputError(option + " " + path + ": is a disk; give the name of a file");
+    }
+    if (isStandardOutput(path))
+    {
+        requireStandardOutput();
     }
     const OutputTarget target = outputTarget(path);
     // The file and, where it is made anew, its folder.

@@ -18,11 +18,18 @@ namespace pointplane
 class OutputGuard
 {
  public:
-    /** A file, or a folder and all that is in it. Need not exist: its reader reports that. */
+    /** A file. Need not be there, and may be something else: its reader reports that. */
     void addInput(const std::string& path);
 
-    /** As addInput(), when all outputs are known: checks and keeps nothing. Thread-safe. */
+    /** A folder and all that is in it. */
+    void addInputFolder(const std::string& path);
+
+    /** As addInput() and addInputFolder(), when all outputs are known: check and keep nothing.
+     * Thread-safe.
+     * @{ */
     void checkInput(const std::string& path) const;
+    void checkInputFolder(const std::string& path) const;
+    /** @} */
 
     /** \param option that names it, e.g. "--trajectory" */
     void addOutput(const std::string& option, const std::string& path);
@@ -42,7 +49,8 @@ class OutputGuard
     {
         std::string path;  //!< absolute, without links
         dev_t device{0};
-        ino_t inode{0};  //!< 0: is not there
+        ino_t inode{0};           //!< 0: is not there
+        bool holdsInputs{false};  //!< a folder
     };
     struct Output
     {
@@ -53,10 +61,12 @@ class OutputGuard
     };
 
     [[nodiscard]] static File fileAt(const std::string& path);
+    [[nodiscard]] static File inputFolderAt(const std::string& path);
     [[nodiscard]] static bool same(const File& a, const File& b);
     [[nodiscard]] static bool isIn(const File& file, const File& folder);
     [[nodiscard]] static bool writes(const Output& output, const File& file);
     static void keepApart(const Output& output, const File& input);
+    void check(const File& input) const;
     void add(const Output& output);
 
     std::vector<Output> outputs_;

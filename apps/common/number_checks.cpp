@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "number_checks.h"
 
+#include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <cstdlib>
 #include <sstream>
 #include <string>
 
@@ -50,5 +53,35 @@ CLI::Validator isBetween(double least, double most)
         [least, most](double value) { return value >= least && value <= most; },
         "a number from " + from.str() + " to " + to.str(),
         "in [" + from.str() + " - " + to.str() + "]");
+}
+
+CLI::Validator isWhole(bool isSigned)
+{
+    return {
+        [isSigned](std::string& text)
+        {
+            if (text.empty())
+            {
+                return std::string();  // isNotEmpty() of runCommand() says so
+            }
+            const bool isNegative = text[0] == '-';
+            std::string digits = text.substr(isNegative || text[0] == '+' ? 1 : 0);
+            const std::string what = "'" + text + "' is ";
+            if (digits.empty() || digits.find_first_not_of("0123456789") != std::string::npos)
+            {
+                return what + "not a whole number";
+            }
+            digits.erase(0, std::min(digits.find_first_not_of('0'), digits.size() - 1));
+            if (isNegative && !isSigned && digits != "0")
+            {
+                return what + "not zero or a positive number";
+            }
+            text = (isNegative ? "-" : "") + digits;
+            errno = 0;
+            isSigned ? (void)std::strtoll(text.c_str(), nullptr, 10)
+                     : (void)std::strtoull(text.c_str(), nullptr, 10);
+            return errno == ERANGE ? what + "too large a number" : std::string();
+        },
+        ""};
 }
 }  // namespace pointplane

@@ -12,5 +12,8 @@ namespace pointplane
 [[nodiscard]] CLI::Validator isPositive();                          //!< and finite
 [[nodiscard]] CLI::Validator isNotNegative();                       //!< and finite
 [[nodiscard]] CLI::Validator isBetween(double least, double most);  //!< or one of them
+/** In decimal digits, and one that 64 bits hold. CLI11's own conversion takes -1 for 2^64 - 1, the
+ * nearest number for one that is too large, and 010 for 8. For transform(). */
+[[nodiscard]] CLI::Validator isWhole(bool isSigned);
 /** @} */
 }  // namespace pointplane

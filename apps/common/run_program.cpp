@@ -3,23 +3,20 @@
 
 #include <pointplane/mrpt_io/errors.h>
 
-#include <opencv2/core.hpp>
-
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
 #include <iostream>
 #include <memory>
-#include <new>
 #include <system_error>
 #include <vector>
 
+#include "number_checks.h"
+#include "standard_streams.h"
 #include <CLI/CLI.hpp>
-#include <fcntl.h>
 #include <pthread.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
 namespace pointplane
 {
@@ -33,21 +30,6 @@ struct Call
     std::vector<std::string> args;
     int code{kExitEnvironment};
 };
-
-/** The first file that a program opens must not take the number of a stream that is closed: what is
- * meant for the terminal would go into that file. */
-void openStandardStreams()
-{
-    int fd = STDIN_FILENO;
-    while (fd >= 0 && fd <= STDERR_FILENO)
-    {
-        fd = ::open("/dev/null", O_RDWR);  // the lowest number that is free
-    }
-    if (fd > STDERR_FILENO)
-    {
-        ::close(fd);
-    }
-}
 
 void* runCall(void* data)
 {
@@ -147,22 +129,15 @@ int report(const std::string& program, std::ostream& err)
     {
         return say(e.what(), kExitBadInput);
     }
-    catch (const std::bad_alloc&)
-    {
-        return say("out of memory", kExitEnvironment);
-    }
-    catch (const cv::Exception& e)
-    {
-        return e.code == cv::Error::StsNoMem ? say("out of memory", kExitEnvironment)
-                                             : say(oneLine(e), kExitBadInput);
-    }
     catch (const std::system_error& e)
     {
         return say(e.what(), kExitEnvironment);
     }
     catch (const std::exception& e)
     {
-        return say(oneLine(e), isRefusalOfSystem(e) ? kExitEnvironment : kExitBadInput);
+        return say(
+            oneLine(e),
+            isOutOfMemory(e) || isRefusalOfSystem(e) ? kExitEnvironment : kExitBadInput);
     }
 }
 }  // namespace
@@ -183,6 +158,11 @@ int runCommand(
         command->formatter(std::make_shared<HelpFormatter>());
         for (CLI::Option* option : command->get_options())
         {
+            const std::string type = option->get_type_name();
+            if (type.rfind("INT", 0) == 0 || type.rfind("UINT", 0) == 0)
+            {
+                option->transform(isWhole(type[0] == 'I'));
+            }
             option->check(isNotEmpty());
         }
     }
@@ -212,13 +192,7 @@ int runProgram(const char* name, Program program, int argc, char** argv)
     {
         call.args.assign(argv + 1, argv + argc);
         stackIsSmall() ? runOnOwnStack(call) : (void)runCall(&call);
-        errno = 0;
-        if (!std::cout.flush())
-        {
-            throw EnvironmentError(
-                std::string("cannot write to the standard output") +
-                (errno != 0 ? std::string(": ") + std::strerror(errno) : std::string()));
-        }
+        flushStandardOutput();
     }
     catch (...)
     {

@@ -144,31 +144,24 @@ CLI::App* addBagCommand(CLI::App& app, BagOptions& options, RecordingOutput& out
     return bag;
 }
 
-/** \param inputs files or folders that are read */
-void keepApart(
-    const RecordingOutput& output, const std::vector<std::string>& inputs, OutputGuard& guard)
+void addOutputs(const RecordingOutput& output, OutputGuard& guard)
 {
     guard.addOutput("-o", output.path);
     if (output.external)
     {
         guard.addFolderBeside("images of -o", output.path, imagesFolderOf(output.path));
     }
-    for (const std::string& input : inputs)
-    {
-        guard.addInput(input);
-    }
 }
 
-/** \param inputs files or folders that are read */
+/** \param guard with all inputs */
 int convert(
     Recording& recording,
     const RecordingOutput& output,
-    const std::vector<std::string>& inputs,
+    OutputGuard& guard,
     std::ostream& out,
     std::ostream& err)
 {
-    OutputGuard guard;
-    keepApart(output, inputs, guard);
+    addOutputs(output, guard);
     const RecordingSummary summary = convertRecording(recording, output, err);
     return report(summary, output, recording.notes(), out, err);
 }
@@ -181,7 +174,11 @@ int convert(
         hasPlaceBeside(output.path) ? groundTruthOf(output.path) : std::string();
     OutputGuard guard;
     guard.addOutput("ground truth of -o", groundTruth);
-    keepApart(output, recording.files(), guard);
+    for (const std::string& file : recording.files())
+    {
+        guard.addInput(file);
+    }
+    addOutputs(output, guard);
     const RecordingSummary summary = convertRecording(recording, output, err);
     std::vector<std::string> notes = recording.notes();
     if (!recording.groundTruth().empty() && groundTruth.empty())
@@ -220,21 +217,27 @@ int runConvert(const std::vector<std::string>& args, std::ostream& out, std::ost
         err,
         [&]
         {
+            OutputGuard guard;
             if (folder->parsed())
             {
                 FolderRecording recording(folderOptions);
-                return convert(
-                    recording, output, {folderOptions.folder, folderOptions.camera}, out, err);
+                guard.addInputFolder(folderOptions.folder);
+                guard.addInput(folderOptions.camera);
+                return convert(recording, output, guard, out, err);
             }
             if (klg->parsed())
             {
                 KlgRecording recording(klgOptions);
-                return convert(recording, output, {klgOptions.file, klgOptions.camera}, out, err);
+                guard.addInput(klgOptions.file);
+                guard.addInput(klgOptions.camera);
+                return convert(recording, output, guard, out, err);
             }
             if (bag->parsed())
             {
                 const auto recording = openBag(bagOptions);
-                return convert(*recording, output, {bagOptions.file, bagOptions.camera}, out, err);
+                guard.addInput(bagOptions.file);
+                guard.addInput(bagOptions.camera);
+                return convert(*recording, output, guard, out, err);
             }
             TumRecording recording(tumOptions);
             return convert(recording, output, out, err);

@@ -20,8 +20,7 @@ namespace
 {
 namespace fs = std::filesystem;
 
-constexpr std::uint16_t kNoReading = 65535;     //!< 7-Scenes; farther than any camera sees
-constexpr double kLatestStamp = 99999999999.0;  //!< of lists of images, too [s]
+constexpr std::uint16_t kNoReading = 65535;  //!< 7-Scenes; farther than any camera sees
 
 [[nodiscard]] cv::Mat readImage(const std::string& path, int flags)
 {
@@ -151,7 +150,7 @@ void FolderRecording::checkStamps() const
         for (const ImageRef& image : *images)
         {
             const double stamp = stampOf(image);
-            if (!(stamp >= 0 && stamp <= kLatestStamp))
+            if (!(stamp >= 0 && stamp <= static_cast<double>(kLatestStamp)))
             {
                 std::ostringstream out;
                 out << (image.path.empty() ? folder_ : image.path) << ": its time, " << stamp

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <optional>
@@ -81,6 +82,14 @@ const std::array<Preset, 3> kPresets{{
     if (numbers.size() != 12)
     {
         return {};
+    }
+    constexpr double kLargest = 65535;
+    for (const double side : {numbers[9], numbers[10]})
+    {
+        if (!(side >= 1 && side <= kLargest) || side != std::floor(side))
+        {
+            throw InputError(path + ": width and height are not whole numbers of pixels");
+        }
     }
     TumCamera out;
     out.camera.fx = numbers[0];

@@ -12,6 +12,7 @@
 #include "OutputGuard.h"
 #include "TextOutput.h"
 #include "command.h"
+#include "standard_streams.h"
 
 namespace pointplane
 {
@@ -42,11 +43,17 @@ void OutputFiles::addTo(CLI::App& command, const std::string& single)
 void OutputFiles::guardedBy(OutputGuard& guard, bool lines) const
 {
     const auto files = {json, csv, save};
-    if (std::count_if(files.begin(), files.end(), isShown) + (lines ? 1 : 0) > 1)
+    const auto isMissing = [](const std::string& path) { return path.empty(); };
+    const auto numShown = std::count_if(files.begin(), files.end(), isShown) + (lines ? 1 : 0);
+    if (numShown > 1)
     {
         throw InputError(
             "only one of --json, --csv, --save and --verbose can go to the standard output; give "
             "the others the name of a file");
+    }
+    if (numShown == 1 || std::all_of(files.begin(), files.end(), isMissing))
+    {
+        requireStandardOutput();
     }
     const auto add = [&](const char* option, const std::string& path)
     { guard.addOutput(option, path == "-" ? "" : path); };

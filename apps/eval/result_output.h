@@ -43,7 +43,8 @@ struct OutputFiles
     void addTo(CLI::App& command, const std::string& single);
     /** Tells the guard what will be written.
      * \param lines the command itself prints more than the table that these replace (--verbose)
-     * \throws InputError if two of them are the standard output */
+     * \throws InputError if two of them are the standard output, EnvironmentError if one or the
+     * table alone is, and it is closed */
     void guardedBy(OutputGuard& guard, bool lines = false) const;
     /** Whether one of them is the standard output, by "-" or by a name like /dev/stdout. */
     [[nodiscard]] bool replaceTable() const;

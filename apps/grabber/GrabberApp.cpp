@@ -4,6 +4,7 @@
 #include <pointplane/mrpt_io/errors.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <ostream>
@@ -13,6 +14,7 @@
 #include "device_list.h"
 #include "number_checks.h"
 #include "run_program.h"
+#include "standard_streams.h"
 #include <CLI/CLI.hpp>
 
 namespace pointplane
@@ -33,6 +35,7 @@ struct Words
     std::string mode{"640x480@30"};
     std::string registration{"auto"};
     std::string images{"embedded"};
+    std::string wait{"0"};  // a flag that is a number drops its decimals, and 1e9 is 1
     double splitMinutes{0};
     bool list{false};
 };
@@ -65,9 +68,8 @@ void addCameraOptions(CLI::App& app, GrabberOptions& o, Words& words)
            "--lock-white-balance", o.capture.lockWhiteBalance, "Keep colours after the warm-up")
         ->group(group);
     app.add_flag(
-           "--wait{1e9}",
-           o.waitSeconds,
-           "Wait for a camera to appear (--wait=S: at most S seconds)")
+           "--wait{1e9}", words.wait, "Wait for a camera to appear (--wait=S: at most S seconds)")
+        ->check(isNotNegative().description(""))
         ->group(group);
     app.add_option("--timeout", o.capture.stallTimeout, "Give up a silent camera after [s]")
         ->check(isPositive())
@@ -162,7 +164,7 @@ VideoMode parseMode(const std::string& text)
     VideoMode mode;
     int used = 0;
     const int fields =
-        std::sscanf(text.c_str(), "%dx%d@%d%n", &mode.width, &mode.height, &mode.fps, &used);
+        std::sscanf(text.c_str(), "%9dx%9d@%9d%n", &mode.width, &mode.height, &mode.fps, &used);
     if (fields != 3 || static_cast<std::size_t>(used) != text.size() || mode.width <= 0 ||
         mode.height <= 0 || mode.fps <= 0)
     {
@@ -179,6 +181,7 @@ void understand(const Words& words, GrabberOptions& o)
         {"off", RegistrationChoice::Off}};
     o.camera.mode = parseMode(words.mode);
     o.camera.registration = registrations.at(words.registration);
+    o.waitSeconds = std::strtod(words.wait.c_str(), nullptr);
     o.recording.path = o.output;
     o.recording.splitAfter = 60.0 * words.splitMinutes;
     o.recording.encoding.storage =
@@ -227,6 +230,10 @@ int runGrabber(const std::vector<std::string>& args, std::ostream& out, std::ost
         err,
         [&]
         {
+            if (words.list || options.live)
+            {
+                requireStandardOutput();
+            }
             if (words.list)
             {
                 return listCameras(makeCameraDrivers(options.driver), out, err);

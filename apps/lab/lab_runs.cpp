@@ -201,9 +201,14 @@ std::vector<LabScore> LabRunner::run(
         parallel(),
         [&](std::size_t job, int exitCode)
         {
+            constexpr int kNotStarted = 127;
+            missing = missing || exitCode == kNotStarted;
+            if (missing)
+            {
+                return;  // told once, below
+            }
             const LabRun& run = runs[made[job]];
             LabScore& score = scores[made[job]];
-            missing = missing || exitCode == 127;
             score = scoreOf(run, trajectories[job], processes[job].logPath, exitCode, rpe);
             ++done;
             bytesLeft -= sizeOf(run.rawlog);

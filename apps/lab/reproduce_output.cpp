@@ -152,7 +152,8 @@ nlohmann::ordered_json toJson(const Reproduction& result)
     for (std::size_t k = 0; k < result.cornerScores.size(); ++k)
     {
         const LabScore& score = result.cornerScores[k];
-        nlohmann::ordered_json run{{"variant", result.cornerVariants[k].name}};
+        const Variant& v = result.cornerVariants[k];
+        nlohmann::ordered_json run{{"variant", v.name}, {"settings", v.settings}};
         if (score.rpe)
         {
             run["translation"] = score.rpe->translation.rmse;
@@ -225,11 +226,6 @@ std::vector<Chart> alphaCharts(const Reproduction& result)
     return charts;
 }
 }  // namespace
-
-double finalError(const Reproduction& result, std::size_t corner)
-{
-    return PosesFromStart(result.cornerTruth, result.cornerScores[corner].estimate).finalError();
-}
 
 std::vector<NamedChart> figuresOf(const Reproduction& result)
 {

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reproduce_tables.h"
 
-#include <pointplane/evaluation/compare.h>
-#include <pointplane/evaluation/units.h>
-
 #include <algorithm>
 #include <limits>
 #include <utility>
 
+#include "paper_comparison.h"
 #include "result_output.h"
 
 namespace pointplane
@@ -15,45 +13,6 @@ namespace pointplane
 namespace
 {
 using Cells = std::vector<std::string>;
-
-/** The paper's figures of a sequence; nothing but dashes if it has none. */
-PublishedFigures publishedOf(const std::string& name)
-{
-    for (const PublishedFigures& figures : publishedFigures())
-    {
-        if (figures.sequence == name)
-        {
-            return figures;
-        }
-    }
-    return {name, "", "", "", ""};
-}
-
-/** "12.3 / 0.45 (6 p)": mm and deg as in the paper's tables, and the frames that were predicted. */
-std::string cellText(const LabScore& score)
-{
-    if (!score.rpe)
-    {
-        return "failed";
-    }
-    return format(
-               "%.1f / %.2f",
-               1000 * score.rpe->translation.rmse,
-               kDegreesPerRadian * score.rpe->rotation.rmse) +
-           (score.rpe->coverage.predicted > 0 ? format(" (%zu p)", score.rpe->coverage.predicted)
-                                              : "");
-}
-
-const char* const kNotAtHand = "not at hand";
-const char* const kNotInPaper = "not in the paper";
-
-bool isAbsent(const Reproduction& result, const std::string& sequence)
-{
-    return std::none_of(
-        result.sequences.begin(),
-        result.sequences.end(),
-        [&](const ReproducedSequence& s) { return s.name == sequence; });
-}
 
 bool hasGroup(const Reproduction& result, const std::string& group)
 {
@@ -119,106 +78,6 @@ ReproductionTable alphaTable(const Reproduction& result)
     return table;
 }
 
-/** Tables 1 and 2 of the paper, beside its figures: first its own sequences, then others. */
-std::vector<ReproductionTable> paperTables(const Reproduction& result)
-{
-    ReproductionTable first{
-        "Table 1: points, unweighted and weighted by their uncertainty (config-paper.ini)",
-        {"sequence", "unweighted", "paper", "weighted", "paper"},
-        {}};
-    ReproductionTable second{
-        "Table 2: points, and points and planes (config-paper.ini)",
-        {"sequence", "points", "paper", "points and planes", "paper", "best named by the paper"},
-        {}};
-    const auto addRows = [&](const std::string& name, const PublishedFigures& p, const auto& ours)
-    {
-        const std::string points = ours("points");
-        if (!p.deterministic.empty())
-        {
-            first.rows.push_back(
-                {name, ours("points, unweighted"), p.deterministic, points, p.points});
-        }
-        second.rows.push_back(
-            {name,
-             points,
-             p.points,
-             ours("points and planes"),
-             p.pointsAndPlanes,
-             p.stateOfTheArt});
-    };
-    for (const PublishedFigures& p : publishedFigures())
-    {
-        if (isAbsent(result, p.sequence))
-        {
-            addRows(p.sequence, p, [](const char*) { return std::string(kNotAtHand); });
-        }
-    }
-    for (std::size_t s = 0; s < result.sequences.size(); ++s)
-    {
-        PublishedFigures p = publishedOf(result.sequences[s].name);
-        for (std::string* cell : {&p.points, &p.pointsAndPlanes, &p.stateOfTheArt})
-        {
-            *cell = cell->empty() ? kNotInPaper : *cell;
-        }
-        // structure_notexture_far and cabinet are in Table 2 only.
-        p.deterministic = p.deterministic.empty() ? kNotInPaper : p.deterministic;
-        addRows(
-            displayName(result.sequences[s]),
-            p,
-            [&](const char* variant) { return result.text(s, "tables", variant); });
-        if (p.deterministic == kNotInPaper)
-        {
-            first.rows.back().back() = kNotInPaper;
-        }
-    }
-    return {first, second};
-}
-
-/** How much the error changes from one run of a sequence to another, "-8.2 [-16.4, -1.9] mm". */
-std::string changeText(
-    const Reproduction& result, std::size_t sequence, const char* from, const char* to)
-{
-    const LabScore* const a = result.score(sequence, "tables", from);
-    const LabScore* const b = result.score(sequence, "tables", to);
-    if (a == nullptr || b == nullptr)
-    {
-        return "-";
-    }
-    const Comparison both = compareRuns(
-        result.truths[sequence], {a->estimate, b->estimate}, result.rpe, AteOptions(), {});
-    const bool better = both.bestTranslation == 1;
-    const auto& behind = both.runs[better ? 0 : 1].translationBehindBest;
-    if (!behind)
-    {
-        return "-";
-    }
-    const double sign = better ? -1000 : 1000;
-    const double ends[] = {sign * behind->lower, sign * behind->upper};
-    return format(
-        "%+.1f [%+.1f, %+.1f]%s",
-        sign * behind->value,
-        std::min(ends[0], ends[1]),
-        std::max(ends[0], ends[1]),
-        behind->excludesZero() ? "" : " chance");
-}
-
-ReproductionTable chanceTable(const Reproduction& result)
-{
-    ReproductionTable table{
-        "Is it more than chance? Change of the error in mm, with its 95 % interval (bootstrap over "
-        "blocks of 1 s)",
-        {"sequence", "by weights, points alone", "by planes"},
-        {}};
-    for (std::size_t s = 0; s < result.sequences.size(); ++s)
-    {
-        table.rows.push_back(
-            {displayName(result.sequences[s]),
-             changeText(result, s, "points, unweighted", "points"),
-             changeText(result, s, "points", "points and planes")});
-    }
-    return table;
-}
-
 /** How many frames a run of the sequence had: colour images with a depth image. */
 std::string framesText(const Reproduction& result, std::size_t sequence)
 {
@@ -281,38 +140,6 @@ ReproductionTable cornerTable(const Reproduction& result)
     return table;
 }
 }  // namespace
-
-std::string displayName(const ReproducedSequence& s)
-{
-    return s.name + (s.isPart ? " (part)" : "");
-}
-
-const LabScore* Reproduction::score(
-    std::size_t sequence, const std::string& group, const std::string& name) const
-{
-    for (std::size_t v = 0; v < variants.size(); ++v)
-    {
-        const LabScore& score = scores[sequence * variants.size() + v];
-        if (variants[v].group == group && variants[v].name == name && score.rpe)
-        {
-            return &score;
-        }
-    }
-    return nullptr;
-}
-
-std::string Reproduction::text(
-    std::size_t sequence, const std::string& group, const std::string& name) const
-{
-    for (std::size_t v = 0; v < variants.size(); ++v)
-    {
-        if (variants[v].group == group && variants[v].name == name)
-        {
-            return cellText(scores[sequence * variants.size() + v]);
-        }
-    }
-    return "-";
-}
 
 std::vector<ReproductionTable> reproductionTables(const Reproduction& result)
 {

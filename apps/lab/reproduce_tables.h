@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "reproduce_output.h"
+#include <string>
+#include <vector>
+
+#include "Reproduction.h"
 
 namespace pointplane
 {
@@ -16,7 +19,4 @@ struct ReproductionTable
 /** The paper's Tables 1 and 2 beside the published figures, Fig. 3 as a table, and the ablations;
  * those whose variants were run. */
 [[nodiscard]] std::vector<ReproductionTable> reproductionTables(const Reproduction& result);
-
-/** "fr1/desk", or "fr1/desk (part)". */
-[[nodiscard]] std::string displayName(const ReproducedSequence& sequence);
 }  // namespace pointplane

@@ -96,13 +96,15 @@ std::vector<std::string> SweepCommand::valuesToTry() const
     }
     const double from = range[0];
     const double to = range[1];
-    const auto steps = static_cast<int>(range[2]);
-    if (steps < 2 || steps != range[2] || (logarithmic && (from <= 0 || to <= 0)))
+    constexpr double kMostValues = 1000;
+    if (!(range[2] >= 2 && range[2] <= kMostValues) || std::floor(range[2]) != range[2] ||
+        !std::isfinite(from) || !std::isfinite(to) || (logarithmic && (from <= 0 || to <= 0)))
     {
         throw std::invalid_argument(
-            "--range takes from, to and a whole number of at least 2 values; with --log both ends "
+            "--range takes from, to and a whole number of values, 2 to 1000; with --log both ends "
             "are positive");
     }
+    const auto steps = static_cast<int>(range[2]);
     std::vector<std::string> out;
     for (int k = 0; k < steps; ++k)
     {

@@ -44,7 +44,7 @@ void FrameSource::openNext()
 {
     reader_ = std::make_unique<RawlogReader>(options_.inputs.at(nextInput_));
     converter_.setExternalsDirectory(reader_->externalsDirectory());
-    guard_.checkInput(reader_->externalsDirectory());
+    guard_.checkInputFolder(reader_->externalsDirectory());
     ++nextInput_;
 }
 

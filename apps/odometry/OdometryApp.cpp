@@ -12,6 +12,7 @@
 #include "OdometryRun.h"
 #include "number_checks.h"
 #include "run_program.h"
+#include "standard_streams.h"
 #include <CLI/CLI.hpp>
 
 namespace pointplane
@@ -158,6 +159,7 @@ int runOdometry(const std::vector<std::string>& args, std::ostream& out, std::os
         {
             if (dumpConfig || dumpKeys)
             {
+                requireStandardOutput();
                 OdometryParams params = loadOdometryParams(options.config, options.settings);
                 const ParameterTable table = parametersOf(params);
                 out

@@ -4,8 +4,6 @@
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/image_file.h>
 
-#include <opencv2/imgcodecs.hpp>
-
 #include <cstdio>
 #include <filesystem>
 
@@ -51,6 +49,7 @@ void OverlaySink::add(const OutputItem& item)
     {
         return;
     }
+    constexpr int kQuality = 90;
     char name[32];
     std::snprintf(name, sizeof(name), "/%06zu.jpg", item.source.frameIndex);
     const std::string path = folder_ + name;
@@ -61,7 +60,7 @@ void OverlaySink::add(const OutputItem& item)
         item.source.frameIndex,
         frame.stamp - *firstStamp_,
         speed);
-    writeImageFile(path, picture, {cv::IMWRITE_JPEG_QUALITY, 90});
+    writeJpegFile(path, picture, kQuality);
     ++numPictures_;
 }
 

@@ -15,6 +15,7 @@
 
 #include "SequenceWriter.h"
 #include "run_program.h"
+#include "standard_streams.h"
 #include <CLI/CLI.hpp>
 
 namespace pointplane
@@ -52,6 +53,7 @@ void addListSettings(CLI::App& app)
         "--list-settings",
         []
         {
+            requireStandardOutput();
             SimulationParams defaults;
             throw CLI::CallForVersion(iniText(parametersOf(kSection, defaults)), 0);
         },
@@ -110,7 +112,7 @@ SimulationParams paramsOf(const Arguments& args)
     if (!args.size.empty())
     {
         int length = 0;
-        if (std::sscanf(args.size.c_str(), "%dx%d%n", &params.width, &params.height, &length) !=
+        if (std::sscanf(args.size.c_str(), "%9dx%9d%n", &params.width, &params.height, &length) !=
                 2 ||
             static_cast<std::size_t>(length) != args.size.size())
         {

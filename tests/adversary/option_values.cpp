@@ -29,7 +29,7 @@ struct Case
 struct Option
 {
     std::string name;
-    bool isNumber{false};
+    bool isNumber{false}, isWhole{false}, isSigned{true};
 };
 
 /** Options with a value, as --help has them: `  -o,--output TEXT  ...`. */
@@ -50,17 +50,24 @@ struct Option
         const std::set<std::string> texts{"TEXT", "FILE", "DIR", "NAME", "PROGRAM"};
         if (numbers.count(word) + texts.count(word) > 0)
         {
-            out.push_back({name.substr(name.find("--")), numbers.count(word) > 0});
+            out.push_back(
+                {name.substr(name.find("--")),
+                 numbers.count(word) > 0,
+                 word == "INT" || word == "UINT",
+                 word != "UINT"});
         }
     }
     return out;
 }
 
-/** The values that no option may take for a number. */
-[[nodiscard]] bool isNoNumber(const std::string& value)
+/** The values that this option may not take for a number. */
+[[nodiscard]] bool mustRefuse(const Option& option, const std::string& value)
 {
-    const std::set<std::string> wrong{"nan", "inf", "-inf", "abc", "", "0,5", "1e999"};
-    return wrong.count(value) > 0;
+    const std::set<std::string> noNumbers{"nan", "inf", "-inf", "abc", "", "0,5", "1e999"};
+    const std::set<std::string> notWhole{
+        "1e300", "-1e300", "1e-300", "0.5", "99999999999999999999"};
+    return (option.isNumber && noNumbers.count(value) > 0) ||
+           (option.isWhole && notWhole.count(value) > 0) || (!option.isSigned && value == "-1");
 }
 
 /** With the option's value in the place of an earlier one. */
@@ -197,7 +204,7 @@ Tally optionValues(double share)
                 const bool mayTellMore = c.app == nullptr || a.code != 2;
                 std::string wrong = mayTellMore ? wrongWithOwnLines(a) : wrongWith(a);
                 wrong += unless(
-                    !option.isNumber || !isNoNumber(value) || a.code == 2,
+                    !mustRefuse(option, value) || a.code == 2,
                     "taken for a number, exit code " + std::to_string(a.code));
                 for (const auto& entry : fs::recursive_directory_iterator(whole))
                 {

@@ -273,6 +273,12 @@ TEST_F(ConvertApp, mistakesAreNamed)
     expect("no colour and depth stamps within");
     writeBytes(dir_ / "in/depth.txt", listing);
     expect("is 32x24 but the camera is for 640x480", {"--camera", "fr3"});
+    for (const char* size : {"32.5 24", "1e300 24", "32 0", "32 -24"})
+    {
+        writeBytes(
+            dir_ / "size.txt", std::string("26.2 26.1 15.5 11.5 0 0 0 0 0 ") + size + " 1\n");
+        expect("size.txt: width and height are not whole numbers", {"--camera", dir_ / "size.txt"});
+    }
     cv::imwrite(dir_ / "in/depth/0.png", colours_[0]);
     expect("depth/0.png: is not a 16 bit depth image", {"--strict"});
     std::filesystem::remove(dir_ / "in/depth/0.png");

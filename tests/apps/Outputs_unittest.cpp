@@ -192,6 +192,18 @@ TEST_F(Outputs, whatCannotBeWrittenIsRefusedBeforeTheRun)
     expectRefused({in_, "--trajectory", "-"}, "--trajectory -: give /dev/stdout");
 }
 
+/** What is wrong is the input, not where the output is. */
+TEST_F(Outputs, aFolderAsAnInputIsBlamedItself)
+{
+    const std::string folder = dir_ / "in";
+    for (const std::string& option : kOptions)
+    {
+        expectRefused({folder, option, dir_ / "in/new"}, "is a directory");
+        expectRefused({in_, folder, option, dir_ / "in/new"}, "is a directory");
+        expectRefused({in_, "-c", folder, option, dir_ / "in/new"}, "is a directory");
+    }
+}
+
 TEST_F(Outputs, linksAreWrittenThrough)
 {
     writeBytes(dir_ / "target", "old");

@@ -2,15 +2,22 @@
 // A program and the streams that it is given.
 #include <pointplane/mrpt_io/errors.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "EvalApp.h"
 #include "OdometryApp.h"
+#include "SimulateApp.h"
 #include "TempDir.h"
+#include "number_checks.h"
 #include "rawlog_samples.h"
 #include "run_program.h"
 #include <CLI/CLI.hpp>
@@ -33,7 +40,14 @@ class RunProgram : public testing::Test
     /** pointplane-odometry in a process of its own. \param prepare its streams */
     [[nodiscard]] int run(std::vector<std::string> args, const std::function<void()>& prepare)
     {
-        args.insert(args.begin(), {"pointplane-odometry", in_});
+        args.insert(args.begin(), in_);
+        return run(runOdometry, args, prepare);
+    }
+
+    [[nodiscard]] static int run(
+        Program program, std::vector<std::string> args, const std::function<void()>& prepare)
+    {
+        args.insert(args.begin(), "pointplane");
         std::vector<char*> words;
         for (std::string& arg : args)
         {
@@ -44,7 +58,7 @@ class RunProgram : public testing::Test
         {
             prepare();
             const int argc = static_cast<int>(words.size());
-            ::_exit(runProgram("pointplane-odometry", runOdometry, argc, words.data()));
+            ::_exit(runProgram("pointplane", program, argc, words.data()));
         }
         int status = 0;
         ::waitpid(child, &status, 0);
@@ -75,6 +89,57 @@ TEST_F(RunProgram, closedStreamsAreNotWrittenIntoFiles)
         EXPECT_EQ(readBytes(rawlog_), rawlog);
         EXPECT_EQ(readBytes(text_), text);
     }
+}
+
+/** As `>&-`: what was asked for did not arrive. */
+TEST_F(RunProgram, aClosedStandardOutputTakesNoResult)
+{
+    ASSERT_EQ(run(outputs_, [] {}), kExitOk);
+    const std::string link = dir_ / "stdout", told = dir_ / "told", json = dir_ / "out.json";
+    std::filesystem::create_symlink("/proc/self/fd/1", link);
+    const auto codeOf = [&](Program program, const std::vector<std::string>& args)
+    {
+        return run(
+            program,
+            args,
+            [&]
+            {
+                ::dup2(::open(told.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
+                ::close(STDOUT_FILENO);
+            });
+    };
+    const std::vector<std::string> ate{"ate", text_, text_};
+    const auto with = [&](std::vector<std::string> more)
+    {
+        more.insert(more.begin(), ate.begin(), ate.end());
+        return more;
+    };
+    const std::vector<std::pair<Program, std::vector<std::string>>> lost{
+        {runEval, ate},
+        {runEval, with({"--json", "-"})},
+        {runEval, with({"--csv", json, "--save", link})},
+        {runEval, with({"--verbose", "--json", json})},
+        {runOdometry, {"--dump-config"}},
+        {runOdometry, {in_, "--trajectory", link}},
+        {runSimulate, {"--list-settings"}}};
+    for (const auto& [program, args] : lost)
+    {
+        EXPECT_EQ(codeOf(program, args), kExitEnvironment) << args.back();
+        EXPECT_EQ(
+            readBytes(told),
+            "pointplane" +
+                std::string(
+                    program == runEval       ? "-eval"
+                    : program == runOdometry ? "-odometry"
+                                             : "-simulate") +
+                ": cannot write to the standard output: it is closed\n")
+            << args.back();
+    }
+    EXPECT_FALSE(std::filesystem::exists(json));
+    // What was asked for goes elsewhere.
+    EXPECT_EQ(codeOf(runEval, with({"--json", json})), kExitOk) << readBytes(told);
+    EXPECT_TRUE(std::filesystem::exists(json));
+    EXPECT_EQ(codeOf(runOdometry, {in_, "--trajectory", "/dev/null"}), kExitOk) << readBytes(told);
 }
 
 /** As `--trajectory /dev/stdout > file`: what is told goes to the standard error then. */
@@ -108,6 +173,54 @@ TEST(RunCommand, whatTheSystemRefusesIsExitCode3)
     EXPECT_EQ(
         codeOf("pthread_create has failed: Resource temporarily unavailable"), kExitEnvironment);
     EXPECT_EQ(codeOf("something else"), kExitBadInput);
+}
+
+TEST(RunCommand, wholeNumbersAreThoseThatWereGiven)
+{
+    struct Numbers
+    {
+        std::uint64_t seed{7};
+        std::int64_t shift{0};
+        std::size_t first{0};
+        int jobs{0};
+    };
+    std::string told;
+    const auto parsed = [&told](const std::vector<std::string>& args) -> std::optional<Numbers>
+    {
+        CLI::App app;
+        Numbers out;
+        app.add_option("--seed", out.seed);
+        app.add_option("--shift", out.shift)->capture_default_str();
+        app.add_option("--first", out.first)->check(isNotNegative());
+        app.add_option("--jobs", out.jobs)->check(CLI::Range(-64, 64));
+        std::ostringstream none, err;
+        const int code = runCommand(app, args, none, err, [] { return kExitOk; });
+        told = err.str();
+        EXPECT_EQ(std::count(told.begin(), told.end(), '\n'), code == kExitOk ? 0 : 1) << told;
+        EXPECT_TRUE(code == kExitOk || code == kExitBadInput);
+        return code == kExitOk ? std::optional(out) : std::nullopt;
+    };
+    for (const char* option : {"--seed", "--shift", "--first", "--jobs"})
+    {
+        for (const char* value :
+             {"100000000000000000000", "1e3", "0.5", "0x10", "abc", "", "-", "1 2", "1,0"})
+        {
+            EXPECT_FALSE(parsed({option, value})) << option << " " << value;
+        }
+    }
+    for (const char* option : {"--seed", "--first"})
+    {
+        EXPECT_FALSE(parsed({option, "-1"})) << option;
+        EXPECT_NE(told.find("'-1' is not zero or a positive number"), std::string::npos) << told;
+    }
+    EXPECT_FALSE(parsed({"--shift", "9223372036854775808"}));
+    EXPECT_NE(told.find("'9223372036854775808' is too large a number"), std::string::npos) << told;
+    EXPECT_EQ(parsed({"--seed", "18446744073709551615"})->seed, 18446744073709551615U);
+    EXPECT_EQ(parsed({"--shift", "-9223372036854775808"})->shift, INT64_MIN);
+    EXPECT_EQ(parsed({"--first", "010"})->first, 10U);
+    EXPECT_EQ(parsed({"--first", "-0"})->first, 0U);
+    EXPECT_EQ(parsed({"--jobs", "+08"})->jobs, 8);
+    EXPECT_EQ(parsed({"--jobs=-3"})->jobs, -3);
 }
 
 TEST_F(RunProgram, aReaderThatLeavesEndsNoRun)

@@ -198,10 +198,14 @@ TEST_F(OpenNi2Recording, noCameraExplainsItself)
 
 TEST_F(OpenNi2Recording, waitsForACameraToAppear)
 {
-    EXPECT_EQ(record("appearAfterMs 1500", {"--wait=20", "--frames", "5"}), 0) << err_;
+    EXPECT_EQ(record("appearAfterMs 1500", {"--wait", "--frames", "5"}), 0) << err_;
     EXPECT_THAT(err_, HasSubstr("waiting for a camera"));
     EXPECT_EQ(readRawlog(out_).size(), 5U);
     EXPECT_EQ(record("noDevice 1", {"--wait=1"}), 3);
+    for (const char* value : {"-1", "nan", "inf", "abc"})
+    {
+        EXPECT_EQ(record("noDevice 1", {std::string("--wait=") + value}), 2) << value << err_;
+    }
 }
 
 TEST_F(OpenNi2Recording, listsCamerasAndModes)

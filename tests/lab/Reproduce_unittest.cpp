@@ -125,6 +125,8 @@ TEST(Reproduce, fromATumFolderToTheTables)
     const auto json = nlohmann::json::parse(test::readBytes(dir / "out.json"));
     ASSERT_EQ(json["runs"].size(), 18U);
     ASSERT_EQ(json["corner"].size(), 2U);
+    EXPECT_EQ(json["corner"][0]["settings"], std::vector<std::string>{"Pipeline.usePoints=false"});
+    EXPECT_TRUE(json["corner"][1]["settings"].empty());
     for (const auto& run : json["corner"])
     {
         EXPECT_GT(run["finalError"], 0) << run;

@@ -117,7 +117,11 @@ TEST_F(FakePrograms, aFailedRunIsSaidAndTheOthersAreKept)
     EXPECT_THAT(r.err, HasSubstr("exit code 2, unknown value 'bad'"));
     EXPECT_TRUE(std::filesystem::exists(dir / "kept/000_a_PoseSolver.alpha=1.1.txt"));
 
-    EXPECT_EQ(run({"sweep", "a.b", rawlog, "--values", "1", "--odometry", "/no/such"}).code, 2);
+    const auto noProgram =
+        run({"sweep", "a.b", rawlog, "--values", "1,2", "--odometry", "/no/such"});
+    EXPECT_EQ(noProgram.code, 2);
+    EXPECT_EQ(
+        noProgram.err, "pointplane-lab: cannot run '/no/such'; name the program by --odometry\n");
     EXPECT_EQ(run({"sweep", "a.b", dir / "none.rawlog", "--values", "1"}).code, 2);
     EXPECT_EQ(run({"sweep", "a.b", rawlog}).code, 2);  // nothing to try
     EXPECT_EQ(run({"sweep", "a.b", rawlog, "--range", "0,1,3", "--log"}).code, 2);

@@ -108,6 +108,22 @@ TEST_F(ImageFile, aMissingFolderIsNamedNotTheFile)
     EXPECT_EQ(problem("text"), (dir_ / "image") + ": is not an image, or damaged");
 }
 
+TEST_F(ImageFile, aJpegIsThePicture)
+{
+    cv::Mat picture(120, 160, CV_8UC3), wide(120, 200, CV_8UC3);
+    cv::randu(wide, 0, 256);
+    cv::GaussianBlur(wide, wide, cv::Size(), 4);
+    wide(cv::Rect(20, 0, 160, 120)).copyTo(picture);
+    writeJpegFile(dir_ / "fine.jpg", wide(cv::Rect(20, 0, 160, 120)), 95);
+    writeJpegFile(dir_ / "coarse.jpg", picture, 20);
+    const cv::Mat fine = readImageFile(dir_ / "fine.jpg", cv::IMREAD_COLOR);
+    ASSERT_EQ(fine.size(), picture.size());
+    EXPECT_LT(cv::norm(fine, picture, cv::NORM_INF), 12);
+    EXPECT_LT(
+        test::readBytes(dir_ / "coarse.jpg").size(), test::readBytes(dir_ / "fine.jpg").size() / 2);
+    EXPECT_THROW(writeJpegFile(dir_ / "none/a.jpg", picture, 90), EnvironmentError);
+}
+
 TEST_F(ImageFile, aFullDiskLeavesNoPartOfAnImageAndTheEarlierOne)
 {
     cv::Mat large(200, 200, CV_8UC1);

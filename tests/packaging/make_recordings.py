@@ -1,7 +1,12 @@
 #!/usr/bin/env python3
-"""Small recordings under the names that docs/rawlogs.md uses, for commands.sh: a folder of ScanNet's
-layout, a log of ElasticFusion with its camera, a ROS bag. make_recordings.py FOLDER"""
+"""Small recordings for commands.sh.
+make_recordings.py small FOLDER: under the names that docs/rawlogs.md uses, a folder of ScanNet's layout, a
+log of ElasticFusion with its camera, a ROS bag.
+make_recordings.py tum IMAGES TRUTH FOLDER: a folder like a TUM sequence, from the images of 160x120 pixels
+beside a rawlog of pointplane-simulate and its ground truth."""
+import gzip
 import os
+import shutil
 import struct
 import sys
 import zlib
@@ -27,15 +32,15 @@ def write(path, data):
         file.write(data)
 
 
-def png(bits, kind, pixels):
+def png(bits, kind, pixels, width=WIDTH, height=HEIGHT):
     """kind: 0 = gray, 2 = RGB. pixels: bytes as PNG wants them."""
     def chunk(name, data):
         return (struct.pack('>I', len(data)) + name + data +
                 struct.pack('>I', zlib.crc32(name + data)))
-    row = len(pixels) // HEIGHT
-    rows = b''.join(b'\0' + pixels[y * row:(y + 1) * row] for y in range(HEIGHT))
+    row = len(pixels) // height
+    rows = b''.join(b'\0' + pixels[y * row:(y + 1) * row] for y in range(height))
     return (b'\x89PNG\r\n\x1a\n' +
-            chunk(b'IHDR', struct.pack('>IIBBBBB', WIDTH, HEIGHT, bits, kind, 0, 0, 0)) +
+            chunk(b'IHDR', struct.pack('>IIBBBBB', width, height, bits, kind, 0, 0, 0)) +
             chunk(b'IDAT', zlib.compress(rows)) + chunk(b'IEND', b''))
 
 
@@ -127,12 +132,29 @@ def write_bag(path):
     write(path, magic + record(padding, **head) + body + b''.join(connections) + index)
 
 
-def main():
-    folder = sys.argv[1]
+def write_small(folder):
     write_scan_net(f'{folder}/scene0000_00')
     write_klg(f'{folder}/dyson_lab.klg')
     write(f'{folder}/camera.txt', b'60 60 31.5 23.5 0 0 0 0 0 64 48 1000\n')
     write_bag(f'{folder}/recording.bag')
 
 
-main()
+def write_tum(images, truth, folder):
+    lists = {'rgb': '', 'depth': ''}
+    for name in sorted(os.listdir(images)):
+        stamp, kind = name.rsplit('_', 1)
+        with open(f'{images}/{name}', 'rb') as file:
+            data = file.read()
+        if kind == 'depth.bin':
+            rows, columns, *values = struct.unpack('<2I19200H', gzip.decompress(data))
+            data = png(16, 0, struct.pack('>19200H', *values), columns, rows)
+        what = 'depth' if kind == 'depth.bin' else 'rgb'
+        write(f'{folder}/{what}/{stamp}.png', data)
+        lists[what] += f'{stamp} {what}/{stamp}.png\n'
+    for what, lines in lists.items():
+        write(f'{folder}/{what}.txt', lines.encode())
+    write(f'{folder}/camera.txt', b'131.25 131.25 79.5 59.5 0 0 0 0 0 160 120 5000\n')
+    shutil.copy(truth, f'{folder}/groundtruth.txt')
+
+
+{'small': write_small, 'tum': write_tum}[sys.argv[1]](*sys.argv[2:])

@@ -4,7 +4,7 @@
 set -euo pipefail
 build=$(realpath "$1")
 made=$(cd "$build" && ninja -t commands products)
-installed=$(find "$build" -name cmake_install.cmake -not -path '*/_deps/*' -exec cat {} + |
+installed=$(find "$build" -name cmake_install.cmake -not -path '*/_deps/*' -not -path '*/packaging/*/*' -exec cat {} + |
     grep -oE "\"$build/[^\"]+\"" | tr -d '"' | sort -u)
 failed=0
 count=0

@@ -20,9 +20,11 @@ NeesInterval neesIntervalFromName(const std::string& name)
     const auto [parsed, error] = std::from_chars(name.data(), end, interval.delta);
     const std::string unit(parsed, end);
     interval.unit = unit == "s" ? DeltaUnit::Seconds : DeltaUnit::Frames;
-    const bool isWhole = interval.delta == std::floor(interval.delta);
+    constexpr double kMostFrames = 1e9;  // a year of them
+    const bool isNumber =
+        interval.delta == std::floor(interval.delta) && interval.delta <= kMostFrames;
     if (error != std::errc() || !(interval.delta > 0) || !std::isfinite(interval.delta) ||
-        (unit != "s" && unit != "f") || (unit == "f" && !isWhole))
+        (unit != "s" && unit != "f") || (unit == "f" && !isNumber))
     {
         throw std::invalid_argument(
             "'" + name + "' is not an interval; frames or seconds, e.g. 1f, 10f or 1s, or start");

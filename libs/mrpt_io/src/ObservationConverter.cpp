@@ -299,6 +299,10 @@ ConvertedFrame ObservationConverter::convert(const CObservation3DRangeScan& scan
     }
     catch (const std::exception& e)
     {
+        if (isOutOfMemory(e))
+        {
+            throw;  // says nothing about the frame
+        }
         out = ConvertedFrame();
         out.problem = oneLine(e);
     }

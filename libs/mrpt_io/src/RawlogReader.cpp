@@ -112,6 +112,7 @@ struct RawlogReader::Impl
     void readAhead();
     void readMark();
     void scanOrAskMrpt();
+    void requireRoom();
     void askMrpt(const std::string& what);
     [[nodiscard]] Sum sum();
     void endHere(const std::string& problem);
@@ -124,7 +125,7 @@ struct RawlogReader::Impl
     std::vector<std::uint8_t> member;  // of the object ahead
     GzInput in;
     ObjectScanner scanner;
-    std::vector<std::uint8_t> bytes;
+    std::vector<std::uint8_t> bytes, room;
     mrpt::serialization::CSerializable::Ptr ahead;
     bool isRecording{false};  // between the marks of one
     std::size_t numRead{0};
@@ -200,6 +201,14 @@ void RawlogReader::Impl::askMrpt(const std::string& what)
     }
 }
 
+/** MRPT (2.5.8) writes a range image to memory that it did not get. So memory for the object is
+ * asked for and given back; another thread may still be quicker. */
+void RawlogReader::Impl::requireRoom()
+{
+    room.reserve(bytes.size());
+    room = std::vector<std::uint8_t>();
+}
+
 void RawlogReader::Impl::scanOrAskMrpt()
 {
     try
@@ -218,6 +227,7 @@ void RawlogReader::Impl::scanOrAskMrpt()
             endHere("");
             return;
         }
+        requireRoom();
         ahead = deserialise(bytes, nullptr);
     }
     catch (const ObjectScanner::Unknown& e)
@@ -250,6 +260,10 @@ void RawlogReader::Impl::readAhead()
     }
     catch (const std::exception& e)
     {
+        if (isOutOfMemory(e))
+        {
+            throw;  // says nothing about the file
+        }
         endHere(oneLine(e));
     }
     if (ahead)

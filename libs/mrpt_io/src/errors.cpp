@@ -1,13 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/mrpt_io/errors.h>
 
+#include <opencv2/core.hpp>
+
 #include <new>
 
 namespace pointplane
 {
+bool isOutOfMemory(const std::exception& e)
+{
+    const auto* ofOpenCv = dynamic_cast<const cv::Exception*>(&e);
+    return dynamic_cast<const std::bad_alloc*>(&e) != nullptr ||
+           (ofOpenCv != nullptr && ofOpenCv->code == cv::Error::StsNoMem);
+}
+
 std::string oneLine(const std::exception& e)
 {
-    if (dynamic_cast<const std::bad_alloc*>(&e) != nullptr)
+    if (isOutOfMemory(e))
     {
         return "out of memory";
     }

@@ -10,8 +10,11 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <memory>
+#include <new>
 #include <vector>
 
+#include <turbojpeg.h>
 #include <zlib.h>
 
 namespace pointplane
@@ -115,6 +118,32 @@ constexpr const char* kCut = "stops before the end of the image";
     }
     return bytes;
 }
+/** By TurboJPEG: OpenCV would start all of its coders, of which GDAL's ends the process where
+ * memory is short. */
+[[nodiscard]] Bytes jpegOf(const cv::Mat& bgr, int quality)
+{
+    const std::unique_ptr<void, int (*)(tjhandle)> coder(tjInitCompress(), tjDestroy);
+    unsigned char* data = nullptr;
+    unsigned long size = 0;
+    const bool isWritten = coder && tjCompress2(
+                                        coder.get(),
+                                        bgr.data,
+                                        bgr.cols,
+                                        static_cast<int>(bgr.step),
+                                        bgr.rows,
+                                        TJPF_BGR,
+                                        &data,
+                                        &size,
+                                        TJSAMP_420,
+                                        quality,
+                                        TJFLAG_ACCURATEDCT) == 0;
+    const std::unique_ptr<unsigned char, void (*)(unsigned char*)> owner(data, tjFree);
+    if (!isWritten)
+    {
+        throw std::bad_alloc();
+    }
+    return {data, data + size};
+}
 }  // namespace
 
 cv::Mat readImageFile(const std::string& path, int flags)
@@ -140,17 +169,10 @@ cv::Mat readImageFile(const std::string& path, int flags)
     return image;
 }
 
-void writeImageFile(const std::string& path, const cv::Mat& image, const std::vector<int>& options)
+namespace
 {
-    Bytes bytes;
-    try
-    {
-        cv::imencode(fs::path(path).extension().string(), image, bytes, options);
-    }
-    catch (const cv::Exception& e)
-    {
-        throw EnvironmentError("cannot write " + path + ": " + e.err);
-    }
+void writeBytes(const std::string& path, const Bytes& bytes)
+{
     OutputFile file(path);
     try
     {
@@ -162,5 +184,25 @@ void writeImageFile(const std::string& path, const cv::Mat& image, const std::ve
         file.discard();
         throw;
     }
+}
+}  // namespace
+
+void writeImageFile(const std::string& path, const cv::Mat& image, const std::vector<int>& options)
+{
+    Bytes bytes;
+    try
+    {
+        cv::imencode(fs::path(path).extension().string(), image, bytes, options);
+    }
+    catch (const cv::Exception& e)
+    {
+        throw EnvironmentError("cannot write " + path + ": " + e.err);
+    }
+    writeBytes(path, bytes);
+}
+
+void writeJpegFile(const std::string& path, const cv::Mat& bgr, int quality)
+{
+    writeBytes(path, jpegOf(bgr, quality));
 }
 }  // namespace pointplane

@@ -131,7 +131,8 @@ mrpt::Clock::time_point stampFromText(const std::string& text)
     std::string fraction = dot < text.size() ? text.substr(dot + 1) : "";
     const auto isDigits = [](const std::string& s)
     { return std::all_of(s.begin(), s.end(), [](unsigned char c) { return std::isdigit(c); }); };
-    if (whole.empty() || whole.size() > 11 || !isDigits(whole) || !isDigits(fraction))
+    static const std::size_t kMostDigits = std::to_string(kLatestStamp).size();
+    if (whole.empty() || whole.size() > kMostDigits || !isDigits(whole) || !isDigits(fraction))
     {
         throw InputError("'" + text + "' is not a time stamp in seconds");
     }

@@ -51,7 +51,7 @@ class ObservationConverter
 
     /** \param scan not changed; external data that were read are not kept in it
      * \return the frame or, whatever is wrong with the observation, the problem; never throws for
-     * it */
+     * it, but std::bad_alloc or OpenCV's own where memory is short */
     [[nodiscard]] ConvertedFrame convert(const mrpt::obs::CObservation3DRangeScan& scan) const;
 
  private:

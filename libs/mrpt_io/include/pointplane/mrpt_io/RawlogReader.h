@@ -72,7 +72,9 @@ class RawlogReader
     RawlogReader& operator=(const RawlogReader&) = delete;
 
     /** The next object, or nullptr when there is none; ending() then says why. Never throws for
-     * what is in the file. External images are not loaded. */
+     * what is in the file, but std::bad_alloc where memory is short. External images are not
+     * loaded.
+     */
     [[nodiscard]] mrpt::serialization::CSerializable::Ptr next();
 
     /** The bytes of the object that next() returned last. Can be taken once. */

@@ -32,4 +32,7 @@ constexpr int kExitEnvironment = 3;
 
 /** The first sentence of an exception; MRPT's carry a stack trace of many lines. */
 [[nodiscard]] std::string oneLine(const std::exception& e);
+
+/** Whether it is about the machine, not about what was read: std::bad_alloc, and OpenCV's own. */
+[[nodiscard]] bool isOutOfMemory(const std::exception& e);
 }  // namespace pointplane

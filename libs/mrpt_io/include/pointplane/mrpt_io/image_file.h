@@ -17,4 +17,7 @@ namespace pointplane
  * cv::imwrite \throws EnvironmentError naming the file */
 void writeImageFile(
     const std::string& path, const cv::Mat& image, const std::vector<int>& options = {});
+
+/** The same as JPEG, without OpenCV's coders. \param bgr CV_8UC3 \param quality 1 to 100 */
+void writeJpegFile(const std::string& path, const cv::Mat& bgr, int quality);
 }  // namespace pointplane

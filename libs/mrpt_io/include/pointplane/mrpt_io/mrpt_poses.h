@@ -6,6 +6,7 @@
 #include <mrpt/core/Clock.h>
 #include <mrpt/poses/CPose3DPDFGaussian.h>
 
+#include <cstdint>
 #include <string>
 
 namespace pointplane
@@ -50,7 +51,10 @@ namespace pointplane
 /** Exact decimal text of a stamp in seconds since 1970: nine decimals, of which MRPT's clock (100
  * ns) fills seven. */
 [[nodiscard]] std::string stampText(mrpt::Clock::time_point stamp);
-/** The inverse; exact to 100 ns. \throws InputError if the text is not a decimal number */
+/** Seconds since 1970 that a text may tell: the largest number of its number of digits. */
+constexpr std::int64_t kLatestStamp = 99'999'999'999;
+/** The inverse; exact to 100 ns. \throws InputError if the text is not a decimal number, or has
+ * more digits before the point than kLatestStamp */
 [[nodiscard]] mrpt::Clock::time_point stampFromText(const std::string& text);
 /** @} */
 }  // namespace pointplane

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+namespace pointplane
+{
+/** Before anything else is opened: the first file that a program opens must not take the number of
+ * a stream that is closed. Whatever is written to a closed stream fails. */
+void openStandardStreams();
+
+/** Before a run whose result goes there. What only tells about a run may be lost with a closed
+ * stream. \throws EnvironmentError if it was closed when the program began */
+void requireStandardOutput();
+
+/** At the end. \throws EnvironmentError if something is lost that was written to std::cout */
+void flushStandardOutput();
+}  // namespace pointplane

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dataset_layouts.h"
+
+#include <string>
+
+#include "layout_files.h"
+#include <nlohmann/json.hpp>
+
+namespace pointplane
+{
+namespace fs = std::filesystem;
+
+std::optional<FolderLayout> scanNet(const fs::path& folder)
+{
+    const fs::path intrinsic = folder / "intrinsic";
+    if (!fs::exists(intrinsic / "intrinsic_depth.txt"))
+    {
+        return {};
+    }
+    FolderLayout out;
+    out.name = "ScanNet";
+    out.colour = imagesIn(folder / "color");
+    out.depth = imagesIn(folder / "depth");
+    out.camera = colourCamera(cameraOfMatrix(intrinsic / "intrinsic_color.txt"));
+    out.depthCamera = cameraOfMatrix(intrinsic / "intrinsic_depth.txt");
+    out.fps = 30;
+    return out;
+}
+
+std::optional<FolderLayout> sevenScenes(const fs::path& folder)
+{
+    FolderLayout out;
+    out.name = "7-Scenes";
+    out.colour = imagesIn(folder, "frame-", ".color");
+    out.depth = imagesIn(folder, "frame-", ".depth");
+    if (out.colour.empty() || out.depth.empty())
+    {
+        return {};
+    }
+    out.camera = colourCamera(pinholeOf(640, 480, 585, 320, 240));
+    out.cameraIsNominal = true;
+    out.fps = 30;
+    return out;
+}
+
+std::optional<FolderLayout> replica(const fs::path& folder)
+{
+    const fs::path results = fs::is_directory(folder / "results") ? folder / "results" : folder;
+    FolderLayout out;
+    out.name = "Replica";
+    out.colour = imagesIn(results, "frame");
+    out.depth = imagesIn(results, "depth");
+    if (out.colour.empty() || out.depth.empty())
+    {
+        return {};
+    }
+    for (const fs::path& path : {folder / "cam_params.json", folder / ".." / "cam_params.json"})
+    {
+        if (const auto json = jsonObjectIn(path))
+        {
+            const nlohmann::json& c = json->contains("camera") ? (*json)["camera"] : *json;
+            PinholeCamera camera = pinholeOf(
+                pixelsIn(c, "w", path),
+                pixelsIn(c, "h", path),
+                numberIn(c, "fx", path),
+                numberIn(c, "cx", path),
+                numberIn(c, "cy", path));
+            camera.fy = numberIn(c, "fy", path);
+            out.camera = colourCamera(camera);
+            out.unitsPerMetre = numberIn(c, "scale", path);
+            break;
+        }
+    }
+    out.fps = 30;
+    return out;
+}
+
+void readPublishedCamera(const fs::path& folder, FolderLayout& out)
+{
+    const std::string path = fs::absolute(folder).lexically_normal().string();
+    if (path.find("rgbd_bonn") != std::string::npos)
+    {
+        PinholeCamera camera = pinholeOf(640, 480, 542.822841, 315.593520, 237.756098);
+        camera.fy = 542.576870;
+        camera.distortion = {{0.039903, -0.099343, -0.000730, -0.000144, 0}};
+        out.name = "Bonn";
+        out.camera = colourCamera(camera);
+        out.unitsPerMetre = 5000;
+    }
+}
+}  // namespace pointplane

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "layout_files.h"
+
+#include <pointplane/mrpt_io/errors.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <string>
+
+#include "folder_images.h"
+#include <nlohmann/json.hpp>
+
+namespace pointplane
+{
+namespace fs = std::filesystem;
+
+std::vector<double> numbersInFile(const fs::path& path)
+{
+    std::ifstream file(path);
+    if (!file || fs::is_directory(path))
+    {
+        throw InputError(
+            "cannot open " + path.string() + ": " + (file ? "not a file" : "no such file"));
+    }
+    std::string text((std::istreambuf_iterator<char>(file)), {});
+    std::replace(text.begin(), text.end(), ',', ' ');
+    std::istringstream words(text);
+    std::vector<double> out;
+    for (std::string word; words >> word;)
+    {
+        const auto value = numberOf(word);
+        if (!value)
+        {
+            throw InputError(path.string() + ": '" + word + "' is not a number");
+        }
+        out.push_back(*value);
+    }
+    return out;
+}
+
+PinholeCamera cameraOfMatrix(const fs::path& path)
+{
+    const std::vector<double> m = numbersInFile(path);
+    if (m.size() != 9 && m.size() != 16)
+    {
+        throw InputError(path.string() + ": is not a 3x3 or 4x4 matrix");
+    }
+    const std::size_t columns = m.size() == 9 ? 3 : 4;
+    if (m[2 * columns] != 0 || m[2 * columns + 1] != 0 || m[2 * columns + 2] != 1)
+    {
+        throw InputError(path.string() + ": the third row of a camera's matrix is 0 0 1");
+    }
+    PinholeCamera out;
+    out.width = out.height = 0;
+    out.fx = m[0];
+    out.cx = m[2];
+    out.fy = m[columns + 1];
+    out.cy = m[columns + 2];
+    return out;
+}
+
+std::optional<nlohmann::json> jsonObjectIn(const fs::path& path)
+{
+    std::ifstream file(path);
+    if (!file)
+    {
+        return {};
+    }
+    nlohmann::json out = nlohmann::json::parse(file, nullptr, false);
+    if (!out.is_object())
+    {
+        throw InputError(path.string() + ": is not a JSON object");
+    }
+    return out;
+}
+
+double numberIn(const nlohmann::json& json, const char* key, const fs::path& path)
+{
+    const auto found = json.find(key);
+    if (found == json.end() || !found->is_number())
+    {
+        throw InputError(path.string() + ": has no number '" + key + "'");
+    }
+    return found->get<double>();
+}
+
+int pixelsIn(const nlohmann::json& json, const char* key, const fs::path& path)
+{
+    constexpr double kLargest = 65535;
+    const double size = numberIn(json, key, path);
+    if (!(size >= 1 && size <= kLargest))
+    {
+        throw InputError(path.string() + ": '" + key + "' is not a number of pixels");
+    }
+    return static_cast<int>(size);
+}
+
+TumCamera colourCamera(const PinholeCamera& camera)
+{
+    TumCamera out;
+    out.camera = camera;
+    return out;
+}
+
+PinholeCamera pinholeOf(int width, int height, double f, double cx, double cy)
+{
+    PinholeCamera out;
+    out.width = width;
+    out.height = height;
+    out.fx = out.fy = f;
+    out.cx = cx;
+    out.cy = cy;
+    return out;
+}
+}  // namespace pointplane

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "tum_camera.h"
+#include <nlohmann/json_fwd.hpp>
+
+namespace pointplane
+{
+/** @name What the files beside the images of a folder say
+ * All throw InputError naming the file.
+ * @{ */
+
+/** All numbers of a text file, separated by blanks or commas. */
+[[nodiscard]] std::vector<double> numbersInFile(const std::filesystem::path& path);
+
+/** A 3x3 or 4x4 matrix, row by row. Its size is not in the file: 0x0. */
+[[nodiscard]] PinholeCamera cameraOfMatrix(const std::filesystem::path& path);
+
+/** A JSON file's object, or nothing if it is not there. */
+[[nodiscard]] std::optional<nlohmann::json> jsonObjectIn(const std::filesystem::path& path);
+
+/** \param path of the file, for the message */
+[[nodiscard]] double numberIn(
+    const nlohmann::json& json, const char* key, const std::filesystem::path& path);
+
+/** Pixels of a side. */
+[[nodiscard]] int pixelsIn(
+    const nlohmann::json& json, const char* key, const std::filesystem::path& path);
+/** @} */
+
+[[nodiscard]] PinholeCamera pinholeOf(int width, int height, double f, double cx, double cy);
+[[nodiscard]] TumCamera colourCamera(const PinholeCamera& camera);
+}  // namespace pointplane

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "phone_layouts.h"
+
+#include <pointplane/mrpt_io/errors.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <string>
+
+#include "layout_files.h"
+#include <nlohmann/json.hpp>
+
+namespace pointplane
+{
+namespace fs = std::filesystem;
+
+namespace
+{
+/** Sets the stamps of images by their numbers, where `stampOf` knows them. */
+template <class StampOf>
+void setStamps(FolderLayout& out, const StampOf& stampOf)
+{
+    for (auto* images : {&out.colour, &out.depth})
+    {
+        for (ImageRef& image : *images)
+        {
+            if (const std::optional<double> stamp = stampOf(image.key))
+            {
+                image.stamp = stamp;
+            }
+        }
+    }
+}
+
+/** Stamps by frame: the first two columns of StrayScanner's odometry.csv. */
+[[nodiscard]] std::map<long, double> stampsOf(const fs::path& odometry)
+{
+    std::map<long, double> out;
+    std::ifstream file(odometry);
+    for (std::string line; std::getline(file, line);)
+    {
+        std::istringstream columns(line);
+        std::string first, second;
+        std::getline(columns, first, ',');
+        std::getline(columns >> std::ws, second, ',');
+        const auto stamp = numberOf(first), frame = numberOf(second);
+        if (stamp && frame)
+        {
+            out[std::lround(*frame)] = *stamp;
+        }
+    }
+    return out;
+}
+
+}  // namespace
+
+std::optional<FolderLayout> strayScanner(const fs::path& folder)
+{
+    if (!fs::exists(folder / "camera_matrix.csv"))
+    {
+        return {};
+    }
+    FolderLayout out;
+    out.name = "StrayScanner";
+    out.depth = imagesIn(folder / "depth");
+    out.camera = colourCamera(cameraOfMatrix(folder / "camera_matrix.csv"));
+    out.colour = imagesIn(folder / "rgb");
+    if (out.colour.empty())
+    {
+        out.video = (folder / "rgb.mp4").string();
+        out.colour = out.depth;
+        std::for_each(
+            out.colour.begin(), out.colour.end(), [](ImageRef& image) { image.path.clear(); });
+    }
+    setStamps(
+        out,
+        [stamps = stampsOf(folder / "odometry.csv")](long frame)
+        {
+            const auto found = stamps.find(frame);
+            return found == stamps.end() ? std::nullopt : std::optional(found->second);
+        });
+    out.fps = 60;
+    return out;
+}
+
+void readRecord3d(const fs::path& folder, FolderLayout& out)
+{
+    for (const char* name : {"metadata.json", "metadata"})
+    {
+        const fs::path path = folder / name;
+        const auto json = jsonObjectIn(path);
+        if (!json || !json->contains("K"))
+        {
+            continue;
+        }
+        const auto& K = (*json)["K"];
+        if (!K.is_array() || K.size() != 9 ||
+            !std::all_of(K.begin(), K.end(), [](const auto& k) { return k.is_number(); }))
+        {
+            throw InputError(path.string() + ": K is not a list of 9 numbers");
+        }
+        PinholeCamera camera = pinholeOf(
+            pixelsIn(*json, "w", path),
+            pixelsIn(*json, "h", path),
+            K[0].get<double>(),
+            K[6].get<double>(),
+            K[7].get<double>());
+        camera.fy = K[4].get<double>();
+        out.name = "Record3D";
+        out.camera = colourCamera(camera);
+        if (json->contains("fps"))
+        {
+            out.fps = numberIn(*json, "fps", path);
+            if (!(*out.fps > 0))
+            {
+                throw InputError(path.string() + ": 'fps' is not a positive number");
+            }
+        }
+        if (json->contains("frameTimestamps") && (*json)["frameTimestamps"].is_array())
+        {
+            setStamps(
+                out,
+                [&stamps = (*json)["frameTimestamps"]](long frame) -> std::optional<double>
+                {
+                    const auto i = static_cast<std::size_t>(std::max(0L, frame));
+                    return i < stamps.size() && stamps[i].is_number()
+                               ? std::optional(stamps[i].get<double>())
+                               : std::nullopt;
+                });
+        }
+        return;
+    }
+}
+}  // namespace pointplane

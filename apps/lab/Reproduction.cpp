@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Reproduction.h"
+
+#include <pointplane/evaluation/units.h>
+
+#include "PosesFromStart.h"
+#include "result_output.h"
+
+namespace pointplane
+{
+std::string displayName(const ReproducedSequence& s)
+{
+    return s.name + (s.isPart ? " (part)" : "");
+}
+
+const LabScore* Reproduction::score(
+    std::size_t sequence, const std::string& group, const std::string& name) const
+{
+    for (std::size_t v = 0; v < variants.size(); ++v)
+    {
+        const LabScore& score = scores[sequence * variants.size() + v];
+        if (variants[v].group == group && variants[v].name == name && score.rpe)
+        {
+            return &score;
+        }
+    }
+    return nullptr;
+}
+
+std::string Reproduction::text(
+    std::size_t sequence, const std::string& group, const std::string& name) const
+{
+    for (std::size_t v = 0; v < variants.size(); ++v)
+    {
+        if (variants[v].group == group && variants[v].name == name)
+        {
+            return cellText(scores[sequence * variants.size() + v]);
+        }
+    }
+    return "-";
+}
+
+std::string cellText(const LabScore& score)
+{
+    if (!score.rpe)
+    {
+        return "failed";
+    }
+    return format(
+               "%.1f / %.2f",
+               1000 * score.rpe->translation.rmse,
+               kDegreesPerRadian * score.rpe->rotation.rmse) +
+           (score.rpe->coverage.predicted > 0 ? format(" (%zu p)", score.rpe->coverage.predicted)
+                                              : "");
+}
+
+double finalError(const Reproduction& result, std::size_t corner)
+{
+    return PosesFromStart(result.cornerTruth, result.cornerScores[corner].estimate).finalError();
+}
+}  // namespace pointplane
