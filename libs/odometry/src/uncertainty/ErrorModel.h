@@ -62,7 +62,7 @@ class ErrorModel
         Matrix12d motionNoise;  //!< of its prediction, by what the motion model adds in dt
         Vector6d acceleration2{Vector6d::Zero()};  //!< MotionModel::acceleration2()
         ShutterModel shutter{0, 0, 0};             //!< ShutterCalibrator::complete()
-        PinholeCamera camera;
+        PinholeCamera camera{};
         double bend{0};  //!< DepthNoise::sigmaRelative
     };
 
