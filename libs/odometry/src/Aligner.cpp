@@ -309,7 +309,7 @@ void Aligner::verify(const Scene& scene, Alignment& alignment)
     {
         alignment.numSought +=
             numInView(*reference, scene.current.frame, T_cur_world * reference->T_world_cam);
-        if (hasDepth(scene.current.frame) && alignment.agreement.seen() < Judge::kEnoughSurfaces)
+        if (scene.current.hasDepth && alignment.agreement.seen() < Judge::kEnoughSurfaces)
         {
             const DepthMotion depth = depthMotion(
                 scene.track, *reference, scene.current.frame, motion, scene.errors.shutter());

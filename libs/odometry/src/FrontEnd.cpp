@@ -29,6 +29,7 @@ Features FrontEnd::extract(const RgbdFrame& frame, FrameDiagnostics& diagnostics
 {
     Features out;
     out.frame = frame;
+    out.hasDepth = hasDepth(frame);
     if (camera_ && !sameCamera(*camera_, frame.camera))
     {
         depthNoise_.reset();

@@ -190,7 +190,7 @@ void Odometry::Impl::measure(const Features& current, Alignment& alignment, Odom
     shown.moving = Aligner::findMoving(frontEnd, current, track, errors, alignment);
     // Without depth, it shows nothing that others could be compared with.
     const bool isKeyframe =
-        hasDepth(current.frame) &&
+        current.hasDepth &&
         (track.needsKeyframe(motion.mean.T_prev_cur, track.overlap(alignment.associations)) ||
          Judge::needsNewView(alignment, shown.moving.share()));
     Reference reference = referenceOf(current);

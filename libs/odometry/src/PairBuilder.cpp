@@ -36,6 +36,7 @@ int patchOf(const Eigen::Vector2d& uv_px, const PinholeCamera& camera)
     };
     return kPatchesPerSide * part(uv_px.y(), camera.height) + part(uv_px.x(), camera.width);
 }
+
 /** A pair of points as both views together put it: its noise has nothing to do with the residual.
  * With the measured ones, a camera that shrinks all residuals would seem right. */
 struct FusedPoint

@@ -77,29 +77,29 @@ Matrix312d NormalEquations::jacobian(size_t i) const
     return J;
 }
 
-NormalEquations::CameraColumns NormalEquations::cameraColumns() const
+NormalEquations::CameraColumns& NormalEquations::CameraColumns::operator+=(
+    const CameraColumns& other)
 {
-    CameraColumns out;
-    for (size_t i = 0; i < residuals_.size(); ++i)
-    {
-        addCamera(out, i);
-    }
-    return out;
+    H += other.H;
+    own.information += other.own.information;
+    own.gradient += other.own.gradient;
+    return *this;
 }
 
-void NormalEquations::addCamera(CameraColumns& columns, size_t i) const
+NormalEquations::CameraColumns NormalEquations::cameraColumns(size_t i) const
 {
+    CameraColumns out;
     const auto& [residual, W, squaredNorm] = residuals_[i];
     const double w = robust(squaredNorm, isPoint(i)).first;
     if (w > 0)
     {
         const ByCamera& K = residual.ofCamera;
         const ByCamera weighted = gain(i) * w * W * K;
-        columns.H.topRows<6>() += residual.J.transpose() * weighted;
-        columns.H.bottomRows<6>() += residual.J_V.transpose() * weighted;
-        columns.own.information += K.transpose().lazyProduct(weighted);
-        columns.own.gradient += weighted.transpose() * residual.r;
+        out.H << residual.J.transpose() * weighted, residual.J_V.transpose() * weighted;
+        out.own.information = K.transpose().lazyProduct(weighted);
+        out.own.gradient = weighted.transpose() * residual.r;
     }
+    return out;
 }
 
 NormalEquations::Weighted NormalEquations::weighted(size_t i, const Motion& motion) const

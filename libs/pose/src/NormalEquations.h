@@ -71,11 +71,11 @@ class NormalEquations
     {
         MotionByCamera H{MotionByCamera::Zero()};  //!< with pose and velocity
         CameraInformation own;                     //!< with each other, motion not eliminated
+        CameraColumns& operator+=(const CameraColumns& other);
     };
-    [[nodiscard]] CameraColumns cameraColumns() const;
 
-    /** Adds those of one residual. */
-    void addCamera(CameraColumns& columns, size_t i) const;
+    /** Those of one residual. */
+    [[nodiscard]] CameraColumns cameraColumns(size_t i) const;
 
  private:
     /** A residual, the weight matrix that it is given, and its squared norm by that. */

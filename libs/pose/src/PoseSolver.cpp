@@ -243,11 +243,7 @@ PoseAnalysis PoseSolver::analyse(const PoseProblem& problem, const PoseEstimate&
     PoseAnalysis out;
     out.sensitivity = analysis.sensitivity();
     out.sensitivity.prior = at.H_inverse * at.known;
-    const NormalEquations::CameraColumns camera = equations.cameraColumns();
-    out.sensitivity.camera = -at.H_inverse * camera.H;
-    out.camera = camera.own;  // at the solution, the gradient of the motion is zero
-    out.camera.information += camera.H.transpose() * out.sensitivity.camera;
-    out.cameraByReference = analysis.cameraByReference();
+    analysis.addCamera(out);
     out.pointVariance = equations.pointVariance();
     out.planeVariance = equations.planeVariance();
     if (analysis.numGroups() > 1)

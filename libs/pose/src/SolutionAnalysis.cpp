@@ -162,39 +162,55 @@ Disagreement SolutionAnalysis::disagreementOf(const Groups& groups, const Matrix
     return out;
 }
 
-CameraInformation SolutionAnalysis::cameraByReference() const
+void SolutionAnalysis::addCamera(PoseAnalysis& out) const
 {
-    struct Group
-    {
-        FeatureSum motion;
-        NormalEquations::CameraColumns camera;
-    };
-    std::map<int, Group> groups;
+    NormalEquations::CameraColumns all;
+    std::map<int, NormalEquations::CameraColumns> byReference;
     const auto add = [&](const auto& pairs, size_t offset)
     {
         for (size_t i = 0; i < pairs.size(); ++i)
         {
-            Group& group = groups[pairs[i].reference];
-            equations_.add(group.motion, offset + i);
-            equations_.addCamera(group.camera, offset + i);
+            const NormalEquations::CameraColumns columns = equations_.cameraColumns(offset + i);
+            all += columns;
+            byReference[pairs[i].reference] += columns;
         }
     };
     add(problem_.points, 0);
     add(problem_.planes, problem_.points.size());
-    CameraInformation out;
-    for (const auto& [reference, group] : groups)
+
+    out.sensitivity.camera = -H_inverse_ * all.H;
+    out.camera = all.own;  // at the solution, the gradient of the motion is zero
+    out.camera.information += all.H.transpose() * out.sensitivity.camera;
+    for (const auto& [reference, columns] : byReference)
     {
-        // Of some directions, a reference may tell nothing.
-        const Matrix6d H = group.motion.H.topLeftCorner<6, 6>();
-        const Eigen::Matrix<double, 6, kNumCameraErrors> ofCamera = group.camera.H.topRows<6>();
-        const Eigen::Matrix<double, 6, kNumCameraErrors> follows =
-            H.completeOrthogonalDecomposition().solve(ofCamera);
-        out.information += group.camera.own.information - ofCamera.transpose() * follows;
-        out.gradient += group.camera.own.gradient - follows.transpose() * group.motion.g.head<6>();
+        const CameraInformation alone = withoutMotion(reference, columns);
+        const auto numReferences = static_cast<double>(byReference.size());
+        out.cameraByReference.information += alone.information / numReferences;
+        out.cameraByReference.gradient += alone.gradient / numReferences;
     }
-    const double numReferences = std::max(1.0, static_cast<double>(groups.size()));
-    out.information /= numReferences;
-    out.gradient /= numReferences;
+}
+
+/** What one reference says of the camera, with a motion of its own. */
+CameraInformation SolutionAnalysis::withoutMotion(
+    int reference, const NormalEquations::CameraColumns& columns) const
+{
+    Matrix6d H = Matrix6d::Zero();
+    Vector6d gradient = Vector6d::Zero();
+    for (const Groups* groups : {&pointGroups_, &planeGroups_})
+    {
+        if (const auto group = groups->find(reference); group != groups->end())
+        {
+            H += group->second.H.topLeftCorner<6, 6>();
+            gradient += group->second.g.head<6>();
+        }
+    }
+    // Of some directions, a reference may tell nothing.
+    const Eigen::Matrix<double, 6, kNumCameraErrors> ofCamera = columns.H.topRows<6>();
+    const Eigen::Matrix<double, 6, kNumCameraErrors> follows =
+        H.completeOrthogonalDecomposition().solve(ofCamera);
+    CameraInformation out = columns.own;
+    out.information -= ofCamera.transpose() * follows;
+    out.gradient -= follows.transpose() * gradient;
     return out;
 }
 

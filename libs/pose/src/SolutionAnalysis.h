@@ -33,8 +33,8 @@ class SolutionAnalysis
     [[nodiscard]] Disagreement pointDisagreement(const Matrix12d& cov) const;
     [[nodiscard]] Disagreement planeDisagreement(const Matrix12d& cov) const;
 
-    /** See PoseAnalysis. */
-    [[nodiscard]] CameraInformation cameraByReference() const;
+    /** Sets all that is about the camera's errors. */
+    void addCamera(PoseAnalysis& out) const;
 
     /** See PoseSolver. */
     [[nodiscard]] double pointSupport() const;
@@ -49,6 +49,8 @@ class SolutionAnalysis
     /** \param offset of the pairs' first residual */
     template <class Pairs>
     [[nodiscard]] Groups byReference(const Pairs& pairs, size_t offset) const;
+    [[nodiscard]] CameraInformation withoutMotion(
+        int reference, const NormalEquations::CameraColumns& columns) const;
     void addPatches(Sensitivity& out) const;
     template <class Pairs>
     [[nodiscard]] Matrix12d currentNoise(const Pairs& pairs, size_t offset) const;

@@ -62,7 +62,7 @@ ErrorModel::ErrorModel(const OdometryParams& params)
       noise_(params.noiseScale),
       variogram_(params.noiseScale.timeConstant),
       shutter_(params.shutter),
-      lens_(params.lens)
+      lens_(params.lens, params.shutter.varianceFactor)
 {
 }
 

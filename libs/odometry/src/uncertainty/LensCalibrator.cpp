@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pointplane/core/range.h>
 #include <pointplane/odometry/uncertainty/LensCalibrator.h>
 
 #include <Eigen/LU>
@@ -30,13 +29,6 @@ std::string describe(const LearntLens& lens)
     add("radial distortion ", 3, 1, 4, "");
     return out.str();
 }
-
-void LensCalibrator::TParams::check() const
-{
-    checkRange("varianceFactor", varianceFactor, 0.01, 1000);
-}
-
-LensCalibrator::LensCalibrator(const TParams& params) : params_(params) { params_.check(); }
 
 CameraVector LensCalibrator::errors(const PinholeCamera& camera) const
 {
@@ -75,7 +67,7 @@ LensCalibrator::Change LensCalibrator::update(
     const LensMatrix widening = LensVector(prior - prior_).asDiagonal();
     prior_ = prior;
     // Frames repeat each other's residuals: each counts as a fraction of one.
-    const double factor = params_.varianceFactor * variance;
+    const double factor = varianceFactor_ * variance;
     const LensMatrix information = byReference.information.block<kNumLensErrors, kNumLensErrors>(
                                        kPrincipalPointX, kPrincipalPointX) /
                                    factor;

@@ -25,7 +25,6 @@ class LensCalibrator
     {
         bool nominal{false};
         bool selfCalibrate{true};
-        double varianceFactor{10.0};
 
         template <class V>
         void visit(V&& v)
@@ -37,24 +36,23 @@ class LensCalibrator
             v("selfCalibrate",
               selfCalibrate,
               "-",
-              "learn from the camera's motion what nobody calibrated: nominal focal length and "
-              "principal point; radial distortion of these cameras, and of those whose depth is "
-              "bent");
-            v("varianceFactor",
-              varianceFactor,
-              "-",
-              "this many frames teach as much as one, because neighbouring frames have the same "
-              "errors");
+              "learn all intrinsics if they are nominal, and radial distortion if depth is bent");
         }
-        /** \throws std::invalid_argument naming the key */
-        void check() const;
+        void check() const {}
     };
 
-    /** \throws std::invalid_argument naming the key */
-    explicit LensCalibrator(const TParams& params);
+    /** \param varianceFactor this many frames teach as much as one
+     * (ShutterCalibrator::TParams::varianceFactor) */
+    explicit LensCalibrator(const TParams& params, double varianceFactor = 10)
+        : params_(params), varianceFactor_(varianceFactor)
+    {
+    }
 
     /** What the calibration of this camera errs by, as learnt so far; zero for a new camera. */
     [[nodiscard]] CameraVector errors(const PinholeCamera& camera) const;
+
+    /** The same for users, with standard deviations. */
+    [[nodiscard]] LearntLens learnt(const PinholeCamera& camera) const;
 
     /** How the error of the estimate changes with a frame: it is gain times the one before, plus
      * noise. */
@@ -73,13 +71,11 @@ class LensCalibrator
         double bend,
         double variance = 1);
 
-    /** The same with standard deviations. */
-    [[nodiscard]] LearntLens learnt(const PinholeCamera& camera) const;
-
  private:
     [[nodiscard]] bool isLearnt(const PinholeCamera& camera) const;
 
     TParams params_;
+    double varianceFactor_;
     std::optional<PinholeCamera> camera_;
     LensVector prior_{LensVector::Zero()}, estimate_{LensVector::Zero()};
     LensMatrix cov_{LensMatrix::Zero()};

@@ -55,8 +55,9 @@ class ShutterCalibrator
             v("varianceFactor",
               varianceFactor,
               "-",
-              "this many frames teach as much as one, because neighbouring frames have the same "
-              "errors");
+              "this many frames teach as much as one, also of the lens: neighbouring frames have "
+              "the "
+              "same errors");
         }
         /** \throws std::invalid_argument naming the key */
         void check() const;
