@@ -104,7 +104,8 @@ TEST_P(PointStageTest, framesWithoutImageOrDepthAreNoReferences)
         const auto found =
             stage.correspond(reference, frame, prepared, Eigen::Isometry3d::Identity(), 1);
         // Tracks need no depth.
-        const bool isTracked = GetParam() == "track" && frame.gray.data == good.gray.data;
+        const bool isTracked =
+            std::string(GetParam()) == "track" && frame.gray.data == good.gray.data;
         EXPECT_EQ(!found.empty(), isTracked);
         for (const PointTrack& track : found)
         {
