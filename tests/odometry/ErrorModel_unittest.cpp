@@ -112,6 +112,41 @@ TEST_F(ErrorModelTest, aFrameErrsByAccelerationWhileItIsExposed)
     EXPECT_NEAR(noise(0.02) - noise(0), 0.0004 * 0.0004, 1e-13);
 }
 
+/** The larger of what a calibration may err by and what is to be learnt. */
+TEST_F(ErrorModelTest, aCameraErrsByItsCalibrationAndWhatIsToBeLearnt)
+{
+    PinholeCamera camera;
+    const auto sigma = [&](int k)
+    { return std::sqrt(ErrorModel(params).changeCamera(camera)(k, k)); };
+    EXPECT_NEAR(sigma(kFocalLength), params.covariance.focalLength, 1e-12);
+    EXPECT_NEAR(sigma(kDepthScale), params.covariance.depthScale, 1e-12);
+    EXPECT_NEAR(sigma(kDepthDelay), params.shutter.sigmaPrior, 1e-12);
+    EXPECT_EQ(sigma(kRadial), 0);
+    camera.isNominal = true;
+    EXPECT_NEAR(sigma(kFocalLength), 0.02, 1e-12);
+    params.covariance.focalLength = 0.1;
+    EXPECT_NEAR(sigma(kFocalLength), 0.1, 1e-12) << "who says that it is worse is believed";
+    params.shutter.selfCalibrate = false;
+    EXPECT_EQ(sigma(kDepthDelay), 0);
+    params.shutter.selfCalibrate = true;
+    params.shutter.correct = false;
+    EXPECT_EQ(sigma(kDepthDelay), 0) << "images are taken for those of one instant";
+}
+
+/** What is learnt of the camera changes its errors, which all poses share. */
+TEST_F(ErrorModelTest, whatIsLearntOfTheCameraIsPassedOn)
+{
+    ErrorModel model(params);
+    (void)model.changeCamera({});
+    analysis.camera.information(kDepthDelay, kDepthDelay) = 1e5;
+    analysis.camera.gradient[kDepthDelay] = -200;
+    const JointCovariance::Measurement out =
+        model.learn({{&reference}, estimate, analysis, 1e-9, Matrix12d::Zero()});
+    EXPECT_NEAR(out.cameraGain(kDepthDelay, kDepthDelay), 0.5, 1e-12);
+    EXPECT_NEAR(out.cameraNoise(kDepthDelay, kDepthDelay), 0.25e-4, 1e-12);
+    EXPECT_NEAR(model.camera().errors()[kDepthDelay], 0.001, 1e-12);
+}
+
 TEST_F(ErrorModelTest, independentIncrementsErrAsTheSolverSays)
 {
     params.covariance.model = "independent";

@@ -59,18 +59,18 @@ DepthMotion depthMotion(
     const Reference& reference,
     const RgbdFrame& current,
     const Motion& motion,
-    const ShutterCalibrator& shutter)
+    const CameraCalibrator& camera)
 {
     const Eigen::Isometry3d T_cur_ref = motion.T_prev_cur.inverse() *
                                         track.previous().T_world_cam.inverse() *
                                         reference.T_world_cam;
     const Eigen::Isometry3d T_depth_cur =
-        untilDepth(motion.velocity, shutter.complete(current.shutter).depthDelay).inverse();
+        untilDepth(motion.velocity, camera.complete(current.shutter).depthDelay).inverse();
     const Eigen::Isometry3d T_ref_depth =
-        untilDepth(reference.velocity, shutter.complete(reference.shutter).depthDelay);
+        untilDepth(reference.velocity, camera.complete(reference.shutter).depthDelay);
     const double speed = motion.velocity.head<3>().norm() + reference.velocity.head<3>().norm();
     const double rate = motion.velocity.tail<3>().norm() + reference.velocity.tail<3>().norm();
-    const double time = shutter.sigmaPrior();
+    const double time = camera.sigmaPrior();
     return {T_depth_cur * T_cur_ref * T_ref_depth, time * speed, time * rate};
 }
 
@@ -124,7 +124,7 @@ Alignment Aligner::align(
         track,
         errors,
         predicted,
-        PairBuilder(track.previous(), current, errors.lens().errors(current.frame.camera))};
+        PairBuilder(track.previous(), current, errors.camera())};
     // [P17, section Matching] capitalises on small motion.
     const Eigen::Isometry3d expected =
         searchesAhead_ ? predicted.pose.mean : Eigen::Isometry3d::Identity();
@@ -284,8 +284,7 @@ void Aligner::estimate(const Scene& scene, const Motion& start, Alignment& align
 {
     const Stopwatch watch;
     PoseProblem& problem = alignment.problem;
-    scene.pairs.build(
-        alignment.associations, scene.errors.shutter(), problem.points, problem.planes);
+    scene.pairs.build(alignment.associations, problem.points, problem.planes);
     problem.prior = scene.predicted.prior;
     problem.noise = scene.errors.noise();
     PoseEstimate out;
@@ -312,7 +311,7 @@ void Aligner::verify(const Scene& scene, Alignment& alignment)
         if (scene.current.hasDepth && alignment.agreement.seen() < Judge::kEnoughSurfaces)
         {
             const DepthMotion depth = depthMotion(
-                scene.track, *reference, scene.current.frame, motion, scene.errors.shutter());
+                scene.track, *reference, scene.current.frame, motion, scene.errors.camera());
             alignment.agreement +=
                 scene.frontEnd.compare(*reference, scene.current, depth.T_cur_ref, depth.slack_m);
         }
@@ -332,7 +331,7 @@ MovingRegions Aligner::findMoving(
         if (reference->images)
         {
             const DepthMotion depth = depthMotion(
-                track, *reference, current.frame, alignment.estimate.motion.mean, errors.shutter());
+                track, *reference, current.frame, alignment.estimate.motion.mean, errors.camera());
             earlier.push_back(
                 {&reference->images->frame,
                  depth.T_cur_ref.inverse(),

@@ -72,7 +72,7 @@ OdometryResult Odometry::Impl::process(const RgbdFrame& frame)
         result.diagnostics.maxSigmaRotation = sigma.tail<3>().maxCoeff();
     }
     count(shown, result.diagnostics);
-    result.diagnostics.lens = errors.lens().learnt(frame.camera);
+    result.diagnostics.lens = errors.camera().lens();
     result.diagnostics.msTotal = total.ms();
     return result;
 }
@@ -158,7 +158,12 @@ void Odometry::Impl::restart(
     reference.images = frontEnd.keyframeImages(current);
     shown.isKeyframe = true;
     showNewPoints(reference.points, shown);
-    result.increment = track.restart(std::move(reference), current.frame.camera);
+    const PinholeCamera& camera = current.frame.camera;
+    if (!track.isOf(camera))
+    {
+        track.changeCamera(camera, errors.changeCamera(camera));
+    }
+    result.increment = track.restart(std::move(reference));
 }
 
 /** Learns from the frame and makes it a reference. */
@@ -168,10 +173,9 @@ void Odometry::Impl::measure(const Features& current, Alignment& alignment, Odom
     result.reason = alignment.reason;
     const double dt = alignment.predicted.dt;
     const MotionGaussian& motion = alignment.estimate.motion;
-    PairBuilder(track.previous(), current)
+    PairBuilder(track.previous(), current, errors.camera())
         .addCameraErrors(
             alignment.associations,
-            errors.shutter(),
             motion.mean,
             alignment.problem.points,
             alignment.problem.planes);
@@ -183,8 +187,7 @@ void Odometry::Impl::measure(const Features& current, Alignment& alignment, Odom
          dt,
          track.motionNoise(dt),
          track.acceleration2(),
-         errors.shutter().complete(current.frame.shutter),
-         current.frame.camera,
+         errors.camera().complete(current.frame.shutter),
          current.bend});
     showPairs(alignment.associations, &analysis, shown);
     shown.moving = Aligner::findMoving(frontEnd, current, track, errors, alignment);

@@ -2,7 +2,7 @@
 #include <pointplane/core/covariance.h>
 #include <pointplane/odometry/PairBuilder.h>
 #include <pointplane/odometry/ShutterCorrection.h>
-#include <pointplane/odometry/uncertainty/ShutterCalibrator.h>
+#include <pointplane/odometry/uncertainty/CameraCalibrator.h>
 #include <pointplane/odometry/uncertainty/camera_errors.h>
 #include <pointplane/pose/residuals.h>
 
@@ -54,26 +54,19 @@ struct FusedPoint
 
 void PairBuilder::build(
     const std::vector<Association>& associations,
-    const ShutterCalibrator& shutter,
     std::vector<PointPair>& points,
     std::vector<PlanePair>& planes) const
 {
     points.clear();
     planes.clear();
     const PinholeCamera& camera = current_.frame.camera;
-    const bool isCorrected = !camera_.isZero(0);
     const auto correct = [&](Eigen::Vector3d& feature, auto byCamera)
-    {
-        if (isCorrected)
-        {
-            feature += byCamera(feature, camera) * camera_;
-        }
-    };
-    const ShutterCorrection current(shutter.complete(current_.frame.shutter), camera.height);
+    { feature += byCamera(feature, camera) * learnt_.errors(); };
+    const ShutterCorrection current(learnt_.complete(current_.frame.shutter), camera.height);
     for (const Association& association : associations)
     {
         const Reference& reference = *association.reference;
-        const ShutterCorrection past(shutter.complete(reference.shutter), camera.height);
+        const ShutterCorrection past(learnt_.complete(reference.shutter), camera.height);
         const Eigen::Isometry3d T_prev_ref =
             previous_.T_world_cam.inverse() * reference.T_world_cam;
         for (const PlaneMatch& match : association.planes)
@@ -122,21 +115,20 @@ void PairBuilder::build(
 
 void PairBuilder::addCameraErrors(
     const std::vector<Association>& associations,
-    const ShutterCalibrator& shutter,
     const Motion& motion,
     std::vector<PointPair>& points,
     std::vector<PlanePair>& planes) const
 {
     const PinholeCamera& camera = current_.frame.camera;
-    const ShutterCorrection current(shutter.complete(current_.frame.shutter), camera.height);
-    const Eigen::Matrix3d ofCurrent = shutter.estimated(current_.frame.shutter).asDiagonal();
+    const ShutterCorrection current(learnt_.complete(current_.frame.shutter), camera.height);
+    const Eigen::Matrix3d ofCurrent = learnt_.estimated(current_.frame.shutter).asDiagonal();
     auto point = points.begin();
     auto plane = planes.begin();
     for (const Association& association : associations)
     {
         const Reference& reference = *association.reference;
-        const ShutterCorrection past(shutter.complete(reference.shutter), camera.height);
-        const Eigen::Matrix3d ofReference = shutter.estimated(reference.shutter).asDiagonal();
+        const ShutterCorrection past(learnt_.complete(reference.shutter), camera.height);
+        const Eigen::Matrix3d ofReference = learnt_.estimated(reference.shutter).asDiagonal();
         const Eigen::Isometry3d T_prev_ref =
             previous_.T_world_cam.inverse() * reference.T_world_cam;
         const Eigen::Isometry3d T_ref_prev = T_prev_ref.inverse();

@@ -2,7 +2,6 @@
 #include "Track.h"
 
 #include <pointplane/core/covariance.h>
-#include <pointplane/odometry/uncertainty/camera_errors.h>
 
 #include <Eigen/Cholesky>
 
@@ -19,8 +18,6 @@ Track::Track(const OdometryParams& params)
       fuses_(params.pipeline.fuses()),
       isFrameToFrame_(params.reference.isFrameToFrame()),
       motion_(params.motionModel),
-      calibration_(params.covariance),
-      shutter_(params.shutter),
       history_(params.covariance),
       window_(params.reference)
 {
@@ -31,13 +28,18 @@ bool Track::needsKeyframe(const Eigen::Isometry3d& T_prev_cur, double overlap) c
     return window_.needsKeyframe(previous().T_world_cam * T_prev_cur, overlap);
 }
 
+bool Track::isOf(const PinholeCamera& camera) const
+{
+    return started_ && sameCamera(camera_, camera);
+}
+
 std::string Track::interruption(double stamp, const PinholeCamera& camera) const
 {
     if (stamp <= latestStamp_)
     {
         return "the clock has been set back";
     }
-    return sameCamera(camera_, camera) ? "" : "the camera's size or calibration has changed";
+    return isOf(camera) ? "" : "the camera's size or calibration has changed";
 }
 
 bool Track::isLate(double stamp)
@@ -81,7 +83,13 @@ MotionPrior Track::priorFrom(const MotionGaussian& motion, const PoseGaussian& p
     return prior;
 }
 
-PoseGaussian Track::restart(Reference frame, const PinholeCamera& camera)
+void Track::changeCamera(const PinholeCamera& camera, const CameraMatrix& cov)
+{
+    history_.changeCamera(cov);
+    camera_ = camera;
+}
+
+PoseGaussian Track::restart(Reference frame)
 {
     PoseGaussian increment;
     increment.cov = Matrix6d::Identity() * (kExactSigma * kExactSigma);
@@ -93,15 +101,10 @@ PoseGaussian Track::restart(Reference frame, const PinholeCamera& camera)
     {
         history_.predict(increment);
     }
-    if (!started_ || !sameCamera(camera_, camera))
-    {
-        history_.changeCamera(cameraCovariance(calibration_, shutter_, camera));
-    }
     history_.restart(history_.latestFrame());
     window_.clear();
     unmatched_.reset();
     started_ = true;
-    camera_ = camera;
     latestStamp_ = frame.stamp;
     lateStamp_.reset();
     add(std::move(frame), true);

@@ -62,6 +62,9 @@ class Track
     /** Motions to the latest frame (OdometryResult::since). */
     [[nodiscard]] std::vector<PoseGaussian> since() const { return history_.sinceAll(); }
 
+    /** Whether the latest frames are those of this camera. */
+    [[nodiscard]] bool isOf(const PinholeCamera& camera) const;
+
     /** Why a frame cannot be compared with the past, or empty. */
     [[nodiscard]] std::string interruption(double stamp, const PinholeCamera& camera) const;
 
@@ -82,9 +85,13 @@ class Track
 
     // Transitions
 
+    /** From here on, frames are those of this camera. The next one is one for restart().
+     * \param cov of its errors (ErrorModel::changeCamera()) */
+    void changeCamera(const PinholeCamera& camera, const CameraMatrix& cov);
+
     /** Begins with this frame or, later, goes on from its predicted pose. Earlier frames are not
      * compared with any more. \param frame without id and pose \return the increment */
-    PoseGaussian restart(Reference frame, const PinholeCamera& camera);
+    PoseGaussian restart(Reference frame);
 
     /** A measured frame. */
     struct Measured
@@ -123,8 +130,6 @@ class Track
     double maxGap_;
     bool fuses_, isFrameToFrame_;
     MotionModel motion_;
-    JointCovariance::TParams calibration_;
-    ShutterCalibrator::TParams shutter_;
     PoseHistory history_;
     ReferenceWindow window_;
     std::optional<Reference> unmatched_;  //!< has features, but none that the window knows

@@ -2,6 +2,7 @@
 #include "ErrorModel.h"
 
 #include <pointplane/core/covariance.h>
+#include <pointplane/odometry/uncertainty/camera_errors.h>
 #include <pointplane/odometry/uncertainty/exposure_errors.h>
 #include <pointplane/odometry/uncertainty/view_errors.h>
 
@@ -61,9 +62,15 @@ ErrorModel::ErrorModel(const OdometryParams& params)
       fuses_(params.pipeline.fuses()),
       noise_(params.noiseScale),
       variogram_(params.noiseScale.timeConstant),
-      shutter_(params.shutter),
-      lens_(params.lens, params.shutter.varianceFactor)
+      camera_(params.shutter, params.lens)
 {
+}
+
+CameraMatrix ErrorModel::changeCamera(const PinholeCamera& camera)
+{
+    camera_.start(camera);
+    const CameraVector learnt = camera_.cov().diagonal();
+    return calibrationVariances(params_, camera).cwiseMax(learnt).asDiagonal();
 }
 
 JointCovariance::Measurement ErrorModel::learn(const Measured& frame)
@@ -80,15 +87,10 @@ JointCovariance::Measurement ErrorModel::learn(const Measured& frame)
             noise_.residuals());
     }
     JointCovariance::Measurement out = errorsOf(frame, usual);
-    const ShutterCalibrator::Change shutter =
-        shutter_.update(frame.analysis.camera, noise_.overCautious());
-    out.cameraGain.bottomRightCorner<3, 3>() = shutter.gain;
-    out.cameraNoise.bottomRightCorner<3, 3>() = shutter.noise;
-    const LensCalibrator::Change lens = lens_.update(
-        frame.analysis.cameraByReference, frame.camera, frame.bend, noise_.overCautious());
-    constexpr int first = kPrincipalPointX, size = kNumLensErrors;
-    out.cameraGain.block<size, size>(first, first) = lens.gain;
-    out.cameraNoise.block<size, size>(first, first) = lens.noise;
+    const CameraCalibrator::Change change =
+        camera_.update(frame.analysis, frame.bend, noise_.overCautious());
+    out.cameraGain = change.gain;
+    out.cameraNoise = change.noise;
     return out;
 }
 

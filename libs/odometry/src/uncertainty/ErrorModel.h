@@ -3,11 +3,10 @@
 
 #include <pointplane/odometry/OdometryParams.h>
 #include <pointplane/odometry/Reference.h>
+#include <pointplane/odometry/uncertainty/CameraCalibrator.h>
 #include <pointplane/odometry/uncertainty/JointCovariance.h>
-#include <pointplane/odometry/uncertainty/LensCalibrator.h>
 #include <pointplane/odometry/uncertainty/NoiseScale.h>
 #include <pointplane/odometry/uncertainty/ResidualVariogram.h>
-#include <pointplane/odometry/uncertainty/ShutterCalibrator.h>
 #include <pointplane/pose/PoseSolver.h>
 
 #include <vector>
@@ -31,8 +30,7 @@ namespace pointplane
  *   Track owns.
  * - k: errors of the camera that all frames share: vignetting, principal point, focal length,
  *   radial distortion, scale of depth, and the shutter. All are considered: camera_errors. The
- *   shutter's are learnt, and those of a lens that nobody calibrated: ShutterCalibrator,
- *   LensCalibrator.
+ *   shutter's are learnt, and those of a lens that nobody calibrated: CameraCalibrator.
  * - e: noise of the frame's own points and planes, learnt from how residuals change from frame to
  *   frame: ResidualVariogram. And acceleration while the images are exposed: exposure_errors.
  *
@@ -49,8 +47,11 @@ class ErrorModel
     /** Variance of the residuals so far, over the propagated one. */
     [[nodiscard]] NoiseFactors usual() const { return noise_.residuals(); }
 
-    [[nodiscard]] const ShutterCalibrator& shutter() const { return shutter_; }
-    [[nodiscard]] const LensCalibrator& lens() const { return lens_; }
+    /** What was learnt of the camera. */
+    [[nodiscard]] const CameraCalibrator& camera() const { return camera_; }
+
+    /** From here on, frames are those of this camera. \return covariance of its errors */
+    [[nodiscard]] CameraMatrix changeCamera(const PinholeCamera& camera);
 
     /** A measured frame. */
     struct Measured
@@ -61,9 +62,8 @@ class ErrorModel
         double dt;              //!< [s] since the previous one
         Matrix12d motionNoise;  //!< of its prediction, by what the motion model adds in dt
         Vector6d acceleration2{Vector6d::Zero()};  //!< MotionModel::acceleration2()
-        ShutterModel shutter{0, 0, 0};             //!< ShutterCalibrator::complete()
-        PinholeCamera camera{};
-        double bend{0};  //!< DepthNoise::sigmaRelative
+        ShutterModel shutter{0, 0, 0};             //!< CameraCalibrator::complete()
+        double bend{0};                            //!< DepthNoise::sigmaRelative
     };
 
     /** Learns from the frame. \return what its estimate's errors come from */
@@ -80,7 +80,6 @@ class ErrorModel
     bool isJoint_, fuses_;
     NoiseScale noise_;
     ResidualVariogram variogram_;
-    ShutterCalibrator shutter_;
-    LensCalibrator lens_;
+    CameraCalibrator camera_;
 };
 }  // namespace pointplane

@@ -20,32 +20,27 @@ double meanSquaredRadius(const PinholeCamera& camera)
 }
 }  // namespace
 
-LensVector lensVariances(const PinholeCamera& camera, double bend)
+CameraVector lensVariances(const PinholeCamera& camera, double bend)
 {
+    CameraVector sigmas = CameraVector::Zero();
     // A lens that turns rays by the part e of their angle has k1 r^2 = e.
-    const double radial = bend / meanSquaredRadius(camera);
-    LensVector sigmas(0, 0, 0, radial);
+    sigmas[kRadial] = bend / meanSquaredRadius(camera);
     if (camera.isNominal)
     {
-        const double centre = kNominal * camera.width;
-        sigmas = {centre, centre, kNominal, std::max(bend, kNominal) / meanSquaredRadius(camera)};
+        sigmas[kPrincipalPointX] = sigmas[kPrincipalPointY] = kNominal * camera.width;
+        sigmas[kFocalLength] = kNominal;
+        sigmas[kRadial] = std::max(bend, kNominal) / meanSquaredRadius(camera);
     }
     return sigmas.cwiseAbs2();
 }
 
-CameraMatrix cameraCovariance(
-    const JointCovariance::TParams& calibration,
-    const ShutterCalibrator::TParams& shutter,
-    const PinholeCamera& camera)
+CameraVector calibrationVariances(
+    const JointCovariance::TParams& calibration, const PinholeCamera& camera)
 {
-    const double time = shutter.correct && shutter.selfCalibrate ? shutter.sigmaPrior : 0;
     CameraVector sigmas;
     sigmas << calibration.vignetting, calibration.principalPoint, calibration.principalPoint,
-        calibration.focalLength, 0, calibration.depthScale, time, time, time;
-    CameraVector variances = sigmas.cwiseAbs2();
-    auto ofLens = variances.segment<kNumLensErrors>(kPrincipalPointX);
-    ofLens = ofLens.cwiseMax(lensVariances(camera, 0)).eval();
-    return variances.asDiagonal();
+        calibration.focalLength, 0, calibration.depthScale, 0, 0, 0;
+    return sigmas.cwiseAbs2().cwiseMax(lensVariances(camera, 0));
 }
 
 ByCamera pointByCamera(const Eigen::Vector3d& p_cam, const PinholeCamera& camera)

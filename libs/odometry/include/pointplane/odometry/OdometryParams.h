@@ -4,11 +4,10 @@
 #include <pointplane/core/Parameters.h>
 #include <pointplane/odometry/PointStage.h>
 #include <pointplane/odometry/ReferenceWindow.h>
+#include <pointplane/odometry/uncertainty/CameraCalibrator.h>
 #include <pointplane/odometry/uncertainty/JointCovariance.h>
-#include <pointplane/odometry/uncertainty/LensCalibrator.h>
 #include <pointplane/odometry/uncertainty/MotionModel.h>
 #include <pointplane/odometry/uncertainty/NoiseScale.h>
-#include <pointplane/odometry/uncertainty/ShutterCalibrator.h>
 #include <pointplane/planes/PlaneExtractor.h>
 #include <pointplane/planes/PlaneMatcher.h>
 #include <pointplane/pose/PoseSolver.h>
@@ -78,8 +77,8 @@ struct OdometryParams
 {
     PipelineParams pipeline;
     DepthNoise depthNoise;
-    ShutterCalibrator::TParams shutter;
-    LensCalibrator::TParams lens;
+    CameraCalibrator::TShutter shutter;
+    CameraCalibrator::TLens lens;
     PointStage::TParams points;
     PointTracker::TParams pointTracker;
     PointDetector::TParams pointDetector;

@@ -10,28 +10,23 @@
 
 namespace pointplane
 {
-class ShutterCalibrator;
+class CameraCalibrator;
 
 /** Turns associations into pairs for the solver. References are moved into the camera of the
  * previous measured frame and freed from the rolling shutter. Of the current frame, pairs say how
- * they depend on its velocity. What was learnt of the lens is corrected. */
+ * they depend on its velocity. What was learnt of the camera is corrected. */
 class PairBuilder
 {
  public:
-    /** \param previous, current must live as long as this
-     * \param camera its errors as learnt so far (LensCalibrator::errors()) */
-    PairBuilder(
-        const Reference& previous,
-        const Features& current,
-        const CameraVector& camera = CameraVector::Zero())
-        : previous_(previous), current_(current), camera_(camera)
+    /** \param previous, current, learnt must live as long as this */
+    PairBuilder(const Reference& previous, const Features& current, const CameraCalibrator& learnt)
+        : previous_(previous), current_(current), learnt_(learnt)
     {
     }
 
     /** Replaces points and planes by the pairs of all associations. */
     void build(
         const std::vector<Association>& associations,
-        const ShutterCalibrator& shutter,
         std::vector<PointPair>& points,
         std::vector<PlanePair>& planes) const;
 
@@ -39,7 +34,6 @@ class PairBuilder
      * \param points, planes that build() has made of the same associations */
     void addCameraErrors(
         const std::vector<Association>& associations,
-        const ShutterCalibrator& shutter,
         const Motion& motion,
         std::vector<PointPair>& points,
         std::vector<PlanePair>& planes) const;
@@ -50,6 +44,6 @@ class PairBuilder
  private:
     const Reference& previous_;
     const Features& current_;
-    CameraVector camera_;
+    const CameraCalibrator& learnt_;
 };
 }  // namespace pointplane

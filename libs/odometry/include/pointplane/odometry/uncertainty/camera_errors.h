@@ -2,28 +2,21 @@
 #pragma once
 
 #include <pointplane/odometry/uncertainty/JointCovariance.h>
-#include <pointplane/odometry/uncertainty/ShutterCalibrator.h>
 #include <pointplane/pose/pairs.h>
 #include <pointplane/sensor/PinholeCamera.h>
 
 namespace pointplane
 {
-constexpr int kNumLensErrors = 4;  //!< from the principal point on
-using LensVector = Eigen::Matrix<double, kNumLensErrors, 1>;
-using LensMatrix = Eigen::Matrix<double, kNumLensErrors, kNumLensErrors>;
-
 /** Variances of what a calibration does not tell of a lens: nothing, if there is one, but that rays
  * are turned as far as depth is bent; much if the intrinsics are nominal.
  * \param bend smooth error of depth, as a fraction of it (DepthNoise::sigmaRelative)
- * \return of principal point [px^2], focal length [relative] and radial distortion */
-[[nodiscard]] LensVector lensVariances(const PinholeCamera& camera, double bend);
+ * \return of principal point [px^2], focal length [relative] and radial distortion; others zero */
+[[nodiscard]] CameraVector lensVariances(const PinholeCamera& camera, double bend);
 
-/** Covariance of the camera's errors before the first frame. If its intrinsics are nominal, they
- * are as uncertain as cameras of one model differ. */
-[[nodiscard]] CameraMatrix cameraCovariance(
-    const JointCovariance::TParams& calibration,
-    const ShutterCalibrator::TParams& shutter,
-    const PinholeCamera& camera);
+/** Variances of the camera's errors before the first frame, zero of the shutter. If its intrinsics
+ * are nominal, they are as uncertain as cameras of one model differ. */
+[[nodiscard]] CameraVector calibrationVariances(
+    const JointCovariance::TParams& calibration, const PinholeCamera& camera);
 
 /** How a point moves with errors of the calibration by which it was lifted. (If the true focal
  * length is larger, the point is nearer to the optical axis.) \param p_cam point in the camera [m]

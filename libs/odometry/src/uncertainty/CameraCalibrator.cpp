@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/covariance.h>
+#include <pointplane/core/range.h>
+#include <pointplane/odometry/uncertainty/CameraCalibrator.h>
+#include <pointplane/odometry/uncertainty/camera_errors.h>
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
+namespace pointplane
+{
+namespace
+{
+constexpr double kMaxTime = 0.05;  //!< no camera is slower [s]
+
+/** Who knows the readouts knows when images are exposed. Otherwise the delay comes from time
+ * stamps, which tell when they arrived. */
+bool tellsExposure(const ShutterModel& source)
+{
+    return std::isfinite(source.readoutColour) && std::isfinite(source.readoutDepth) &&
+           std::isfinite(source.depthDelay);
+}
+
+Eigen::Vector3d timesOf(const CameraCalibrator::TShutter& shutter)
+{
+    return {shutter.readoutColour, shutter.readoutDepth, shutter.depthDelay};
+}
+}  // namespace
+
+std::string describe(const LearntLens& lens)
+{
+    std::ostringstream out;
+    const auto add = [&](const char* name, int k, double factor, int digits, const char* unit)
+    {
+        if (lens.sigmas[k] > 0)
+        {
+            out << (out.tellp() > 0 ? ", " : "") << name << std::setprecision(digits)
+                << std::showpos << factor * lens.errors[k] << std::noshowpos << " +- "
+                << factor * lens.sigmas[k] << unit;
+        }
+    };
+    out << std::fixed;
+    add("focal length ", 2, 100, 2, " %");
+    add("principal point x ", 0, 1, 1, " px");
+    add("y ", 1, 1, 1, " px");
+    add("radial distortion ", 3, 1, 4, "");
+    return out.str();
+}
+
+void CameraCalibrator::TShutter::check() const
+{
+    checkRange("readoutColour", readoutColour, -kMaxTime, kMaxTime);
+    checkRange("readoutDepth", readoutDepth, -kMaxTime, kMaxTime);
+    checkRange("depthDelay", depthDelay, -kMaxTime, kMaxTime);
+    checkRange("sigmaPrior", sigmaPrior, 1e-5, 1);
+    checkRange("varianceFactor", varianceFactor, 0.01, 1000);
+}
+
+CameraCalibrator::CameraCalibrator(const TShutter& shutter, const TLens& lens)
+    : shutter_(shutter), lens_(lens)
+{
+    shutter_.check();
+}
+
+void CameraCalibrator::start(const PinholeCamera& camera)
+{
+    camera_ = camera;
+    prior_ = priorVariances(0);
+    cov_ = prior_.asDiagonal();
+    errors_.setZero();
+}
+
+/** Of what is to be learnt. What is exact, or only considered, has no variance and stays as it is.
+ */
+CameraVector CameraCalibrator::priorVariances(double bend) const
+{
+    CameraVector out = CameraVector::Zero();
+    if (lens_.selfCalibrate)
+    {
+        out = lensVariances(camera_, bend);
+    }
+    if (shutter_.correct && shutter_.selfCalibrate)
+    {
+        out.tail<3>().setConstant(shutter_.sigmaPrior * shutter_.sigmaPrior);
+    }
+    return out;
+}
+
+CameraCalibrator::Change CameraCalibrator::update(
+    const PoseAnalysis& frame, double bend, double variance)
+{
+    // The kind of depth camera shows in its images only.
+    const CameraVector prior = prior_.cwiseMax(priorVariances(bend));
+    const CameraMatrix widening = CameraVector(prior - prior_).asDiagonal();
+    prior_ = prior;
+    // Frames repeat each other's residuals: each counts as a fraction of one.
+    const double factor = shutter_.varianceFactor * variance;
+    CameraInformation learnt;
+    const auto add = [&](const CameraInformation& from, int first, int end)
+    {
+        const int size = end - first;
+        learnt.information.block(first, first, size, size) =
+            from.information.block(first, first, size, size) / factor;
+        learnt.gradient.segment(first, size) = from.gradient.segment(first, size) / factor;
+    };
+    add(frame.cameraByReference, kPrincipalPointX, kDepthScale);
+    add(frame.camera, kReadoutColour, kNumCameraErrors);
+
+    Change out;
+    const CameraMatrix before = cov_ + widening;
+    out.gain = (CameraMatrix::Identity() + before * learnt.information).inverse();
+    cov_ = out.gain * before;
+    cov_ = (0.5 * (cov_ + cov_.transpose())).eval();
+    errors_ -= cov_ * learnt.gradient;
+    const Eigen::Vector3d told = timesOf(shutter_);
+    auto ofShutter = errors_.tail<3>();
+    ofShutter = (told + ofShutter).cwiseMax(-kMaxTime).cwiseMin(kMaxTime) - told;
+    out.noise = propagate(cov_, learnt.information) + out.gain * widening * out.gain.transpose();
+    return out;
+}
+
+LearntLens CameraCalibrator::lens() const
+{
+    return {
+        errors_.segment<4>(kPrincipalPointX),
+        cov_.diagonal().segment<4>(kPrincipalPointX).cwiseSqrt()};
+}
+
+ShutterModel CameraCalibrator::complete(const ShutterModel& source) const
+{
+    if (!shutter_.correct)
+    {
+        return {0, 0, 0};  // [P17] says nothing of it
+    }
+    const auto known = [](double a, double b) { return std::isfinite(a) ? a : b; };
+    const Eigen::Vector3d estimate = timesOf(shutter_) + errors_.tail<3>();
+    return {
+        known(source.readoutColour, estimate[0]),
+        known(source.readoutDepth, estimate[1]),
+        known(source.depthDelay, 0) + (tellsExposure(source) ? 0 : estimate[2])};
+}
+
+Eigen::Vector3d CameraCalibrator::estimated(const ShutterModel& source)
+{
+    return {
+        std::isfinite(source.readoutColour) ? 0.0 : 1.0,
+        std::isfinite(source.readoutDepth) ? 0.0 : 1.0,
+        tellsExposure(source) ? 0.0 : 1.0};
+}
+
+double CameraCalibrator::sigmaPrior() const { return std::min(shutter_.sigmaPrior, kMaxTime); }
+}  // namespace pointplane

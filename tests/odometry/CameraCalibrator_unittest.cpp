@@ -1,0 +1,495 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/se3.h>
+#include <pointplane/odometry/Odometry.h>
+#include <pointplane/odometry/uncertainty/CameraCalibrator.h>
+#include <pointplane/odometry/uncertainty/camera_errors.h>
+#include <pointplane/simulation/SimulatedSequence.h>
+
+#include <Eigen/Cholesky>
+
+#include <cmath>
+#include <iostream>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "linear_algebra.h"
+#include "matchers.h"
+#include "monte_carlo.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace pointplane
+{
+namespace
+{
+constexpr double kUnknown = ShutterModel::kUnknown;
+constexpr int kNumLearnt = 7;  // four of the lens, three of the shutter
+
+PinholeCamera nominal()
+{
+    PinholeCamera out;
+    out.isNominal = true;
+    return out;
+}
+
+CameraCalibrator::TShutter shutter()
+{
+    CameraCalibrator::TShutter out;
+    out.readoutColour = 0.021;
+    out.readoutDepth = 0.022;
+    out.depthDelay = -0.003;
+    return out;
+}
+
+CameraCalibrator calibratorOf(
+    const PinholeCamera& camera, const CameraCalibrator::TShutter& params = shutter())
+{
+    CameraCalibrator out(params, {});
+    out.start(camera);
+    return out;
+}
+
+/** What a frame says of lens and shutter. */
+PoseAnalysis frameOf(const CameraInformation& said)
+{
+    PoseAnalysis out;
+    out.camera = out.cameraByReference = said;
+    return out;
+}
+
+/** A tenth of it is as much as is known before. */
+CameraInformation asMuchAsBefore()
+{
+    CameraInformation out;
+    const CameraMatrix cov = calibratorOf(nominal()).cov();
+    for (const int k : {1, 2, 3, 4, 6, 7, 8})
+    {
+        out.information(k, k) = 10 / cov(k, k);
+    }
+    return out;
+}
+
+/** Residuals of a frame that depend on lens and shutter, and a little on both together. */
+struct Residuals
+{
+    explicit Residuals(test::GaussianSampler& sampler)
+    {
+        for (int row = 0; row < J.rows(); ++row)
+        {
+            J.row(row) = sampler.vector<kNumCameraErrors>().transpose();
+        }
+        // As much as errors of the camera move features, over their noise.
+        CameraVector scale;
+        scale << 1, 0.05, 0.05, 20, 10, 100, 40, 40, 40;
+        J = (J * scale.asDiagonal()).eval();
+        J.topRows<8>().rightCols<3>().setZero();  // rows of the lens
+        J.bottomRows<8>().middleCols<5>(kPrincipalPointX).setZero();
+    }
+
+    /** With the camera's errors off by `error` and with this noise. */
+    [[nodiscard]] CameraInformation about(
+        const CameraVector& error, const Eigen::Matrix<double, 16, 1>& noise) const
+    {
+        return {J.transpose() * J, -J.transpose() * (J * error + noise)};
+    }
+
+    Eigen::Matrix<double, 16, kNumCameraErrors> J;
+};
+
+/** Of the errors that are learnt. */
+template <class Matrix>
+Eigen::MatrixXd learntOf(const Matrix& errors)
+{
+    const std::vector<int> learnt{1, 2, 3, 4, 6, 7, 8};
+    return errors.cols() == 1 ? Eigen::MatrixXd(errors(learnt, 0))
+                              : Eigen::MatrixXd(errors(learnt, learnt));
+}
+
+struct DeskRun
+{
+    double error{0};  //!< of motions over a second, root mean square [m]
+    double nees{0};   //!< of these motions, per degree of freedom
+    LearntLens lens;
+};
+
+/** Runs over a desk, seen by a camera that nobody calibrated. Motions count from the middle on.
+ * \param told what is told of the camera's focal length, over the true one */
+DeskRun runDesk(double told, bool learns)
+{
+    constexpr int kInterval = 30;
+    SimulationParams simulation;
+    simulation.width = 320;
+    simulation.height = 240;
+    simulation.duration = 4;
+    const SimulatedSequence sequence("desk", simulation, 31);
+    OdometryParams params;
+    params.lens.nominal = true;
+    params.lens.selfCalibrate = learns;
+    params.covariance.history = kInterval;
+    Odometry odometry(params);
+    DeskRun out;
+    int numMotions = 0;
+    for (int i = 0; i < sequence.numFrames(); ++i)
+    {
+        RgbdFrame frame = sequence.frame(i);
+        frame.camera.fx *= told;
+        frame.camera.fy *= told;
+        const OdometryResult result = odometry.process(frame);
+        out.lens = result.diagnostics.lens;
+        if (2 * i >= sequence.numFrames())
+        {
+            const PoseGaussian& motion = result.since.at(kInterval - 1);
+            const Vector6d e = leftError(motion.mean, sequence.trueMotion(i - kInterval, i));
+            out.error += e.head<3>().squaredNorm();
+            out.nees += e.dot(motion.cov.ldlt().solve(e)) / 6;
+            ++numMotions;
+        }
+    }
+    out.error = std::sqrt(out.error / numMotions);
+    out.nees /= numMotions;
+    std::cout << told << ": " << 1e3 * out.error << " mm, NEES " << out.nees << ", "
+              << describe(out.lens) << "\n";
+    return out;
+}
+}  // namespace
+
+TEST(CameraCalibrator, completesWhatTheSourceDoesNotTell)
+{
+    const CameraCalibrator calibrator = calibratorOf({});
+    const ShutterModel all = calibrator.complete({});
+    EXPECT_EQ(all.readoutColour, 0.021);
+    EXPECT_EQ(all.readoutDepth, 0.022);
+    EXPECT_EQ(all.depthDelay, -0.003);
+
+    const ShutterModel some = calibrator.complete({0.025, kUnknown, kUnknown});
+    EXPECT_EQ(some.readoutColour, 0.025);
+    EXPECT_EQ(some.readoutDepth, 0.022);
+}
+
+/** Stamps tell when an image arrived. */
+TEST(CameraCalibrator, addsToADelayFromStamps)
+{
+    const ShutterModel out = calibratorOf({}).complete({kUnknown, kUnknown, 0.010});
+    EXPECT_DOUBLE_EQ(out.depthDelay, 0.007);
+}
+
+TEST(CameraCalibrator, believesASourceThatKnowsItsShutter)
+{
+    const ShutterModel out = calibratorOf({}).complete({0.027, 0.024, -0.010});
+    EXPECT_EQ(out.readoutColour, 0.027);
+    EXPECT_EQ(out.readoutDepth, 0.024);
+    EXPECT_EQ(out.depthDelay, -0.010);
+}
+
+TEST(CameraCalibrator, canTakeImagesForThoseOfOneInstant)
+{
+    CameraCalibrator::TShutter still = shutter();
+    still.correct = false;
+    const CameraCalibrator calibrator = calibratorOf({}, still);
+    EXPECT_TRUE(calibrator.cov().isZero(0));
+    for (const ShutterModel& source : {ShutterModel{}, ShutterModel{0.027, 0.024, -0.010}})
+    {
+        const ShutterModel out = calibrator.complete(source);
+        EXPECT_EQ(out.readoutColour, 0);
+        EXPECT_EQ(out.readoutDepth, 0);
+        EXPECT_EQ(out.depthDelay, 0);
+    }
+}
+
+TEST(CameraCalibrator, estimatesWhatTheSourceDoesNotTell)
+{
+    EXPECT_EQ(CameraCalibrator::estimated({}), Eigen::Vector3d(1, 1, 1));
+    EXPECT_EQ(CameraCalibrator::estimated({0.025, kUnknown, 0.001}), Eigen::Vector3d(0, 1, 1));
+    EXPECT_EQ(CameraCalibrator::estimated({0.025, 0.02, 0.001}), Eigen::Vector3d(0, 0, 0));
+}
+
+TEST(CameraCalibrator, refusesParametersOutOfRange)
+{
+    const auto refused = [](auto change)
+    {
+        CameraCalibrator::TShutter p = shutter();
+        change(p);
+        EXPECT_THROW(CameraCalibrator(p, {}), std::invalid_argument);
+    };
+    refused([](auto& p) { p.readoutColour = 1; });
+    refused([](auto& p) { p.readoutDepth = -1; });
+    refused([](auto& p) { p.depthDelay = kUnknown; });
+    refused([](auto& p) { p.sigmaPrior = 0; });
+    refused([](auto& p) { p.varianceFactor = 0; });
+}
+
+/** Prior and frame, which counts as a tenth, know the same: the estimate goes half of the way, its
+ * error is half of the one before and half of the frame's. */
+TEST(CameraCalibrator, learnsALensByHand)
+{
+    CameraInformation said = asMuchAsBefore();
+    said.gradient[kFocalLength] = -0.01 * said.information(kFocalLength, kFocalLength);
+    CameraCalibrator calibrator = calibratorOf(nominal());
+    const CameraMatrix before = calibrator.cov();
+    EXPECT_EQ(calibrator.errors(), CameraVector::Zero().eval());
+    const CameraCalibrator::Change change = calibrator.update(frameOf(said));
+    EXPECT_THAT(
+        calibrator.errors(),
+        test::IsMatrixNear(CameraVector(0.005 * CameraVector::Unit(kFocalLength)), 1e-12));
+    CameraVector gain = CameraVector::Constant(0.5);
+    gain[kVignetting] = gain[kDepthScale] = 1;
+    EXPECT_THAT(change.gain, test::IsMatrixNear(CameraMatrix(gain.asDiagonal()), 1e-12));
+    EXPECT_THAT(change.noise, test::IsMatrixNear(CameraMatrix(0.25 * before), 1e-9));
+    EXPECT_NEAR(calibrator.lens().errors[2], 0.005, 1e-12);
+    EXPECT_NEAR(calibrator.lens().sigmas[2], 0.02 / std::sqrt(2), 1e-12);
+}
+
+TEST(CameraCalibrator, learnsAShutterByHand)
+{
+    CameraCalibrator::TShutter p = shutter();
+    p.sigmaPrior = 0.01;
+    p.varianceFactor = 10;
+    CameraCalibrator calibrator = calibratorOf({}, p);
+    CameraInformation said;
+    said.information.setIdentity();
+    said.information *= 1e5;
+    said.gradient.tail<3>() << -400, 0, 200;  // 4 ms more readout, 2 ms less delay
+    const CameraCalibrator::Change change = calibrator.update(frameOf(said));
+    const ShutterModel learnt = calibrator.complete({});
+    EXPECT_NEAR(learnt.readoutColour, 0.021 + 0.002, 1e-12);
+    EXPECT_NEAR(learnt.readoutDepth, 0.022, 1e-12);
+    EXPECT_NEAR(learnt.depthDelay, -0.003 - 0.001, 1e-12);
+    EXPECT_NEAR(change.gain(kReadoutColour, kReadoutColour), 0.5, 1e-12);
+    EXPECT_NEAR(change.noise(kDepthDelay, kDepthDelay), 0.25e-4, 1e-15);
+
+    p.selfCalibrate = false;
+    CameraCalibrator fixed = calibratorOf({}, p);
+    EXPECT_EQ(fixed.update(frameOf(said)).gain(kReadoutColour, kReadoutColour), 1);
+    EXPECT_EQ(fixed.complete({}).readoutColour, 0.021);
+}
+
+/** Of the shutter the references speak together: with a motion of its own for each, the motion is
+ * as little known as the times. Of the lens each speaks alone. */
+TEST(CameraCalibrator, lensAndShutterAreToldByDifferentResiduals)
+{
+    PoseAnalysis frame;
+    frame.camera.gradient.setConstant(1);
+    CameraCalibrator together = calibratorOf(nominal());
+    (void)together.update(frame);
+    EXPECT_TRUE(together.errors().head<6>().isZero(0));
+    EXPECT_LT(together.errors().tail<3>().maxCoeff(), 0);
+    std::swap(frame.camera, frame.cameraByReference);
+    CameraCalibrator alone = calibratorOf(nominal());
+    (void)alone.update(frame);
+    EXPECT_LT(alone.errors().segment<4>(kPrincipalPointX).maxCoeff(), 0);
+    EXPECT_TRUE(alone.errors().tail<3>().isZero(0));
+}
+
+TEST(CameraCalibrator, aCalibrationIsBelieved)
+{
+    CameraInformation said = asMuchAsBefore();
+    said.gradient.setConstant(1e3);
+    CameraCalibrator::TShutter known = shutter();
+    known.selfCalibrate = false;
+    CameraCalibrator calibrator = calibratorOf({}, known);
+    const CameraCalibrator::Change change = calibrator.update(frameOf(said));
+    EXPECT_EQ(calibrator.errors(), CameraVector::Zero().eval());
+    EXPECT_EQ(change.gain, CameraMatrix::Identity().eval());
+    EXPECT_EQ(change.noise, CameraMatrix::Zero().eval());
+    EXPECT_EQ(describe(calibrator.lens()), "");
+}
+
+/** That depth is bent shows after some images. From then on the lens may err, too. */
+TEST(CameraCalibrator, depthTurnsOutToBeBent)
+{
+    const PinholeCamera camera;
+    CameraCalibrator calibrator = calibratorOf(camera);
+    (void)calibrator.update({});
+    const CameraCalibrator::Change change = calibrator.update(frameOf(asMuchAsBefore()), 0.005);
+    const double variance = std::pow(calibrator.lens().sigmas[3], 2);
+    EXPECT_GT(variance, 0.5 * lensVariances(camera, 0.005)[kRadial]);
+    EXPECT_LT(variance, lensVariances(camera, 0.005)[kRadial]);
+    // Before, there was no error: all that there is now is new.
+    EXPECT_NEAR(change.noise(kRadial, kRadial), variance, 1e-12);
+    EXPECT_EQ(calibrator.lens().sigmas[2], 0);
+}
+
+TEST(CameraCalibrator, anotherCameraStartsAnew)
+{
+    CameraInformation said = asMuchAsBefore();
+    said.gradient.setConstant(-1);
+    CameraCalibrator calibrator = calibratorOf(nominal());
+    (void)calibrator.update(frameOf(said));
+    EXPECT_GT(calibrator.lens().errors[2], 0);
+    EXPECT_GT(calibrator.complete({}).depthDelay, -0.003);
+    calibrator.start(nominal());
+    EXPECT_EQ(calibrator.errors(), CameraVector::Zero().eval());
+    EXPECT_EQ(calibrator.cov(), calibratorOf(nominal()).cov());
+    EXPECT_NEAR(calibrator.lens().sigmas[2], 0.02, 1e-12);
+}
+
+TEST(CameraCalibrator, aLensCanBeTakenAsTold)
+{
+    CameraInformation said = asMuchAsBefore();
+    said.gradient.setOnes();
+    CameraCalibrator calibrator(shutter(), {false, false});
+    calibrator.start(nominal());
+    const CameraMatrix gain = calibrator.update(frameOf(said), 0.01).gain;
+    EXPECT_EQ((gain.topLeftCorner<6, 6>()), (Eigen::Matrix<double, 6, 6>::Identity()));
+    EXPECT_TRUE(calibrator.errors().head<6>().isZero(0));
+}
+
+/** What frames say one after the other is what they say together: the minimum of the sum of their
+ * costs and the prior's. And the change of the error is that of the covariance. */
+TEST(CameraCalibrator, framesAddUp)
+{
+    test::GaussianSampler sampler(5);
+    CameraCalibrator::TShutter p = shutter();
+    p.varianceFactor = 3;
+    CameraCalibrator calibrator = calibratorOf(nominal(), p);
+    const Eigen::MatrixXd prior = learntOf(calibrator.cov());
+    Eigen::MatrixXd information = test::inverse(prior);
+    Eigen::MatrixXd slope = Eigen::VectorXd::Zero(kNumLearnt);
+    const CameraVector truth = 1e-3 * CameraVector::Ones();
+    for (int i = 0; i < 5; ++i)
+    {
+        const Residuals residuals(sampler);
+        const Eigen::Matrix<double, 16, 1> noise = sampler.vector<16>();
+        const CameraVector ofLearnt =
+            truth.cwiseProduct(CameraVector(calibrator.cov().diagonal().cwiseSign()));
+        const CameraInformation atZero = residuals.about(ofLearnt, noise);
+        information += learntOf(atZero.information) / (2 * 3);
+        slope -= learntOf(atZero.gradient) / (2 * 3);
+        const CameraMatrix before = calibrator.cov();
+        const CameraCalibrator::Change change = calibrator.update(
+            frameOf(residuals.about(ofLearnt - calibrator.errors(), noise)), 0, 2);
+        EXPECT_THAT(
+            CameraMatrix(change.gain * before * change.gain.transpose() + change.noise),
+            test::IsMatrixNear(calibrator.cov(), 1e-9));
+    }
+    const Eigen::MatrixXd cov = test::inverse(information);
+    EXPECT_THAT(learntOf(calibrator.cov()), test::IsMatrixNear(cov, 1e-9));
+    EXPECT_THAT(
+        learntOf(calibrator.errors()), test::IsMatrixNear(Eigen::MatrixXd(cov * slope), 1e-9));
+}
+
+/** Its covariance is that of its errors, if frames err independently, and also if ten of them err
+ * alike and count as a tenth each. */
+TEST(CameraCalibrator, covarianceIsThatOfMonteCarlo)
+{
+    constexpr int kRuns = 2000;
+    for (const int repeated : {1, 10})
+    {
+        test::GaussianSampler sampler(7);
+        CameraCalibrator::TShutter p = shutter();
+        p.varianceFactor = repeated;
+        double nees = 0;
+        for (int run = 0; run < kRuns; ++run)
+        {
+            CameraCalibrator calibrator = calibratorOf(nominal(), p);
+            const CameraVector truth = calibrator.cov().diagonal().cwiseSqrt().cwiseProduct(
+                CameraVector(sampler.vector<kNumCameraErrors>()));
+            for (int i = 0; i < 3; ++i)
+            {
+                const Residuals residuals(sampler);
+                const Eigen::Matrix<double, 16, 1> noise = sampler.vector<16>();
+                for (int k = 0; k < repeated; ++k)
+                {
+                    (void)calibrator.update(
+                        frameOf(residuals.about(truth - calibrator.errors(), noise)));
+                }
+            }
+            nees += test::squaredMahalanobis(
+                        learntOf(truth - calibrator.errors()), learntOf(calibrator.cov())) /
+                    (kNumLearnt * kRuns);
+        }
+        EXPECT_NEAR(nees, 1, 0.04) << repeated;  // three standard deviations
+    }
+}
+
+/** A camera at rest tells nothing, one that only turns not all. */
+TEST(CameraCalibrator, whatAFrameDoesNotTellStays)
+{
+    CameraCalibrator calibrator = calibratorOf(nominal());
+    const CameraMatrix before = calibrator.cov();
+    const CameraCalibrator::Change nothing = calibrator.update({});
+    EXPECT_EQ(nothing.gain, CameraMatrix::Identity().eval());
+    EXPECT_EQ(nothing.noise, CameraMatrix::Zero().eval());
+    EXPECT_EQ(calibrator.cov(), before);
+
+    // However much it tells of the sum of two times, it tells nothing of their difference.
+    CameraVector sum = CameraVector::Zero(), difference = CameraVector::Zero();
+    sum[kReadoutDepth] = sum[kDepthDelay] = difference[kReadoutDepth] = 1;
+    difference[kDepthDelay] = -1;
+    CameraInformation said;
+    said.information = 1e12 * sum * sum.transpose();
+    said.gradient = -1e12 * 0.002 * sum;
+    (void)calibrator.update(frameOf(said));
+    EXPECT_NEAR(sum.dot(calibrator.errors()), 0.002, 1e-9);
+    EXPECT_NEAR(difference.dot(calibrator.errors()), 0, 1e-9);
+    EXPECT_NEAR(sum.dot(calibrator.cov() * sum), 1e-11, 1e-13);
+    EXPECT_NEAR(
+        difference.dot(calibrator.cov() * difference), difference.dot(before * difference), 1e-9);
+    EXPECT_GT(test::symmetricEigen(learntOf(calibrator.cov())).values.minCoeff(), 0);
+}
+
+/** No camera is as slow as residuals of a wrong motion may say. The next frames can take it back.
+ */
+TEST(CameraCalibrator, hugeResidualsDoNotTakeTimesOutOfRange)
+{
+    CameraInformation said = asMuchAsBefore();
+    said.gradient.tail<3>() << -1e9, 1e9, -1e9;
+    CameraCalibrator calibrator = calibratorOf({});
+    (void)calibrator.update(frameOf(said));
+    const ShutterModel learnt = calibrator.complete({});
+    EXPECT_DOUBLE_EQ(learnt.readoutColour, 0.05);
+    EXPECT_DOUBLE_EQ(learnt.readoutDepth, -0.05);
+    EXPECT_DOUBLE_EQ(learnt.depthDelay, 0.05);
+    const double wrong = calibrator.errors().norm();
+    for (int i = 0; i < 10; ++i)
+    {
+        // They say that the times are as told, each as much as the prior said.
+        CameraInformation right = asMuchAsBefore();
+        right.gradient = right.information * calibrator.errors();
+        (void)calibrator.update(frameOf(right));
+    }
+    EXPECT_NEAR(calibrator.errors().norm(), wrong * 2 / 12, 1e-12);
+}
+
+TEST(CameraCalibrator, tellsUsers)
+{
+    LearntLens lens;
+    EXPECT_EQ(describe(lens), "");
+    lens.errors[3] = 0.0123;
+    lens.sigmas[3] = 0.0045;
+    EXPECT_EQ(describe(lens), "radial distortion +0.0123 +- 0.0045");
+    lens.errors << 1.26, -2, -0.0123, 0;
+    lens.sigmas << 0.5, 0.5, 0.001, 0.01;
+    EXPECT_EQ(
+        describe(lens),
+        "focal length -1.23 +- 0.10 %, principal point x +1.3 +- 0.5 px, y -2.0 +- 0.5 px, radial "
+        "distortion +0.0000 +- 0.0100");
+}
+
+/** Its focal length is told three per cent too short. */
+TEST(CameraCalibrator, findsTheFocalLength)
+{
+    const DeskRun given = runDesk(0.97, false);
+    EXPECT_EQ(describe(given.lens), "");
+    const DeskRun learnt = runDesk(0.97, true);
+    EXPECT_LT(learnt.error, given.error / 3);
+    EXPECT_NEAR(learnt.lens.errors[2], 1 / 0.97 - 1, 3 * learnt.lens.sigmas[2]);
+    EXPECT_LT(learnt.lens.sigmas[2], 0.005);
+    EXPECT_LT(learnt.nees, 3);
+}
+
+/** Noise must not make a lens seem wrong that is right: residuals are shorter with a longer focal
+ * length, whatever is seen. */
+TEST(CameraCalibrator, aRightLensStays)
+{
+    const DeskRun given = runDesk(1, false);
+    const DeskRun learnt = runDesk(1, true);
+    EXPECT_LT(learnt.error, 1.2 * given.error);
+    EXPECT_LT(learnt.nees, 3);
+    for (int k = 0; k < learnt.lens.errors.size(); ++k)
+    {
+        EXPECT_LT(std::abs(learnt.lens.errors[k]), 3 * learnt.lens.sigmas[k]) << k;
+    }
+}
+}  // namespace pointplane
