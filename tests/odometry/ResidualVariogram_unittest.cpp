@@ -165,6 +165,15 @@ TEST(ResidualVariogram, noiseThatTheEstimateFollowsIsCountedToo)
     EXPECT_NEAR(white(0.05, 0.05), 0.3, 1e-9) << "says nothing: the first guess";
 }
 
+/** The median of one is itself: on average 3, over the median 2.366 of chi-square. */
+TEST(ResidualVariogram, oneFeatureTells)
+{
+    Scenario run{0, 900};
+    run.residuals = {2, 2};
+    const auto levels = levelsOf(kNone, {16, 1, 1, 0}, run);
+    EXPECT_NEAR(levels.white.planes, 3 / 2.366, 0.35);
+}
+
 /** The same frame again and again, or features that jump by metres. */
 TEST(ResidualVariogram, staysWithinReason)
 {

@@ -18,9 +18,6 @@ namespace
  * view: farther apart, errors have nothing in common any more, and do not grow with the way. */
 constexpr size_t kLag = 10;
 
-/** Fewer features in common have no median. */
-constexpr size_t kLeastFeatures = 2;
-
 /** A feature that the estimate follows shows nothing of its own noise. */
 constexpr double kLeastOwnShare = 0.2;
 
@@ -95,7 +92,7 @@ std::optional<double> ResidualVariogram::variogram(const Snapshot& now, const Sn
             squared.push_back(norm2 / medianChi2(3));
         }
     }
-    if (squared.size() < kLeastFeatures)
+    if (squared.empty())
     {
         return {};
     }
@@ -131,7 +128,7 @@ void ResidualVariogram::update(Kind& kind, Snapshot now, double kept, double res
         --lag;
     }
     auto step = lag > 0 ? variogram(now, kind.past.front()) : std::optional<double>();
-    if (lag > 0 && now.size() >= kLeastFeatures && !shareReference(now, kind.past.front()))
+    if (lag > 0 && !now.empty() && !shareReference(now, kind.past.front()))
     {
         step = residuals;  // of references that are new, residuals are what has changed since
     }
