@@ -118,6 +118,14 @@ TEST(ResidualVariogram, slowRecordingsDoNotTakeDriftForNoise)
     EXPECT_GT(levels.drift.planes, 0.15 * 20);
 }
 
+/** A slow camera needs the time constant to come far enough for a slope. */
+TEST(ResidualVariogram, slowCamerasTellDrift)
+{
+    const auto levels = levelsOf({17, 150, 0.5, 3}, {18, 30, 0.5, 3}, {0.005, 300});
+    EXPECT_NEAR(levels.drift.points, 3, 0.45);
+    EXPECT_NEAR(levels.white.points, 0.5, 0.08);
+}
+
 /** A camera at rest says nothing of what another view would bring. */
 TEST(ResidualVariogram, atRestTheFirstGuessOfDriftStays)
 {

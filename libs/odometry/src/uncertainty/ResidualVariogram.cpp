@@ -14,10 +14,6 @@ namespace pointplane
 {
 namespace
 {
-/** Residuals are compared with those of the frame before and of so many frames before. Within a
- * view: farther apart, errors have nothing in common any more, and do not grow with the way. */
-constexpr size_t kLag = 10;
-
 /** A feature that the estimate follows shows nothing of its own noise. */
 constexpr double kLeastOwnShare = 0.2;
 
@@ -37,13 +33,15 @@ void ResidualVariogram::update(
     double dt,
     const NoiseFactors& residuals)
 {
-    views_.push_front(views);
+    steps_.push_front({views, dt});
+    const auto tooOld = [&, age = 0.0](const Step& step) mutable
+    { return (age += step.dt) > timeConstant_; };
+    steps_.erase(std::find_if(steps_.begin() + 1, steps_.end(), tooOld), steps_.end());
     const double kept = std::exp(-dt / timeConstant_);
     Snapshot points = snapshot(analysis.pointResiduals, R_world_prev, points_.white);
     Snapshot planes = snapshot(analysis.planeResiduals, R_world_prev, planes_.white);
     update(points_, std::move(points), kept, residuals.points);
     update(planes_, std::move(planes), kept, residuals.planes);
-    views_.resize(std::min(views_.size(), kLag));
 }
 
 ResidualVariogram::Snapshot ResidualVariogram::snapshot(
@@ -117,12 +115,17 @@ bool ResidualVariogram::shareReference(const Snapshot& now, const Snapshot& then
 
 void ResidualVariogram::update(Kind& kind, Snapshot now, double kept, double residuals) const
 {
-    size_t lag = std::min(kind.past.size(), kLag);
+    kind.past.resize(std::min(kind.past.size(), steps_.size()));
+    size_t lag = kind.past.size();
     const auto wayTo = [&](size_t n)
     {
         return std::accumulate(
-            views_.begin() + 1, views_.begin() + static_cast<std::ptrdiff_t>(n), 0.0);
+            steps_.begin() + 1,
+            steps_.begin() + static_cast<std::ptrdiff_t>(n),
+            0.0,
+            [](double way, const Step& step) { return way + step.views; });
     };
+    // Farther apart than a view, errors have nothing in common, and do not grow with the way.
     while (lag > 2 && wayTo(lag) > 1)
     {
         --lag;
@@ -136,7 +139,7 @@ void ResidualVariogram::update(Kind& kind, Snapshot now, double kept, double res
     {
         kind.weight = kept * kind.weight + 1;
         kind.step = kept * kind.step + *step;
-        kind.views = kept * kind.views + views_.front();
+        kind.views = kept * kind.views + steps_.front().views;
         const auto far = lag >= 2 ? variogram(now, kind.past[lag - 1]) : std::optional<double>();
         if (far)
         {
@@ -155,9 +158,5 @@ void ResidualVariogram::update(Kind& kind, Snapshot now, double kept, double res
         (kind.step - kind.drift * kind.views + kFirstPart * residuals * NoiseScale::kFirstFrames) /
             (kind.weight + NoiseScale::kFirstFrames));
     kind.past.push_front(std::move(now));
-    if (kind.past.size() > kLag)
-    {
-        kind.past.pop_back();
-    }
 }
 }  // namespace pointplane

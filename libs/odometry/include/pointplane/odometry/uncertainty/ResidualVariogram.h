@@ -17,7 +17,8 @@ namespace pointplane
  *
  * The variogram (Matheron 1963) is half of the mean squared difference of two residuals, by the
  * distance between them. White noise of variance w beside a random walk makes it a line: w + g
- * times the views between the frames. Both w and g are over the propagated variance. */
+ * times the views between the frames. Both w and g are over the propagated variance. It is drawn
+ * through two points: the frame before, and the farthest within one view and the time constant. */
 class ResidualVariogram
 {
  public:
@@ -56,6 +57,12 @@ class ResidualVariogram
     };
     using Snapshot = std::vector<Entry>;  //!< by key
 
+    /** From one measured frame to the next. */
+    struct Step
+    {
+        double views, dt;
+    };
+
     /** Of points, or of planes. */
     struct Kind
     {
@@ -75,6 +82,6 @@ class ResidualVariogram
 
     double timeConstant_;
     Kind points_, planes_;
-    std::deque<double> views_;  //!< between neighbouring frames, the latest first
+    std::deque<Step> steps_;  //!< between neighbouring frames, the latest first
 };
 }  // namespace pointplane
