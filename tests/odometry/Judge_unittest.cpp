@@ -110,6 +110,8 @@ TEST(Judge, planesAreDoubtedWherePointsShouldAgree)
     EXPECT_TRUE(judged(kUncertain, 300, 950).holds);
     EXPECT_TRUE(judged(kUncertain, 0, 800).holds) << "no points to ask";
     EXPECT_TRUE(judged(kCertain, 300, 800).holds);
+    EXPECT_FALSE(judged(kCertain, 300, 700).holds) << "neither points nor surfaces agree";
+    EXPECT_TRUE(judged(kCertain, 0, 700).holds) << "no points to ask";
 }
 
 TEST(Judge, surfacesThatAreNotWhereTheyShouldBeContradict)

@@ -109,6 +109,45 @@ TEST(MotionModel, uncertaintyIsThatOfAWhiteAcceleration)
     EXPECT_TRUE(isPositiveDefinite(p.cov));
 }
 
+/** Against many walks: an estimate that errs in pose and velocity, and the way on from there. */
+TEST(MotionModel, errorsOfTheEstimateStayInTheNextMotion)
+{
+    MotionGaussian estimate = measuredMotion();
+    estimate.mean.T_prev_cur.linear() =
+        Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    Matrix12d L = Matrix12d::Zero();
+    L.diagonal() << Vector6d::Constant(0.001), Vector6d::Constant(0.02);
+    L(1, 0) = 0.0005;
+    L(6, 0) = 0.03;  // an error of the pose, and of the velocity that follows from it
+    estimate.cov = L * L.transpose();
+    MotionModel model({});
+    model.update(estimate, kFrame);
+    Matrix12d sum = Matrix12d::Zero();
+    test::GaussianSampler sampler(6);
+    constexpr int kWalks = 20000;
+    for (int i = 0; i < kWalks; ++i)
+    {
+        const Vector12d e = L * sampler.vector<12>();
+        // Left of the pose is in the frame before; the next motion starts in the one after.
+        Vector12d next;
+        next << adjoint(estimate.mean.T_prev_cur.inverse()) * e.head<6>() + kFrame * e.tail<6>(),
+            e.tail<6>();
+        sum += next * next.transpose() / kWalks;
+    }
+    const Matrix12d added = model.predictFromEstimate(kFrame).cov - model.processNoise(kFrame);
+    EXPECT_THAT(added, test::IsMatrixNear(sum, 0.03 * sum.cwiseAbs().maxCoeff()));
+    EXPECT_NEAR(added(1, 1), sum(1, 1), 0.05 * sum(1, 1));
+    EXPECT_NEAR(added(1, 6), sum(1, 6), 0.05 * std::abs(sum(1, 6)));
+
+    // Seen from the true pose, there is only the error of the velocity.
+    EXPECT_NEAR(
+        model.predict(kFrame).cov(0, 0) - model.processNoise(kFrame)(0, 0),
+        kFrame * kFrame * estimate.cov(6, 6),
+        1e-12);
+    model.startAtReference();
+    EXPECT_EQ(model.predictFromEstimate(kFrame).cov, model.predict(kFrame).cov);
+}
+
 /** Where poses are known well, the velocity between two increments is theirs: of constant
  * acceleration, whatever rows of the shutter say. */
 TEST(MotionModel, theVelocityBeforeLiesBetweenTheIncrements)
@@ -153,7 +192,7 @@ TEST(MotionModel, theVelocityBeforeIsSmoothed)
     MotionGaussian uncertain = measuredMotion();  // its increment tells nothing of the velocity
     uncertain.cov.topLeftCorner<6, 6>() = Matrix6d::Identity();
     model.update(uncertain, kFrame);
-    const MotionGaussian predicted = model.predict(kFrame);
+    const MotionGaussian predicted = model.predictFromEstimate(kFrame);
     MotionGaussian measured = predicted;
     measured.mean.velocity[0] += 0.03;
     measured.cov *= 0.1;

@@ -59,4 +59,24 @@ TEST(OdometryRates, framesASecond)
         expectTracked(params);
     }
 }
+
+/** The camera turns back suddenly: of where points are searched for, most are at the edge or
+ * beyond. What is found around there (142 points) is not all. */
+TEST(OdometryRates, pointsBeyondTheSearchRadiusAreFound)
+{
+    SimulationParams params;
+    params.duration = 1;
+    const SimulatedSequence sequence("desk", params, 1);
+    Odometry odometry{OdometryParams()};
+    OdometryResult last;
+    double stamp = 0;
+    for (const int i : {10, 12, 14, 13})
+    {
+        RgbdFrame frame = sequence.frame(i);
+        frame.stamp = stamp += 1 / params.fps;
+        last = odometry.process(frame);
+    }
+    EXPECT_EQ(last.status, TrackingStatus::Tracked);
+    EXPECT_GT(last.diagnostics.numPointPairs, 250);
+}
 }  // namespace pointplane

@@ -17,6 +17,10 @@ namespace
 /** Search radius when too little is found again around the prediction, over the usual one. */
 constexpr double kWideSearch = 5;
 
+/** Of the search radius: if half of the points are found farther away than this, there are others
+ * beyond it. */
+constexpr double kNearEdge = 0.5;
+
 /** Surfaces of a place that agree when it is recognised. By key points alone the motion is
  * centimetres off: less is asked than of an estimate, and twice what a wrong motion shows. What is
  * recalled is then aligned and judged like any reference. */
@@ -38,6 +42,33 @@ int numInView(
         }
     }
     return out;
+}
+
+/** Median distance of the points from where a motion puts them [px]. */
+double medianOffset(
+    const std::vector<Association>& associations,
+    const PinholeCamera& camera,
+    const Eigen::Isometry3d& T_cur_world)
+{
+    std::vector<double> offsets;
+    for (const Association& association : associations)
+    {
+        const Reference& reference = *association.reference;
+        const Eigen::Isometry3d T_cur_ref = T_cur_world * reference.T_world_cam;
+        for (const PointTrack& track : association.points)
+        {
+            const auto& point = reference.points.points[static_cast<size_t>(track.ref)];
+            offsets.push_back(
+                (camera.project(T_cur_ref * point.p_cam.mean) - track.cur.uv_px).norm());
+        }
+    }
+    if (offsets.empty())
+    {
+        return 0;
+    }
+    const auto middle = offsets.begin() + static_cast<std::ptrdiff_t>(offsets.size() / 2);
+    std::nth_element(offsets.begin(), middle, offsets.end());
+    return *middle;
 }
 
 /** The camera's motion while it waited for the depth image. */
@@ -163,19 +194,21 @@ Alignment Aligner::attempt(const Scene& scene, const Motion& start, Search searc
 {
     Alignment out;
     out.predicted = scene.predicted;
+    Motion around = start;
     if (search == Search::Close)
     {
-        out.associations = associate(scene, start.T_prev_cur, 1);
+        out.associations = associate(scene, around.T_prev_cur, 1);
         estimate(scene, scene.predicted.motion.mean, out);
     }
     else
     {
-        out.associations = associate(scene, start.T_prev_cur, kWideSearch);
-        estimate(scene, start, out);
-        const Motion coarse = out.estimate.motion.mean;
-        out.associations = associate(scene, coarse.T_prev_cur, 1);
-        estimate(scene, coarse, out);
+        out.associations = associate(scene, around.T_prev_cur, kWideSearch);
+        estimate(scene, around, out);
+        around = out.estimate.motion.mean;
+        out.associations = associate(scene, around.T_prev_cur, 1);
+        estimate(scene, around, out);
     }
+    searchAgain(scene, around.T_prev_cur, out);
     judge_.judge(out);
     settleRivals(scene, out);
     verify(scene, out);
@@ -184,6 +217,33 @@ Alignment Aligner::attempt(const Scene& scene, const Motion& start, Search searc
         out.pointSupport = solver_.pointSupport(out.problem, out.estimate);
     }
     return out;
+}
+
+/** Points beyond the search radius are not found, and those within it pull the motion to where they
+ * were searched for. So they are searched for again around the estimate, while more of them agree.
+ * \param T_prev_cur where they were searched for */
+void Aligner::searchAgain(
+    const Scene& scene, Eigen::Isometry3d T_prev_cur, Alignment& alignment) const
+{
+    const RgbdFrame& frame = scene.current.frame;
+    const double farOff_px = kNearEdge * scene.frontEnd.searchRadius_px(frame);
+    while (params_.fuses() &&
+           medianOffset(alignment.associations, frame.camera, fromWorld(scene, T_prev_cur)) >
+               farOff_px)
+    {
+        T_prev_cur = alignment.estimate.motion.mean.T_prev_cur;
+        Alignment again;
+        again.predicted = alignment.predicted;
+        again.estimate.iterations = alignment.estimate.iterations;
+        again.msPose = alignment.msPose;
+        again.associations = associate(scene, T_prev_cur, 1);
+        estimate(scene, scene.predicted.motion.mean, again);
+        if (again.estimate.numPointInliers <= alignment.estimate.numPointInliers)
+        {
+            return;
+        }
+        alignment = std::move(again);
+    }
 }
 
 /** Takes another motion than the estimated one if that explains more surface. */
@@ -265,12 +325,17 @@ std::optional<int> Aligner::recognise(
     return {};
 }
 
+/** T_cur_world of a motion. */
+Eigen::Isometry3d Aligner::fromWorld(const Scene& scene, const Eigen::Isometry3d& T_prev_cur)
+{
+    return T_prev_cur.inverse() * scene.track.previous().T_world_cam.inverse();
+}
+
 std::vector<Association> Aligner::associate(
     const Scene& scene, const Eigen::Isometry3d& T_prev_cur, double radiusFactor)
 {
     std::vector<Association> out;
-    const Eigen::Isometry3d T_cur_world =
-        T_prev_cur.inverse() * scene.track.previous().T_world_cam.inverse();
+    const Eigen::Isometry3d T_cur_world = fromWorld(scene, T_prev_cur);
     for (const Reference* reference : scene.track.references())
     {
         out.push_back(scene.frontEnd.associate(
@@ -302,8 +367,7 @@ void Aligner::estimate(const Scene& scene, const Motion& start, Alignment& align
 void Aligner::verify(const Scene& scene, Alignment& alignment)
 {
     const Motion& motion = alignment.estimate.motion.mean;
-    const Eigen::Isometry3d T_cur_world =
-        motion.T_prev_cur.inverse() * scene.track.previous().T_world_cam.inverse();
+    const Eigen::Isometry3d T_cur_world = fromWorld(scene, motion.T_prev_cur);
     for (const Reference* reference : scene.track.references())
     {
         alignment.numSought +=

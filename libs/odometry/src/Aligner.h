@@ -63,9 +63,12 @@ class Aligner
     };
 
     [[nodiscard]] Alignment attempt(const Scene& scene, const Motion& start, Search search) const;
+    void searchAgain(const Scene& scene, Eigen::Isometry3d T_prev_cur, Alignment& alignment) const;
     void settleRivals(const Scene& scene, Alignment& alignment) const;
     void distrustPoints(const Scene& scene, Alignment& alignment) const;
     void searchImages(const Scene& scene, Alignment& best) const;
+    [[nodiscard]] static Eigen::Isometry3d fromWorld(
+        const Scene& scene, const Eigen::Isometry3d& T_prev_cur);
     [[nodiscard]] static std::vector<Association> associate(
         const Scene& scene, const Eigen::Isometry3d& T_prev_cur, double radiusFactor);
     void estimate(const Scene& scene, const Motion& start, Alignment& alignment) const;

@@ -54,6 +54,12 @@ class FrontEnd
         const Eigen::Isometry3d& T_cur_ref,
         double radiusFactor) const;
 
+    /** PointStage::searchRadius_px(). */
+    [[nodiscard]] double searchRadius_px(const RgbdFrame& frame) const
+    {
+        return pointStage_.searchRadius_px(frame);
+    }
+
  private:
     PipelineParams params_;
     std::optional<PinholeCamera> camera_;  //!< of the frame before

@@ -32,8 +32,8 @@ constexpr double kMostSurprise = 5;
  * wrong by 5 cm or 5 deg (docs/theory.md, "Verdict"): so much is between. */
 constexpr double kConvincingSurfaces = 0.75;
 
-/** Where points do not confirm it, so much must agree of the surfaces: nine tenths do with a right
- * motion. */
+/** Where neither points nor the prediction confirm it, so much must agree of the surfaces: nine
+ * tenths do with a right motion. */
 constexpr double kConfirmingSurfaces = 0.9;
 
 /** Residuals up to twice as large as in the frames before, squared: a wrong motion disagrees more.
@@ -98,8 +98,9 @@ bool isConfirmed(const Alignment& a)
 /** Whether it rests on planes that may be others: points in view should agree, and do not. */
 bool isOfDoubtfulPlanes(const Alignment& a)
 {
-    return !isConfirmed(a) && a.numSought >= kHandful && a.estimate.numPointInliers < kFewPoints &&
-           a.agreement.fraction() <= kConfirmingSurfaces;
+    const double enough = isConfirmed(a) ? kConvincingSurfaces : kConfirmingSurfaces;
+    return a.numSought >= kHandful && a.estimate.numPointInliers < kFewPoints &&
+           a.agreement.fraction() <= enough;
 }
 }  // namespace
 

@@ -58,6 +58,11 @@ PointReference PointStage::makeReference(
     return tracks_ ? tracker_.makeReference(frame) : prepared.described;
 }
 
+double PointStage::searchRadius_px(const RgbdFrame& frame) const
+{
+    return tracks_ ? tracker_.searchRadius_px(frame.gray) : matcher_.searchRadius_px();
+}
+
 std::vector<PointTrack> PointStage::correspond(
     const PointReference& reference,
     const RgbdFrame& frame,

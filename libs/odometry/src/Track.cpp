@@ -63,7 +63,7 @@ Prediction Track::prediction(double stamp)
     {
         motion_.reset();
     }
-    out.motion = motion_.predict(out.dt);
+    out.motion = motion_.predictFromEstimate(out.dt);
     out.pose = out.motion.pose();
     out.pose.cov += motion_.jerk(out.dt);
     out.prior = priorFrom(out.motion, out.pose);
@@ -103,6 +103,7 @@ PoseGaussian Track::restart(Reference frame)
     }
     history_.restart(history_.latestFrame());
     window_.clear();
+    motion_.startAtReference();
     unmatched_.reset();
     started_ = true;
     latestStamp_ = frame.stamp;
@@ -176,6 +177,7 @@ bool Track::restartAtUnmatched()
         return false;
     }
     window_.leave();
+    motion_.startAtReference();
     history_.restart(unmatched_->id, placeIds());
     window_.add(std::move(*unmatched_), true);
     unmatched_.reset();

@@ -200,9 +200,7 @@ std::vector<PointTrack> PointTracker::track(
         return tracks;
     }
     Search search = searchFor(
-        radiusFactor * params_.searchRadiusFraction * frame.gray.cols,
-        radiusFactor > 1,
-        reference.points.size());
+        radiusFactor * searchRadius_px(frame.gray), radiusFactor > 1, reference.points.size());
     search.hasDepth = hasDepth(frame);
     std::vector<Sought> sought = inView(reference, frame, T_cur_ref, search);
     cv::parallel_for_(

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/covariance.h>
 #include <pointplane/core/range.h>
 #include <pointplane/core/se3.h>
 #include <pointplane/odometry/uncertainty/MotionModel.h>
@@ -53,23 +54,30 @@ MotionModel::MotionModel(const TParams& params) : params_(params)
 
 MotionGaussian MotionModel::predict(double dt) const
 {
-    const double t = std::min(dt, kLongestStep);
-    return {{se3Exp(velocity_ * t), velocity_}, covarianceAfter(t, cov_)};
+    Matrix12d ofVelocity = Matrix12d::Zero();
+    ofVelocity.bottomRightCorner<6, 6>() = cov_.bottomRightCorner<6, 6>();
+    return predictFrom(ofVelocity, std::min(dt, kLongestStep));
+}
+
+MotionGaussian MotionModel::predictFromEstimate(double dt) const
+{
+    return predictFrom(cov_, std::min(dt, kLongestStep));
 }
 
 Matrix12d MotionModel::processNoise(double dt) const
 {
-    return covarianceAfter(std::min(dt, kLongestStep), cov_ - measuredCov_);
+    return predictFrom(cov_ - measuredCov_, std::min(dt, kLongestStep)).cov;
 }
 
-/** \param cov of the velocity at the start */
-Matrix12d MotionModel::covarianceAfter(double t, const Matrix6d& cov) const
+/** \param cov of [pose; velocity] at the start */
+MotionGaussian MotionModel::predictFrom(const Matrix12d& cov, double t) const
 {
+    Matrix12d transition = Matrix12d::Identity();
+    transition.topRightCorner<6, 6>() = t * Matrix6d::Identity();
     const Matrix6d Q = density_.asDiagonal();
-    Matrix12d out;
-    out << t * t * cov + t * t * t / 3 * Q, t * cov + t * t / 2 * Q, t * cov + t * t / 2 * Q,
-        cov + t * Q;
-    return out;
+    Matrix12d noise;
+    noise << t * t * t / 3 * Q, t * t / 2 * Q, t * t / 2 * Q, t * Q;
+    return {{se3Exp(velocity_ * t), velocity_}, propagate(transition, cov) + noise};
 }
 
 Matrix6d MotionModel::jerk(double dt) const
@@ -81,7 +89,8 @@ Matrix6d MotionModel::jerk(double dt) const
 void MotionModel::follow(const Eigen::Isometry3d& T_prev_cur, double dt)
 {
     velocity_ = se3Log(T_prev_cur) / std::min(dt, kLongestStep);
-    cov_ = (dt * density_).cwiseMin(1.0).asDiagonal();
+    cov_.setZero();
+    cov_.bottomRightCorner<6, 6>() = (dt * density_).cwiseMin(1.0).asDiagonal();
     measuredCov_.setZero();
     coasting_ = 0;
 }
@@ -89,15 +98,15 @@ void MotionModel::follow(const Eigen::Isometry3d& T_prev_cur, double dt)
 Vector6d MotionModel::update(const MotionGaussian& measured, double dt)
 {
     const double t = std::min(dt, kLongestStep);
-    const MotionGaussian predicted = predict(t);
+    const MotionGaussian predicted = predictFromEstimate(t);
     Vector12d innovation;
     innovation << leftError(measured.mean.T_prev_cur, predicted.mean.T_prev_cur),
         measured.mean.velocity - predicted.mean.velocity;
     const auto solver = predicted.cov.ldlt();
 
     // Rauch-Tung-Striebel: covariance of the predicted motion with the velocity before it.
-    Matrix126d covWithStart;
-    covWithStart << t * cov_, cov_;
+    Matrix126d covWithStart = cov_.rightCols<6>();
+    covWithStart.topRows<6>() += t * cov_.bottomRightCorner<6, 6>();
     const Vector6d smoothed = velocity_ + covWithStart.transpose() * solver.solve(innovation);
 
     // And with the change of velocity on the way.
@@ -110,7 +119,10 @@ Vector6d MotionModel::update(const MotionGaussian& measured, double dt)
     adapt((change.cwiseAbs2() + cov.diagonal().cwiseMax(0)) / t, t);
 
     velocity_ = measured.mean.velocity;
-    cov_ = measuredCov_ = measured.cov.bottomRightCorner<6, 6>();
+    // What errs in the frame where the motion started errs where it ended.
+    Matrix12d toEnd = Matrix12d::Identity();
+    toEnd.topLeftCorner<6, 6>() = adjoint(measured.mean.T_prev_cur.inverse());
+    cov_ = measuredCov_ = propagate(toEnd, measured.cov);
     coasting_ = 0;
     const Increment increment{
         se3Log(measured.mean.T_prev_cur) / t, t, measured.cov.diagonal().head<6>()};
@@ -200,7 +212,16 @@ void MotionModel::coast(double dt)
     velocity_ -= decayed;
     const double t = std::min(dt, kLongestCoasting - coasting_);
     coasting_ += t;
-    cov_.diagonal() += t * density_ + decayed.cwiseAbs2();
+    cov_.diagonal().tail<6>() += t * density_ + decayed.cwiseAbs2();
+}
+
+void MotionModel::startAtReference()
+{
+    for (Matrix12d* cov : {&cov_, &measuredCov_})
+    {
+        cov->topRows<6>().setZero();
+        cov->leftCols<6>().setZero();
+    }
 }
 
 void MotionModel::reset()
@@ -210,7 +231,8 @@ void MotionModel::reset()
     atIncrementsEnd_.reset();
     coasting_ = 0;
     const Vector6d velocity = kPush * sudden();
-    cov_ = velocity.cwiseAbs2().asDiagonal();
+    cov_.setZero();
+    cov_.bottomRightCorner<6, 6>() = velocity.cwiseAbs2().asDiagonal();
     density_ = (velocity.cwiseAbs2() / kPush).cwiseMax(smallestDensity());
     measuredCov_.setZero();
 }

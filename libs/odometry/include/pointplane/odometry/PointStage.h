@@ -72,6 +72,9 @@ class PointStage
         const Eigen::Isometry3d& T_cur_ref,
         double radiusFactor) const;
 
+    /** How far from its predicted place a point is searched for, with a radiusFactor of 1 [px]. */
+    [[nodiscard]] double searchRadius_px(const RgbdFrame& frame) const;
+
  private:
     bool tracks_;  //!< or matches
     PointTracker tracker_;

@@ -73,6 +73,8 @@ class PointMatcher
         const std::vector<Eigen::Vector2d>& cur_px,
         const cv::Mat& curDescriptors) const;
 
+    [[nodiscard]] double searchRadius_px() const { return params_.searchRadiusPx; }
+
  private:
     TParams params_;
 };

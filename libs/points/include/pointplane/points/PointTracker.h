@@ -108,6 +108,12 @@ class PointTracker
         const Eigen::Isometry3d& T_cur_ref,
         double radiusFactor = 1) const;
 
+    /** How far from its predicted place a point is searched for, with a radiusFactor of 1 [px]. */
+    [[nodiscard]] double searchRadius_px(const cv::Mat& gray) const
+    {
+        return params_.searchRadiusFraction * gray.cols;
+    }
+
  private:
     /** How thoroughly points are searched for. */
     struct Search;

@@ -63,7 +63,11 @@ class MotionModel
      * at its end. \pre dt > 0 */
     [[nodiscard]] MotionGaussian predict(double dt) const;
 
-    /** Covariance of predict() without the part that the measured velocity's own covariance makes.
+    /** The same motion as it will be measured: from where the estimate has put that frame. The
+     * error of the frame's pose adds to it, and is a part of the error of the velocity. */
+    [[nodiscard]] MotionGaussian predictFromEstimate(double dt) const;
+
+    /** Covariance of predict() without the part that the measured motion's own covariance makes.
      */
     [[nodiscard]] Matrix12d processNoise(double dt) const;
 
@@ -86,6 +90,9 @@ class MotionModel
      * this one, before a later increment can correct it. */
     void followIncrements();
 
+    /** The next motion starts at a frame to which others are compared: its pose has no error. */
+    void startAtReference();
+
     /** Passes `dt` [s] without a measurement: the velocity decays, its uncertainty grows. */
     void coast(double dt);
 
@@ -104,7 +111,7 @@ class MotionModel
     void reset();
 
  private:
-    [[nodiscard]] Matrix12d covarianceAfter(double t, const Matrix6d& cov) const;
+    [[nodiscard]] MotionGaussian predictFrom(const Matrix12d& cov, double t) const;
     void adapt(const Vector6d& meanSquare, double dt);
     [[nodiscard]] Vector6d smallestDensity() const;
     [[nodiscard]] Vector6d sudden() const;  //!< acceleration, per axis
@@ -120,8 +127,8 @@ class MotionModel
 
     TParams params_;
     Vector6d velocity_;
-    Matrix6d cov_;          //!< of velocity_
-    Matrix6d measuredCov_;  //!< of the velocity at the latest measured frame
+    Matrix12d cov_{Matrix12d::Zero()};  //!< of [pose of the latest measured frame; velocity_]
+    Matrix12d measuredCov_{Matrix12d::Zero()};  //!< the same when it was measured
     Vector6d density_;
     Vector6d acceleration2_{Vector6d::Zero()};
     int numAccelerations_{0};  //!< that acceleration2_ was learnt from
