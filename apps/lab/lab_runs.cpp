@@ -14,6 +14,7 @@
 #include <ostream>
 #include <thread>
 
+#include "OutputGuard.h"
 #include "result_output.h"
 #include "run_processes.h"
 
@@ -106,7 +107,10 @@ double sizeOf(const std::string& path)
 }
 }  // namespace
 
-WorkDirectory::WorkDirectory(const std::string& path) : path_(path), temporary_(path.empty())
+WorkDirectory::WorkDirectory(const std::string& path)
+    // Absolute, as its files are arguments of programs: "-x" is no option then.
+    : path_(path.empty() ? path : std::filesystem::absolute(path).string()),
+      temporary_(path.empty())
 {
     std::error_code error;
     if (temporary_)
@@ -163,16 +167,43 @@ void LabRunner::addTo(CLI::App& command)
         ->group("Runs");
 }
 
+void LabRunner::guardedBy(OutputGuard& guard) const
+{
+    guard.addInput(odometry);
+    for (const char* extension : {".txt", ".log", ".rawlog"})
+    {
+        guard.addOutputFolder("--keep", directory, extension);
+    }
+}
+
 std::size_t LabRunner::parallel() const
 {
     return jobs > 0 ? jobs : std::max(1U, std::thread::hardware_concurrency());
+}
+
+std::string LabRunner::program() const
+{
+    return odometry.empty() ? siblingProgram("pointplane-odometry") : odometry;
+}
+
+void LabRunner::requireProgram() const
+{
+    constexpr int kNotStarted = 127;
+    bool isThere = false;
+    runProcesses(
+        {{{program(), "--version"}, "/dev/null"}},
+        1,
+        [&](std::size_t, int exitCode) { isThere = exitCode != kNotStarted; });
+    if (!isThere)
+    {
+        throw InputError("cannot run '" + program() + "'; name the program by --odometry");
+    }
 }
 
 std::vector<LabScore> LabRunner::run(
     const std::vector<LabRun>& runs, const RpeOptions& rpe, std::ostream& err) const
 {
     const WorkDirectory work(directory);
-    const std::string program = odometry.empty() ? siblingProgram("pointplane-odometry") : odometry;
     const std::vector<std::size_t> sameAs = firstAlike(runs);
     std::vector<std::size_t> made;  // runs that no earlier one is like
     std::vector<ProcessJob> processes;
@@ -186,7 +217,7 @@ std::vector<LabScore> LabRunner::run(
             made.push_back(k);
             trajectories.push_back(base + ".txt");
             processes.push_back(
-                {odometryCommand(program, runs[k], trajectories.back()), base + ".log"});
+                {odometryCommand(program(), runs[k], trajectories.back()), base + ".log"});
             bytesLeft += sizeOf(runs[k].rawlog);
         }
     }
@@ -194,19 +225,12 @@ std::vector<LabScore> LabRunner::run(
     std::vector<LabScore> scores(runs.size());
     const double bytes = bytesLeft;
     std::size_t done = 0;
-    bool missing = false;
     const auto start = std::chrono::steady_clock::now();
     runProcesses(
         processes,
         parallel(),
         [&](std::size_t job, int exitCode)
         {
-            constexpr int kNotStarted = 127;
-            missing = missing || exitCode == kNotStarted;
-            if (missing)
-            {
-                return;  // told once, below
-            }
             const LabRun& run = runs[made[job]];
             LabScore& score = scores[made[job]];
             score = scoreOf(run, trajectories[job], processes[job].logPath, exitCode, rpe);
@@ -217,13 +241,18 @@ std::vector<LabScore> LabRunner::run(
             err << format("[%zu/%zu, %.0f s left] %s: ", done, made.size(), left, run.name.c_str())
                 << scoreText(score) << (score.rpe ? "" : " (" + score.failure + ")") << std::endl;
         });
-    if (missing)
-    {
-        throw InputError("cannot run '" + program + "'; name the program by --odometry");
-    }
     for (std::size_t k = 0; k < runs.size(); ++k)
     {
         scores[k] = scores[sameAs[k]];
+    }
+    const auto isFailed = [](const LabScore& score) { return !score.rpe; };
+    const auto first = std::find_if(scores.begin(), scores.end(), isFailed);
+    if (first != scores.end())
+    {
+        err << "pointplane-lab: " << std::count_if(first, scores.end(), isFailed) << " of "
+            << scores.size() << " runs failed, first "
+            << runs[static_cast<std::size_t>(first - scores.begin())].name << ": " << first->failure
+            << std::endl;
     }
     return scores;
 }
