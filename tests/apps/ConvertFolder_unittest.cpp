@@ -317,6 +317,20 @@ TEST_F(ConvertFolder, impossibleCalibrationsRatesAndTimesAreRefused)
     expect("cannot open " + in_ + "/camera_matrix.csv: not a file");
 }
 
+/** Their names are numbers, but their stamps are known: at 30 Hz every velocity would be wrong. */
+TEST_F(ConvertFolder, stampsInListsAreNotIgnored)
+{
+    writeFrames("in/rgb/%d.jpg", "in/depth/%d.png");
+    write("in/camera.txt", kCamera);
+    write("in/rgb.txt", "1 rgb/0.jpg\n2 rgb/1.jpg\n3 rgb/2.jpg\n");
+    write("in/depth.txt", "1 depth/0.png\n2 depth/1.png\n3 depth/2.png\n");
+    EXPECT_EQ(run({"folder", in_}), kExitBadInput);
+    EXPECT_THAT(text_, HasSubstr(in_ + ": rgb.txt and depth.txt tell the stamps"));
+    EXPECT_THAT(text_, HasSubstr("pointplane-convert tum"));
+    EXPECT_EQ(run({"folder", in_, "--fps", "1"}), kExitOk) << text_;
+    expectFrames(1);
+}
+
 TEST_F(ConvertFolder, aTownInThePathIsNoCamera)
 {
     writeFrames("in/bonn/rgb/%d.jpg", "in/bonn/depth/%d.png");

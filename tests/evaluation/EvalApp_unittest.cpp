@@ -308,6 +308,27 @@ TEST_F(EvalApp, marksOfLostAndPredictedFramesAreReadAndSaid)
     EXPECT_THAT(refused.err, HasSubstr("bad.txt:1: not a status"));
 }
 
+/** All pairs have every distance: --delta without --fixed-delta would be ignored. */
+TEST_F(EvalApp, aDeltaWithoutEffectIsRefused)
+{
+    for (const std::vector<std::string>& delta :
+         {std::vector<std::string>{"--delta", "0.5"}, {"--delta-unit", "f"}})
+    {
+        std::vector<std::string> args{"rpe", truth, estimate};
+        args.insert(args.end(), delta.begin(), delta.end());
+        const test::AppRun refused = run(args);
+        EXPECT_EQ(refused.code, 2);
+        EXPECT_THAT(refused.err, HasSubstr("--fixed-delta"));
+        args.emplace_back("--fixed-delta");
+        EXPECT_EQ(run(args).code, 0);
+        args[0] = "compare";
+        args.back() = estimate;
+        EXPECT_EQ(run(args).code, 0);
+    }
+    EXPECT_THAT(run({"rpe", "--help"}).out, HasSubstr("--fixed-delta"));
+    EXPECT_THAT(run({"compare", "--help"}).out, testing::Not(HasSubstr("--fixed-delta")));
+}
+
 TEST_F(EvalApp, failuresSayWhyAndSetTheExitCode)
 {
     EXPECT_EQ(run({}).code, 2);
@@ -318,7 +339,7 @@ TEST_F(EvalApp, failuresSayWhyAndSetTheExitCode)
 
     const test::AppRun missing = run({"rpe", truth, files / "none.txt"});
     EXPECT_EQ(missing.code, 2);
-    EXPECT_THAT(missing.err, HasSubstr("none.txt"));
+    EXPECT_THAT(missing.err, HasSubstr("none.txt: No such file or directory\n"));
 
     const test::AppRun unwritable =
         run({"rpe", truth, estimate, "--fixed-delta", "--json", files / "no/dir.json"});
