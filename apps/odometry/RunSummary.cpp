@@ -108,7 +108,7 @@ void RunSummary::print(std::ostream& out, bool profile) const
         1e3 * seconds / frames,
         sum.msTotal / frames,
         frames / std::max(seconds, 1e-9));
-    out << label << line;
+    out << (label.empty() ? "camera ''" : label) << line;
     for (const UntrackedFrames& group : untracked)
     {
         out << "  " << lineOf(group) << "\n";
@@ -122,7 +122,10 @@ void RunSummary::print(std::ostream& out, bool profile) const
     {
         out << note << "\n";
     }
-    out << "depth noise: " << describe(sum.depthNoise) << "\n";
+    if (numTracked > 0)
+    {
+        out << "depth noise: " << describe(sum.depthNoise) << "\n";
+    }
     if (const std::string lens = describe(sum.lens); !lens.empty())
     {
         out << "lens, learnt from the motion: " << lens << "\n";

@@ -292,6 +292,17 @@ TEST_F(OdometryApp, labelsOfAnyLengthLeaveTheSummaryWhole)
         runOn(2, [&](int, CObservation3DRangeScan& scan) { scan.sensorLabel = label; });
     EXPECT_THAT(outcome.out, HasSubstr(label + ": 2 frames: "));
     EXPECT_THAT(outcome.out, HasSubstr(" fps\n"));
+    EXPECT_THAT(
+        runOn(2, [&](int, CObservation3DRangeScan& scan) { scan.sensorLabel = ""; }).out,
+        HasSubstr("camera '': 2 frames: "));
+}
+
+TEST_F(OdometryApp, whatNoFrameToldIsNotInTheSummary)
+{
+    EXPECT_THAT(runOn(2, [](int, CObservation3DRangeScan&) {}).out, HasSubstr("\ndepth noise: "));
+    EXPECT_THAT(
+        runOn(2, [](int, CObservation3DRangeScan& scan) { scan.hasRangeImage = false; }).out,
+        testing::Not(HasSubstr("depth noise")));
 }
 
 TEST_F(OdometryApp, otherCamerasAreNamed)
