@@ -164,6 +164,15 @@ TEST_F(ConvertFolder, record3dHasSmallDepthImages)
     EXPECT_THAT(text_, HasSubstr("metadata.json"));
 }
 
+TEST_F(ConvertFolder, aFolderOfMetadataIsNoFileOfIt)
+{
+    writeFrames("in/rgb/%d.jpg", "in/depth/%d.png");
+    write("in/camera.txt", kCamera);
+    write("in/metadata/mine.json", "{}");
+    ASSERT_EQ(run({"folder", in_}), kExitOk) << text_;
+    EXPECT_THAT(text_, HasSubstr("read as numbered images"));
+}
+
 TEST_F(ConvertFolder, strayScannerHasItsColourInAVideo)
 {
     writeFrames("in/rgb/%06d.png", "in/depth/%06d.png", 16);
