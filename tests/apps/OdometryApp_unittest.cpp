@@ -404,7 +404,10 @@ TEST_F(OdometryApp, badInputIsNamedWithExitCode2)
     expect({dir_ / "text.rawlog", "-o", out_}, "is a text file, not a rawlog");
     expect(
         {in_, "-o", out_, "--sensor-label", "LEFT"},
-        "'LEFT' in the range asked for; labels in it: 'RGBD'");
+        "no frames of camera 'LEFT'; in it are 2 frames of camera 'RGBD'");
+    expect(
+        {in_, "-o", out_, "--first", "2"},
+        "--first 2 skips all of them; in it are 2 frames of camera 'RGBD'");
     expect({in_, "-o", in_}, "is an input");
     writeBytes(dir_ / "typo.ini", "[DepthNoise]\nsigmaInverseDept = 1\n");
     expect({in_, "-o", out_, "-c", dir_ / "typo.ini"}, "did you mean 'sigmaInverseDepth'?");
@@ -466,6 +469,9 @@ TEST_F(OdometryApp, damagedInputIsDoneUpToTheDamage)
         EXPECT_EQ(numPoses(out_), test::readAll(dir_ / "cut.rawlog").objects.size());
         EXPECT_EQ(test::readAll(out_).ending.kind, RawlogEnd::Clean);
     }
+    EXPECT_THAT(
+        run({dir_ / "cut.rawlog", in_, in_, "-o", out_}).err,
+        HasSubstr("; not read: " + in_ + " and 1 more\n"));
 }
 
 TEST_F(OdometryApp, severalCamerasAndSeveralFiles)
