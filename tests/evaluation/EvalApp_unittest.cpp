@@ -189,6 +189,15 @@ TEST_F(EvalApp, theReportSaysHowItWasMade)
     EXPECT_THAT(html, HasSubstr("alpha = 7"));
     EXPECT_THAT(test::readBytes(files / "r/path-from-above.svg"), HasSubstr("ground truth"));
     EXPECT_EQ(run({"ate", truth, estimate, "--report", files / "r", "--run-config", "no"}).code, 2);
+    EXPECT_THAT(
+        run({"ate", truth, estimate, "--report", files / "r", "--run-config", files / ""}).err,
+        HasSubstr("cannot open " + files / "" + ": is a directory\n"));
+    for (const char* part : {"--run-config", "--diagnostics", "--overlays"})
+    {
+        const test::AppRun refused = run({"ate", truth, estimate, part, config});
+        EXPECT_EQ(refused.code, 2) << part;
+        EXPECT_THAT(refused.err, HasSubstr(std::string(part) + " requires --report"));
+    }
 }
 
 /** Half a second: no pairs 1 s apart. */
