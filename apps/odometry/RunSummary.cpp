@@ -61,6 +61,7 @@ void RunSummary::add(const OutputItem& item)
 {
     const RobotMotion& motion = item.frame->motion;
     ++numFrames;
+    hasMotion = hasMotion || motion.status == TrackingStatus::Tracked;
     switch (motion.status)
     {
         case TrackingStatus::First:
@@ -161,6 +162,11 @@ void RunSummary::printProblems(std::ostream& err) const
             << " frames could not be used"
             << (lost == untracked.end() ? std::string() : ", first " + lineOf(*lost)) << "\n";
     }
+    if (isOnlyPredicted())
+    {
+        err << "pointplane-odometry: no motion was measured, all of it is predicted; are the units "
+               "of depth right?\n";
+    }
     if (!damage.empty())
     {
         err << "pointplane-odometry: " << damage << "\n";
@@ -169,6 +175,8 @@ void RunSummary::printProblems(std::ostream& err) const
 
 int RunSummary::exitCode() const
 {
-    return damage.empty() && numLost == 0 ? kExitOk : kExitIncomplete;
+    return damage.empty() && numLost == 0 && !isOnlyPredicted() ? kExitOk : kExitIncomplete;
 }
+
+bool RunSummary::isOnlyPredicted() const { return numPredicted > 0 && !hasMotion; }
 }  // namespace pointplane

@@ -57,6 +57,7 @@ TEST_F(ConvertFolder, numberedImagesWithACalibration)
     ASSERT_EQ(run({"folder", in_, "--fps", "15"}), kExitOk) << text_;
     EXPECT_THAT(text_, HasSubstr("3 frames"));
     EXPECT_THAT(text_, HasSubstr("regular by number only"));
+    EXPECT_THAT(text_, HasSubstr("\ndepth: 2 m, the median of a frame"));
     expectFrames(15, 500);
     const PinholeCamera camera = frames()[0].camera;
     EXPECT_DOUBLE_EQ(camera.fy, 61);

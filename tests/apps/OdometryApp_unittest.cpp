@@ -213,6 +213,22 @@ TEST_F(OdometryApp, theSummaryGroupsTheFramesThatWereNotTracked)
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
 }
 
+/** As of depth whose units are wrong by a thousand: every frame can be used, and none tells
+ * anything. */
+TEST_F(OdometryApp, aRunThatMeasuresNothingIsNotWell)
+{
+    const auto unitsOf = [](float units)
+    { return [units](int, CObservation3DRangeScan& scan) { scan.rangeUnits = units; }; };
+    const Outcome outcome = runOn(5, unitsOf(1e-6F));
+    EXPECT_THAT(outcome.out, HasSubstr("5 frames: 1 tracked, 4 predicted, 0 lost"));
+    EXPECT_EQ(outcome.code, kExitIncomplete);
+    EXPECT_THAT(
+        outcome.err, HasSubstr("no motion was measured, all of it is predicted; are the units of"));
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_EQ(runOn(5, unitsOf(1e-3F)).code, kExitOk);
+    EXPECT_EQ(runOn(1, unitsOf(1e-6F)).code, kExitOk);  // has no motion
+}
+
 /** Two rawlogs in the wrong order: one frame is late, then the clock has been set back. */
 TEST_F(OdometryApp, afterAClockSetBackTheProgramSaysWhatTheOdometrySays)
 {
