@@ -340,7 +340,15 @@ TEST_F(EvalApp, aDeltaWithoutEffectIsRefused)
 
 TEST_F(EvalApp, failuresSayWhyAndSetTheExitCode)
 {
-    EXPECT_EQ(run({}).code, 2);
+    const test::AppRun nothing = run({}), unknown = run({"mean", truth});
+    EXPECT_EQ(nothing.code, 2);
+    EXPECT_EQ(unknown.code, 2);
+    EXPECT_THAT(nothing.err, HasSubstr("no command; commands are rpe, ate, nees, compare ("));
+    EXPECT_THAT(unknown.err, HasSubstr("unknown command 'mean'; commands are rpe, "));
+    const test::AppRun compressed =
+        run({"ate", truth, writeFile(files, "rawlog.txt", "\x1f\x8b\x08")});
+    EXPECT_EQ(compressed.code, 2);
+    EXPECT_THAT(compressed.err, HasSubstr("rawlog.txt: is compressed, not text"));
     EXPECT_EQ(run({"rpe", truth}).code, 2);
     EXPECT_EQ(run({"rpe", truth, estimate, "--delta", "x"}).code, 2);
     EXPECT_EQ(run({"--help"}).code, 0);
