@@ -317,6 +317,21 @@ TEST_F(EvalApp, marksOfLostAndPredictedFramesAreReadAndSaid)
     EXPECT_THAT(refused.err, HasSubstr("bad.txt:1: not a status"));
 }
 
+/** Who reads the score sees that it is of a changed estimate. */
+TEST_F(EvalApp, theProtocolTellsWhatWasChanged)
+{
+    EXPECT_THAT(
+        run({"rpe", truth, estimate, "--scale", "2", "--offset", "0.001"}).out,
+        HasSubstr("at the nearest stamp, estimate's stamps +0.001 s and translations times 2, "));
+    EXPECT_THAT(
+        run({"ate", truth, estimate, "--scale", "0.5"}).out,
+        HasSubstr("association 0.02 s, estimate's translations times 0.5, "));
+    EXPECT_THAT(
+        run({"compare", truth, estimate, "--offset", "-0.001"}).out,
+        HasSubstr("estimate's stamps -0.001 s, "));
+    EXPECT_THAT(run({"rpe", truth, estimate}).out, testing::Not(HasSubstr("estimate's")));
+}
+
 /** All pairs have every distance: --delta without --fixed-delta would be ignored. */
 TEST_F(EvalApp, aDeltaWithoutEffectIsRefused)
 {

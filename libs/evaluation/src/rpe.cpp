@@ -280,7 +280,8 @@ std::string describe(const RpeOptions& options)
     const bool script = options.formula == RpeFormula::TumScript;
     const bool nearest = options.truthAt == TruthAt::NearestStamp;
     return std::string(script ? "TUM protocol (evaluate_rpe), " : "evo's formula, ") + delta +
-           ", ground truth " + (nearest ? "at the nearest stamp" : "interpolated");
+           ", ground truth " + (nearest ? "at the nearest stamp" : "interpolated") +
+           describeChanges(options.offset, options.scale);
 }
 
 std::string describe(const RpeOptions& options, const RpeResult& result)
