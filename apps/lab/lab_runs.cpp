@@ -245,15 +245,18 @@ std::vector<LabScore> LabRunner::run(
     {
         scores[k] = scores[sameAs[k]];
     }
+    return scores;
+}
+
+std::string failuresOf(const std::vector<LabRun>& runs, const std::vector<LabScore>& scores)
+{
     const auto isFailed = [](const LabScore& score) { return !score.rpe; };
     const auto first = std::find_if(scores.begin(), scores.end(), isFailed);
-    if (first != scores.end())
-    {
-        err << "pointplane-lab: " << std::count_if(first, scores.end(), isFailed) << " of "
-            << scores.size() << " runs failed, first "
-            << runs[static_cast<std::size_t>(first - scores.begin())].name << ": " << first->failure
-            << std::endl;
-    }
-    return scores;
+    return first == scores.end()
+               ? ""
+               : std::to_string(std::count_if(first, scores.end(), isFailed)) + " of " +
+                     std::to_string(scores.size()) + " runs failed, first " +
+                     runs[static_cast<std::size_t>(first - scores.begin())].name + ": " +
+                     first->failure;
 }
 }  // namespace pointplane

@@ -72,6 +72,10 @@ class WorkDirectory
     bool temporary_;
 };
 
+/** "1 of 18 runs failed, first NAME: why", or empty. */
+[[nodiscard]] std::string failuresOf(
+    const std::vector<LabRun>& runs, const std::vector<LabScore>& scores);
+
 /** "12.3 mm / 0.46 deg", with " (9 lost)" where frames were lost, or "failed". */
 [[nodiscard]] std::string scoreText(const LabScore& score);
 }  // namespace pointplane

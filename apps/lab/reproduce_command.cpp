@@ -229,6 +229,7 @@ void ReproduceCommand::run(CommandContext& context) const
     }
     result.rpe.fixedDelta = true;
     result.scores = runner.run(runs, result.rpe, context.err);
+    const std::string failures = failuresOf(runs, result.scores);
     for (const ReproducedSequence& s : result.sequences)
     {
         result.truths.push_back(readTrajectoryText(s.groundTruth));
@@ -259,12 +260,10 @@ void ReproduceCommand::run(CommandContext& context) const
             writeText(svgFileOf(chart.chart), folder.path() + "/" + chart.fileName, context.out);
         }
     }
-    for (const auto* scores : {&result.scores, &result.cornerScores})
+    if (!failures.empty())
     {
-        for (const LabScore& score : *scores)
-        {
-            context.exitCode = score.rpe ? context.exitCode : kExitIncomplete;
-        }
+        context.err << "pointplane-lab: " << failures << "\n";
+        context.exitCode = kExitIncomplete;
     }
 }
 }  // namespace

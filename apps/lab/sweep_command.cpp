@@ -287,9 +287,10 @@ void SweepCommand::run(CommandContext& context)
     {
         writeReportFile(reportOf(sweep, logarithmic), report, context);
     }
-    for (const LabScore& score : sweep.scores)
+    if (const std::string failures = failuresOf(planned, sweep.scores); !failures.empty())
     {
-        context.exitCode = score.rpe ? context.exitCode : kExitIncomplete;
+        context.err << "pointplane-lab: " << failures << "\n";
+        context.exitCode = kExitIncomplete;
     }
 }
 }  // namespace

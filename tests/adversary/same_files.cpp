@@ -194,7 +194,9 @@ class OutputsOf
         {
             tally_.add(
                 a,
-                unless(a.code == 0, "exit code " + std::to_string(a.code) + ": " + a.err) +
+                unless(
+                    a.code == 0 || a.code == 1,
+                    "exit code " + std::to_string(a.code) + ": " + a.err) +
                     unless(fs::is_symlink(link), "the link is gone") +
                     unless(fs::is_regular_file(folder / target), "not written through"),
                 textOf(args));
