@@ -15,6 +15,7 @@
 #include <thread>
 
 #include "OutputGuard.h"
+#include "nothing_measured.h"
 #include "result_output.h"
 #include "run_processes.h"
 
@@ -30,12 +31,12 @@ LabScore scoreOf(
     const RpeOptions& rpe)
 {
     // Exit code 1 is a damaged rawlog: the trajectory is there up to the damage, but a score of it
-    // beside those of whole sequences would mislead.
-    if (exitCode != kExitOk)
+    // beside those of whole sequences would mislead. A run of predicted frames alone is whole, and
+    // its score says so.
+    const std::string said = exitCode == kExitOk ? "" : lastLine(log);
+    if (exitCode != kExitOk && said != kNothingMeasured)
     {
-        return {
-            {},
-            "pointplane-odometry: exit code " + std::to_string(exitCode) + ", " + lastLine(log)};
+        return {{}, "pointplane-odometry: exit code " + std::to_string(exitCode) + ", " + said};
     }
     try
     {
@@ -143,12 +144,18 @@ std::string scoreText(const LabScore& score)
     {
         return "failed";
     }
-    const std::size_t lost = score.rpe->coverage.lost;
+    const Coverage& coverage = score.rpe->coverage;
+    std::string unmeasured = coverage.lost > 0 ? format("%zu lost", coverage.lost) : "";
+    if (coverage.predicted > 0)
+    {
+        unmeasured +=
+            (unmeasured.empty() ? "" : ", ") + format("%zu predicted", coverage.predicted);
+    }
     return format(
                "%.1f mm / %.2f deg",
                1000 * score.rpe->translation.rmse,
                kDegreesPerRadian * score.rpe->rotation.rmse) +
-           (lost > 0 ? format(" (%zu lost)", lost) : "");
+           (unmeasured.empty() ? "" : " (" + unmeasured + ")");
 }
 
 void LabRunner::addTo(CLI::App& command)

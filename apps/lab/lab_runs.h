@@ -76,6 +76,6 @@ class WorkDirectory
 [[nodiscard]] std::string failuresOf(
     const std::vector<LabRun>& runs, const std::vector<LabScore>& scores);
 
-/** "12.3 mm / 0.46 deg", with " (9 lost)" where frames were lost, or "failed". */
+/** "12.3 mm / 0.46 deg", with " (9 lost, 3 predicted)" where frames were, or "failed". */
 [[nodiscard]] std::string scoreText(const LabScore& score);
 }  // namespace pointplane

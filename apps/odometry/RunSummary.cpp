@@ -8,6 +8,8 @@
 #include <cstdio>
 #include <ostream>
 
+#include "nothing_measured.h"
+
 namespace pointplane
 {
 namespace
@@ -164,8 +166,7 @@ void RunSummary::printProblems(std::ostream& err) const
     }
     if (isOnlyPredicted())
     {
-        err << "pointplane-odometry: no motion was measured, all of it is predicted; are the units "
-               "of depth right?\n";
+        err << kNothingMeasured << "\n";
     }
     if (!damage.empty())
     {
