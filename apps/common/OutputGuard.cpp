@@ -173,7 +173,11 @@ void OutputGuard::add(const Output& output)
     {
         for (const File& file : output.files)
         {
-            if (writes(other, file) || (output.isFolder && writes(output, other.files.front())))
+            const File& first = other.files.front();
+            const bool isFileAndFolder =
+                output.isFolder != other.isFolder && same(output.files.front(), first);
+            if (isFileAndFolder || writes(other, file) ||
+                (output.isFolder && writes(output, first)))
             {
                 throw InputError(
                     output.option + " " + output.name + ": would write over what " + other.option +

@@ -80,6 +80,24 @@ class HelpFormatter : public CLI::Formatter
     }
 };
 
+/** CLI11 says of an unknown command that none was given. \return empty: there is no such mistake */
+[[nodiscard]] std::string problemOfCommand(
+    const std::vector<CLI::App*>& commands, const std::vector<std::string>& args)
+{
+    std::string known;
+    for (const CLI::App* command : commands)
+    {
+        known += (known.empty() ? "" : ", ") + command->get_name();
+        if (!args.empty() && (args[0].rfind('-', 0) == 0 || command->get_name() == args[0]))
+        {
+            return "";
+        }
+    }
+    return known.empty() ? ""
+                         : (args.empty() ? "no command" : "unknown command '" + args[0] + "'") +
+                               "; commands are " + known;
+}
+
 /** For a terminal, whatever the names and the input hold that it quotes: one line, unless the text
  * is one of our own in several lines. */
 [[nodiscard]] std::string printable(std::string text, bool keepsLines = false)
@@ -152,6 +170,12 @@ int runCommand(
     app.failure_message([](const CLI::App* a, const CLI::Error& e)
                         { return a->get_name() + ": " + printable(e.what()) + " (see --help)\n"; });
     std::vector<CLI::App*> commands = app.get_subcommands({});
+    const std::string problem = problemOfCommand(commands, args);
+    if (!problem.empty())
+    {
+        err << app.get_name() << ": " << printable(problem) << " (see --help)\n";
+        return kExitBadInput;
+    }
     commands.push_back(&app);
     for (CLI::App* command : commands)
     {

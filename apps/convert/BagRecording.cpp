@@ -72,7 +72,7 @@ class BagRecording : public Recording
         }
         catch (const ros::Exception& e)
         {
-            throw InputError(options.file + ": " + e.what());
+            throw InputError(options.file + ": is not a whole ROS 1 bag: " + e.what());
         }
         view_ = std::make_unique<rosbag::View>(
             bag_, rosbag::TopicQuery(std::vector<std::string>{colour_.name, depth_.name}));

@@ -102,6 +102,14 @@ FolderRecording::FolderRecording(const FolderOptions& options)
     }
     else
     {
+        if (options.fps <= 0 && fs::exists(folder_ + "/rgb.txt") &&
+            fs::exists(folder_ + "/depth.txt"))
+        {
+            throw InputError(
+                folder_ +
+                ": rgb.txt and depth.txt tell the stamps of its numbered images; convert it by "
+                "pointplane-convert tum, or give a rate by --fps");
+        }
         checkNumbers(options.fps > 0);
         pairByNumber();
         checkStamps();
@@ -219,7 +227,8 @@ void FolderRecording::readDepth(const ImageRef& image, RegisteredScan& scan) con
     }
     if (depth.type() != CV_16UC1)
     {
-        throw BadFrame(image.path + ": is not a 16 bit or floating point depth image");
+        throw BadFrame(
+            image.path + ": is not a depth image of 16 bit or floating point and one channel");
     }
     depth.setTo(0, depth == kNoReading);
     scan.depth = depth;

@@ -122,7 +122,7 @@ std::optional<RecordedFrame> TumRecording::next()
         readImage(depth.path, cv::IMREAD_ANYDEPTH | cv::IMREAD_ANYCOLOR, camera_.camera);
     if (out.scan.depth.type() != CV_16UC1)
     {
-        throw BadFrame(depth.path + ": is not a 16 bit depth image");
+        throw BadFrame(depth.path + ": is not a depth image of 16 bit and one channel");
     }
     out.scan.colour = readImage(colour.path, cv::IMREAD_COLOR, camera_.camera);
     out.scan.colourFile = colour.path;

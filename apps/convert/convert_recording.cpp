@@ -7,8 +7,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
+#include <iterator>
 #include <optional>
 #include <ostream>
+#include <sstream>
 
 #include "ProgressBar.h"
 #include "stamp_check.h"
@@ -44,6 +47,24 @@ class CameraCommentWriter
     bool isNominal_{false};
 };
 
+/** Of all readings [m]; 0: there are none. */
+[[nodiscard]] double medianDepth(const RegisteredScan& scan)
+{
+    std::vector<std::uint16_t> readings;
+    std::copy_if(
+        scan.depth.begin<std::uint16_t>(),
+        scan.depth.end<std::uint16_t>(),
+        std::back_inserter(readings),
+        [](std::uint16_t reading) { return reading > 0; });
+    if (readings.empty())
+    {
+        return 0;
+    }
+    const auto middle = readings.begin() + static_cast<std::ptrdiff_t>(readings.size() / 2);
+    std::nth_element(readings.begin(), middle, readings.end());
+    return *middle / scan.unitsPerMetre;
+}
+
 /** \throws as convertRecording() */
 [[nodiscard]] RecordingSummary writeFrames(
     Recording& recording, const RecordingOutput& output, ScanWriter& writer, std::ostream& progress)
@@ -65,6 +86,7 @@ class CameraCommentWriter
                 camera.write(writer, output.label, *frame);
                 writer.write(frame->scan);
                 stamps.push_back(toSeconds(frame->scan.stamp));
+                out.depth = out.depth > 0 ? out.depth : medianDepth(frame->scan);
                 ++out.numFrames;
             }
             else
@@ -140,6 +162,10 @@ int report(
     {
         out << note << "\n";
     }
+    std::ostringstream depth;
+    depth << std::setprecision(3) << summary.depth
+          << " m, the median of a frame; if that is wrong, give --depth-scale";
+    out << "depth: " << (summary.depth > 0 ? depth.str() : "no reading in any frame") << "\n";
     if (!summary.stamps.empty())
     {
         out << "stamps: " << summary.stamps << "\n";

@@ -64,7 +64,7 @@ PinholeCamera cameraOfMatrix(const fs::path& path)
 std::optional<nlohmann::json> jsonObjectIn(const fs::path& path)
 {
     std::ifstream file(path);
-    if (!file)
+    if (!file || !fs::is_regular_file(path))
     {
         return {};
     }

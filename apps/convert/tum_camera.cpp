@@ -3,8 +3,8 @@
 
 #include <pointplane/core/byte_order_mark.h>
 #include <pointplane/mrpt_io/errors.h>
+#include <pointplane/mrpt_io/ini_file.h>
 
-#include <mrpt/config/CConfigFile.h>
 #include <mrpt/img/TCamera.h>
 
 #include <algorithm>
@@ -139,7 +139,8 @@ const std::array<Preset, 3> kPresets{{
 
 [[nodiscard]] TumCamera fromIni(const std::string& path)
 {
-    const mrpt::config::CConfigFile ini(path);
+    const auto file = openIniFile(path);
+    const mrpt::config::CConfigFile& ini = *file;
     mrpt::img::TCamera from;
     const std::string section = cameraSection(ini, path);
     try

@@ -2,7 +2,10 @@
 #include "load_trajectory.h"
 
 #include <pointplane/evaluation/trajectory_text.h>
+#include <pointplane/mrpt_io/errors.h>
 
+#include <filesystem>
+#include <fstream>
 #include <ostream>
 
 #include "command.h"
@@ -30,6 +33,13 @@ Trajectory readByEnding(const std::string& path, const std::string& sensorLabel)
         {
             return readSimplemapTrajectory(path);
         }
+    }
+    std::error_code error;  // what is read from a pipe is gone
+    if (std::filesystem::is_regular_file(path, error) &&
+        std::ifstream(path, std::ios::binary).get() == 0x1f)  // of gz
+    {
+        throw InputError(
+            path + ": is compressed, not text; rawlogs end in .rawlog, maps in .simplemap");
     }
     return readTrajectoryText(path);
 }

@@ -108,10 +108,11 @@ std::string describe(const NeesReport& report)
 {
     return format(
         "normalised estimation error squared of increments, %zu run(s), ground truth %s with "
-        "%s",
+        "%s%s",
         report.files.size() / 2,
         report.options.truthAt == TruthAt::Interpolated ? "interpolated" : "at the nearest stamp",
-        describeTruthNoise(report.options).c_str());
+        describeTruthNoise(report.options).c_str(),
+        describeChanges(report.options.offset, 1).c_str());
 }
 
 void printTable(const NeesReport& report, std::ostream& out)

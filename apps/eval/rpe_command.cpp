@@ -37,7 +37,7 @@ void RpeCommand::addTo(CLI::App& command)
 {
     command.add_option("groundtruth", groundTruth, "Ground-truth trajectory")->required();
     command.add_option("estimate", estimate, "Estimated trajectory")->required();
-    options.addTo(command);
+    options.addTo(command, true);
     command
         .add_option("--max-rmse", maxRmse, "Exit with 1 if the translation RMSE exceeds this [m]")
         ->check(isNotNegative())
@@ -153,20 +153,25 @@ void RpeCommand::run(CommandContext& context) const
 }
 }  // namespace
 
-void RpeCommandOptions::addTo(CLI::App& command)
+void RpeCommandOptions::addTo(CLI::App& command, bool choosesPairs)
 {
     const std::string group = "Protocol";
-    command
-        .add_flag("--fixed-delta", rpe.fixedDelta, "Only pairs --delta apart (default: all pairs)")
-        ->group(group);
-    command.add_option("--delta", rpe.delta, "Distance between the two poses of a pair")
-        ->capture_default_str()
-        ->check(isPositive())
-        ->group(group);
-    command.add_option("--delta-unit", unit, "s, m, rad, deg or f (frames)")
-        ->capture_default_str()
+    CLI::Option* fixedDelta = command.add_flag(
+        "--fixed-delta", rpe.fixedDelta, "Only pairs --delta apart (default: all pairs)");
+    CLI::Option* delta =
+        command.add_option("--delta", rpe.delta, "Distance between the two poses of a pair");
+    delta->capture_default_str()->check(isPositive())->group(group);
+    CLI::Option* deltaUnit =
+        command.add_option("--delta-unit", unit, "s, m, rad, deg or f (frames)");
+    deltaUnit->capture_default_str()
         ->check(CLI::IsMember({"s", "m", "rad", "deg", "f"}))
         ->group(group);
+    fixedDelta->group(choosesPairs ? group : "");
+    if (choosesPairs)
+    {
+        delta->needs(fixedDelta);
+        deltaUnit->needs(fixedDelta);
+    }
     command.add_option("--offset", rpe.offset, "Add this to the estimate's stamps [s]")
         ->check(isFinite())
         ->capture_default_str()
@@ -179,8 +184,9 @@ void RpeCommandOptions::addTo(CLI::App& command)
         .add_option(
             "--max-pairs",
             maxPairs,
-            "At most so many pairs, drawn at random; 0 = all (default: 10000, with --fixed-delta "
-            "all)")
+            choosesPairs ? "At most so many pairs, drawn at random; 0 = all (default: 10000, with "
+                           "--fixed-delta all)"
+                         : "At most so many pairs, drawn at random; 0 = all")
         ->check(isNotNegative())
         ->group(group);
     command.add_option("--seed", rpe.seed, "Seed of the random draw")

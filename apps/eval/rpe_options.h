@@ -18,7 +18,9 @@ struct RpeCommandOptions
     bool evo{false};
     bool interpolate{false};
 
-    void addTo(CLI::App& command);
+    /** \param choosesPairs whether --fixed-delta is to be chosen; else pairs always are --delta
+     * apart, and it is understood, but not in the help */
+    void addTo(CLI::App& command, bool choosesPairs = false);
     /** The options as the evaluation takes them; throws std::invalid_argument. */
     [[nodiscard]] RpeOptions resolved() const;
 };

@@ -6,7 +6,9 @@
 #include <pointplane/mrpt_io/errors.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -269,39 +271,30 @@ void addWorstFrames(
 std::string textOf(const std::string& path)
 {
     std::ifstream file(path);
-    std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-    if (!file.good() && text.empty())
+    if (!file || std::filesystem::is_directory(path))
     {
-        throw InputError("cannot read '" + path + "'");
+        throw InputError(
+            "cannot open " + path + ": " + (file ? "is a directory" : std::strerror(errno)));
     }
-    return text;
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 }  // namespace
 
 void ReportOptions::addTo(CLI::App& command)
 {
-    command
-        .add_option(
-            "--report", directory, "Write DIR/index.html, with charts, and each chart as SVG")
-        ->type_name("DIR")
-        ->group("Output");
-    command
-        .add_option(
-            "--diagnostics",
-            diagnostics,
-            "For the report: table of pointplane-odometry --diagnostics")
-        ->type_name("FILE")
-        ->group("Output");
-    command
-        .add_option(
-            "--run-config", runConfig, "For the report: configuration of the run, to be shown")
-        ->type_name("FILE")
-        ->group("Output");
-    command
-        .add_option(
-            "--overlays", overlays, "For the report: folder of pointplane-odometry --overlay")
-        ->type_name("DIR")
-        ->group("Output");
+    CLI::Option* report = command.add_option(
+        "--report", directory, "Write DIR/index.html, with charts, and each chart as SVG");
+    report->type_name("DIR")->group("Output");
+    const auto addPart =
+        [&](const char* name, std::string& path, const char* type, const char* description) {
+            command.add_option(name, path, description)
+                ->type_name(type)
+                ->needs(report)
+                ->group("Output");
+        };
+    addPart("--diagnostics", diagnostics, "FILE", "Table of pointplane-odometry --diagnostics");
+    addPart("--run-config", runConfig, "FILE", "Configuration of the run, to be shown");
+    addPart("--overlays", overlays, "DIR", "Folder of pointplane-odometry --overlay");
 }
 
 void ReportOptions::guardedBy(OutputGuard& guard) const

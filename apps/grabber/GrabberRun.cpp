@@ -2,6 +2,7 @@
 #include "GrabberRun.h"
 
 #include <pointplane/mrpt_io/errors.h>
+#include <pointplane/mrpt_io/rawlog_names.h>
 
 #include <chrono>
 #include <filesystem>
@@ -99,7 +100,13 @@ void GrabberRun::keepFilesApart() const
     const bool splits = options_.recordsRawlog() && options_.recording.splitAfter > 0.0;
     for (int i = 0; i < (splits ? kSegments : 1); ++i)
     {
-        guard.addOutput("-o", splits ? segmentPath(options_.output, i) : options_.output);
+        const std::string path = splits ? segmentPath(options_.output, i) : options_.output;
+        guard.addOutput("-o", path);
+        if (options_.recordsRawlog() &&
+            options_.recording.encoding.storage == ImageStorage::External)
+        {
+            guard.addFolderBeside("images of -o", path, imagesFolderOf(path));
+        }
     }
     guard.addOutput("--preview", options_.preview);
     guard.addOutput("--live-output", options_.liveOdometry.poseRawlog);

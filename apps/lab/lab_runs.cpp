@@ -14,6 +14,8 @@
 #include <ostream>
 #include <thread>
 
+#include "OutputGuard.h"
+#include "nothing_measured.h"
 #include "result_output.h"
 #include "run_processes.h"
 
@@ -29,12 +31,12 @@ LabScore scoreOf(
     const RpeOptions& rpe)
 {
     // Exit code 1 is a damaged rawlog: the trajectory is there up to the damage, but a score of it
-    // beside those of whole sequences would mislead.
-    if (exitCode != kExitOk)
+    // beside those of whole sequences would mislead. A run of predicted frames alone is whole, and
+    // its score says so.
+    const std::string said = exitCode == kExitOk ? "" : lastLine(log);
+    if (exitCode != kExitOk && said != kNothingMeasured)
     {
-        return {
-            {},
-            "pointplane-odometry: exit code " + std::to_string(exitCode) + ", " + lastLine(log)};
+        return {{}, "pointplane-odometry: exit code " + std::to_string(exitCode) + ", " + said};
     }
     try
     {
@@ -106,7 +108,10 @@ double sizeOf(const std::string& path)
 }
 }  // namespace
 
-WorkDirectory::WorkDirectory(const std::string& path) : path_(path), temporary_(path.empty())
+WorkDirectory::WorkDirectory(const std::string& path)
+    // Absolute, as its files are arguments of programs: "-x" is no option then.
+    : path_(path.empty() ? path : std::filesystem::absolute(path).string()),
+      temporary_(path.empty())
 {
     std::error_code error;
     if (temporary_)
@@ -139,12 +144,18 @@ std::string scoreText(const LabScore& score)
     {
         return "failed";
     }
-    const std::size_t lost = score.rpe->coverage.lost;
+    const Coverage& coverage = score.rpe->coverage;
+    std::string unmeasured = coverage.lost > 0 ? format("%zu lost", coverage.lost) : "";
+    if (coverage.predicted > 0)
+    {
+        unmeasured +=
+            (unmeasured.empty() ? "" : ", ") + format("%zu predicted", coverage.predicted);
+    }
     return format(
                "%.1f mm / %.2f deg",
                1000 * score.rpe->translation.rmse,
                kDegreesPerRadian * score.rpe->rotation.rmse) +
-           (lost > 0 ? format(" (%zu lost)", lost) : "");
+           (unmeasured.empty() ? "" : " (" + unmeasured + ")");
 }
 
 void LabRunner::addTo(CLI::App& command)
@@ -163,16 +174,43 @@ void LabRunner::addTo(CLI::App& command)
         ->group("Runs");
 }
 
+void LabRunner::guardedBy(OutputGuard& guard) const
+{
+    guard.addInput(odometry);
+    for (const char* extension : {".txt", ".log", ".rawlog"})
+    {
+        guard.addOutputFolder("--keep", directory, extension);
+    }
+}
+
 std::size_t LabRunner::parallel() const
 {
     return jobs > 0 ? jobs : std::max(1U, std::thread::hardware_concurrency());
+}
+
+std::string LabRunner::program() const
+{
+    return odometry.empty() ? siblingProgram("pointplane-odometry") : odometry;
+}
+
+void LabRunner::requireProgram() const
+{
+    constexpr int kNotStarted = 127;
+    bool isThere = false;
+    runProcesses(
+        {{{program(), "--version"}, "/dev/null"}},
+        1,
+        [&](std::size_t, int exitCode) { isThere = exitCode != kNotStarted; });
+    if (!isThere)
+    {
+        throw InputError("cannot run '" + program() + "'; name the program by --odometry");
+    }
 }
 
 std::vector<LabScore> LabRunner::run(
     const std::vector<LabRun>& runs, const RpeOptions& rpe, std::ostream& err) const
 {
     const WorkDirectory work(directory);
-    const std::string program = odometry.empty() ? siblingProgram("pointplane-odometry") : odometry;
     const std::vector<std::size_t> sameAs = firstAlike(runs);
     std::vector<std::size_t> made;  // runs that no earlier one is like
     std::vector<ProcessJob> processes;
@@ -186,7 +224,7 @@ std::vector<LabScore> LabRunner::run(
             made.push_back(k);
             trajectories.push_back(base + ".txt");
             processes.push_back(
-                {odometryCommand(program, runs[k], trajectories.back()), base + ".log"});
+                {odometryCommand(program(), runs[k], trajectories.back()), base + ".log"});
             bytesLeft += sizeOf(runs[k].rawlog);
         }
     }
@@ -194,19 +232,12 @@ std::vector<LabScore> LabRunner::run(
     std::vector<LabScore> scores(runs.size());
     const double bytes = bytesLeft;
     std::size_t done = 0;
-    bool missing = false;
     const auto start = std::chrono::steady_clock::now();
     runProcesses(
         processes,
         parallel(),
         [&](std::size_t job, int exitCode)
         {
-            constexpr int kNotStarted = 127;
-            missing = missing || exitCode == kNotStarted;
-            if (missing)
-            {
-                return;  // told once, below
-            }
             const LabRun& run = runs[made[job]];
             LabScore& score = scores[made[job]];
             score = scoreOf(run, trajectories[job], processes[job].logPath, exitCode, rpe);
@@ -217,14 +248,22 @@ std::vector<LabScore> LabRunner::run(
             err << format("[%zu/%zu, %.0f s left] %s: ", done, made.size(), left, run.name.c_str())
                 << scoreText(score) << (score.rpe ? "" : " (" + score.failure + ")") << std::endl;
         });
-    if (missing)
-    {
-        throw InputError("cannot run '" + program + "'; name the program by --odometry");
-    }
     for (std::size_t k = 0; k < runs.size(); ++k)
     {
         scores[k] = scores[sameAs[k]];
     }
     return scores;
+}
+
+std::string failuresOf(const std::vector<LabRun>& runs, const std::vector<LabScore>& scores)
+{
+    const auto isFailed = [](const LabScore& score) { return !score.rpe; };
+    const auto first = std::find_if(scores.begin(), scores.end(), isFailed);
+    return first == scores.end()
+               ? ""
+               : std::to_string(std::count_if(first, scores.end(), isFailed)) + " of " +
+                     std::to_string(scores.size()) + " runs failed, first " +
+                     runs[static_cast<std::size_t>(first - scores.begin())].name + ": " +
+                     first->failure;
 }
 }  // namespace pointplane

@@ -13,6 +13,8 @@
 
 namespace pointplane
 {
+class OutputGuard;
+
 /** One run of pointplane-odometry, to be scored against ground truth. */
 struct LabRun
 {
@@ -39,13 +41,17 @@ struct LabRunner
     std::size_t jobs{0};    //!< runs at a time; 0: one per core
 
     void addTo(CLI::App& command);
+    void guardedBy(OutputGuard& guard) const;
+    [[nodiscard]] std::string program() const;
     [[nodiscard]] std::size_t parallel() const;  //!< jobs, or the number of cores
+
+    /** Told before hours of work. \throws InputError when there is no odometry program */
+    void requireProgram() const;
 
     /** Makes all runs, several at a time, and scores them; runs with the same rawlog and the same
      * parameters are made once. A failed run is a score with its
      * failure, not an exception. Progress, one line per run, goes to `err`. \throws
-     * EnvironmentError when the directory cannot be written, InputError when there is no odometry
-     * program */
+     * EnvironmentError when the directory cannot be written */
     [[nodiscard]] std::vector<LabScore> run(
         const std::vector<LabRun>& runs, const RpeOptions& rpe, std::ostream& err) const;
 };
@@ -66,6 +72,10 @@ class WorkDirectory
     bool temporary_;
 };
 
-/** "12.3 mm / 0.46 deg", with " (9 lost)" where frames were lost, or "failed". */
+/** "1 of 18 runs failed, first NAME: why", or empty. */
+[[nodiscard]] std::string failuresOf(
+    const std::vector<LabRun>& runs, const std::vector<LabScore>& scores);
+
+/** "12.3 mm / 0.46 deg", with " (9 lost, 3 predicted)" where frames were, or "failed". */
 [[nodiscard]] std::string scoreText(const LabScore& score);
 }  // namespace pointplane

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/evaluation/svg_chart.h>
 #include <pointplane/evaluation/trajectory_text.h>
+#include <pointplane/mrpt_io/params_ini.h>
 #include <pointplane/mrpt_io/rawlog_names.h>
 
 #include <algorithm>
@@ -170,9 +171,15 @@ void ReproduceCommand::makeRawlogs(
 void ReproduceCommand::run(CommandContext& context) const
 {
     OutputGuard guard;
-    guard.addInput(paperConfig);
+    const std::string paper = paperConfig.empty() ? findPaperConfig() : paperConfig;
+    for (const std::string& program : {paper, convert, simulate})
+    {
+        guard.addInput(program);
+    }
+    runner.guardedBy(guard);
     files.guardedBy(guard);
     guardReport(guard, report);
+    guard.addOutputFolder("--figure", figure, ".svg");
     Reproduction result;
     for (const std::string& directory : directories)
     {
@@ -185,7 +192,10 @@ void ReproduceCommand::run(CommandContext& context) const
         }
         result.sequences.insert(result.sequences.end(), found.begin(), found.end());
     }
-    const std::string paper = paperConfig.empty() ? findPaperConfig() : paperConfig;
+    for (const ReproducedSequence& sequence : result.sequences)
+    {
+        guard.addInputFolder(sequence.folder);
+    }
     for (const Variant& variant : planVariants(paper, alphas))
     {
         if (makes(variant.group))
@@ -194,6 +204,8 @@ void ReproduceCommand::run(CommandContext& context) const
                 .push_back(variant);
         }
     }
+    (void)loadOdometryParams(paper, {});
+    runner.requireProgram();
     const WorkDirectory work(runner.directory);
     makeRawlogs(result.sequences, work.path(), context);
 
@@ -217,6 +229,7 @@ void ReproduceCommand::run(CommandContext& context) const
     }
     result.rpe.fixedDelta = true;
     result.scores = runner.run(runs, result.rpe, context.err);
+    const std::string failures = failuresOf(runs, result.scores);
     for (const ReproducedSequence& s : result.sequences)
     {
         result.truths.push_back(readTrajectoryText(s.groundTruth));
@@ -247,12 +260,10 @@ void ReproduceCommand::run(CommandContext& context) const
             writeText(svgFileOf(chart.chart), folder.path() + "/" + chart.fileName, context.out);
         }
     }
-    for (const auto* scores : {&result.scores, &result.cornerScores})
+    if (!failures.empty())
     {
-        for (const LabScore& score : *scores)
-        {
-            context.exitCode = score.rpe ? context.exitCode : kExitIncomplete;
-        }
+        context.err << "pointplane-lab: " << failures << "\n";
+        context.exitCode = kExitIncomplete;
     }
 }
 }  // namespace

@@ -261,6 +261,7 @@ void SweepCommand::run(CommandContext& context)
     {
         guard.addInput(truth);
     }
+    runner.guardedBy(guard);
     files.guardedBy(guard);
     guardReport(guard, report);
     SweepResult sweep;
@@ -272,7 +273,9 @@ void SweepCommand::run(CommandContext& context)
     }
     rpe.rpe.fixedDelta = true;
     const RpeOptions resolved = rpe.resolved();
-    sweep.scores = runner.run(runs(sweep.values), resolved, context.err);
+    const std::vector<LabRun> planned = runs(sweep.values);
+    runner.requireProgram();
+    sweep.scores = runner.run(planned, resolved, context.err);
     sweep.protocol = describe(resolved);
 
     if (!files.replaceTable())
@@ -284,9 +287,10 @@ void SweepCommand::run(CommandContext& context)
     {
         writeReportFile(reportOf(sweep, logarithmic), report, context);
     }
-    for (const LabScore& score : sweep.scores)
+    if (const std::string failures = failuresOf(planned, sweep.scores); !failures.empty())
     {
-        context.exitCode = score.rpe ? context.exitCode : kExitIncomplete;
+        context.err << "pointplane-lab: " << failures << "\n";
+        context.exitCode = kExitIncomplete;
     }
 }
 }  // namespace

@@ -56,6 +56,11 @@ bool FrameSource::refill()
         if (!object)
         {
             damage_ = reader_->ending().message;
+            if (const auto left = options_.inputs.size() - nextInput_; !damage_.empty() && left > 0)
+            {
+                damage_ += "; not read: " + options_.inputs[nextInput_] +
+                           (left > 1 ? " and " + std::to_string(left - 1) + " more" : "");
+            }
             if (!damage_.empty() || nextInput_ == options_.inputs.size())
             {
                 return false;

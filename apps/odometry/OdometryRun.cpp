@@ -248,14 +248,18 @@ class Run
         {
             throw InputError(options_.inputs.front() + ": no CObservation3DRangeScan in it");
         }
-        std::string labels;
+        std::string cameras;
         for (const auto& [label, count] : source_.framesOf())
         {
-            labels += (labels.empty() ? "'" : ", '") + label + "'";
+            cameras += (cameras.empty() ? "" : ", ") + std::to_string(count) +
+                       " frames of camera '" + label + "'";
         }
         throw InputError(
-            options_.inputs.front() + ": no frames with sensor label '" + source_.label() +
-            "' in the range asked for; labels in it: " + labels);
+            options_.inputs.front() + ": " +
+            (source_.framesOf().count(source_.label()) > 0
+                 ? "--first " + std::to_string(options_.first) + " skips all of them"
+                 : "no frames of camera '" + source_.label() + "'") +
+            "; in it are " + cameras);
     }
 
     const OdometryOptions& options_;

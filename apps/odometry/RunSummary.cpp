@@ -8,6 +8,8 @@
 #include <cstdio>
 #include <ostream>
 
+#include "nothing_measured.h"
+
 namespace pointplane
 {
 namespace
@@ -61,6 +63,7 @@ void RunSummary::add(const OutputItem& item)
 {
     const RobotMotion& motion = item.frame->motion;
     ++numFrames;
+    hasMotion = hasMotion || motion.status == TrackingStatus::Tracked;
     switch (motion.status)
     {
         case TrackingStatus::First:
@@ -108,7 +111,7 @@ void RunSummary::print(std::ostream& out, bool profile) const
         1e3 * seconds / frames,
         sum.msTotal / frames,
         frames / std::max(seconds, 1e-9));
-    out << label << line;
+    out << (label.empty() ? "camera ''" : label) << line;
     for (const UntrackedFrames& group : untracked)
     {
         out << "  " << lineOf(group) << "\n";
@@ -122,7 +125,10 @@ void RunSummary::print(std::ostream& out, bool profile) const
     {
         out << note << "\n";
     }
-    out << "depth noise: " << describe(sum.depthNoise) << "\n";
+    if (numTracked > 0)
+    {
+        out << "depth noise: " << describe(sum.depthNoise) << "\n";
+    }
     if (const std::string lens = describe(sum.lens); !lens.empty())
     {
         out << "lens, learnt from the motion: " << lens << "\n";
@@ -158,6 +164,10 @@ void RunSummary::printProblems(std::ostream& err) const
             << " frames could not be used"
             << (lost == untracked.end() ? std::string() : ", first " + lineOf(*lost)) << "\n";
     }
+    if (isOnlyPredicted())
+    {
+        err << kNothingMeasured << "\n";
+    }
     if (!damage.empty())
     {
         err << "pointplane-odometry: " << damage << "\n";
@@ -166,6 +176,8 @@ void RunSummary::printProblems(std::ostream& err) const
 
 int RunSummary::exitCode() const
 {
-    return damage.empty() && numLost == 0 ? kExitOk : kExitIncomplete;
+    return damage.empty() && numLost == 0 && !isOnlyPredicted() ? kExitOk : kExitIncomplete;
 }
+
+bool RunSummary::isOnlyPredicted() const { return numPredicted > 0 && !hasMotion; }
 }  // namespace pointplane

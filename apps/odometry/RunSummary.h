@@ -28,6 +28,7 @@ struct RunSummary
     std::size_t numFrames{0}, numTracked{0}, numPredicted{0}, numLost{0};
     std::vector<UntrackedFrames> untracked;  //!< the first few
     std::size_t numUntrackedMore{0};         //!< frames of the others
+    bool hasMotion{false};                   //!< one at least was measured
     double pathLength{0};                    //!< of the robot [m]
     double seconds{0};                       //!< wall time
     FrameDiagnostics sum;                    //!< of the times per stage; the latest depthNoise
@@ -47,6 +48,7 @@ struct RunSummary
     [[nodiscard]] int exitCode() const;
 
  private:
+    [[nodiscard]] bool isOnlyPredicted() const;
     void addUntracked(const OutputItem& item);
 };
 }  // namespace pointplane

@@ -81,9 +81,9 @@ class Tally
 /** Options of pointplane-grabber for a short recording of the virtual camera, and more. */
 [[nodiscard]] std::vector<std::string> recorder(int frames, const std::vector<std::string>& more);
 
-/** A small folder of the TUM benchmark's layout, with everything that one may have. */
+/** A small folder of the TUM benchmark's layout, with everything that one may have, 1.75 s long. */
 void writeTumFolder(const std::string& folder);
-constexpr int kTumFrames = 4;
+constexpr int kTumFrames = 8;
 
 /** @name The kinds of attempts. share: of the full number, 0 to 1
  * @{ */

@@ -50,7 +50,7 @@ void writeTumFolder(const std::string& folder)
     fs::create_directories(folder + "/rgb");
     fs::create_directories(folder + "/depth");
     cv::Mat colour(24, 32, CV_8UC3), depth(24, 32, CV_16UC1);
-    std::string rgb = "# colour\n", depths = "# depth\n";
+    std::string rgb = "# colour\n", depths = "# depth\n", truth;
     for (int i = 0; i < kTumFrames; ++i)
     {
         cv::randu(colour, 0, 256);
@@ -58,14 +58,16 @@ void writeTumFolder(const std::string& folder)
         const std::string name = std::to_string(i) + ".png";
         cv::imwrite(folder + "/rgb/" + name, colour);
         cv::imwrite(folder + "/depth/" + name, depth);
-        const std::string stamp = "1305031102." + std::to_string(100000 + 33333 * i);
+        const std::string stamp =
+            std::to_string(1305031102 + i / 4) + "." + std::to_string(25 * (i % 4));
         rgb += stamp + " rgb/" + name + "\n";
         depths += stamp + " depth/" + name + "\n";
+        truth += stamp + " 0 0 0 0 0 0 1\n";
     }
     test::writeBytes(folder + "/rgb.txt", rgb);
     test::writeBytes(folder + "/depth.txt", depths);
     test::writeBytes(folder + "/camera.txt", "26.2 26.1 15.5 11.5 0 0 0 0 0 32 24 5000\n");
-    test::writeBytes(folder + "/groundtruth.txt", "1305031102.1 0 0 0 0 0 0 1\n");
+    test::writeBytes(folder + "/groundtruth.txt", truth);
 }
 
 Tally damagedFolders(double share)

@@ -222,6 +222,16 @@ TEST_F(ConvertApp, cameraFiles)
     writeBytes(dir_ / "zero.txt", "0 0 0 0 0 0 0 0 0 32 24 5000\n");
     EXPECT_THROW((void)loadTumCamera(dir_ / "zero.txt", in_), InputError);
     EXPECT_THROW((void)loadTumCamera("fr7", in_), InputError);
+    writeBytes(dir_ / "formula.ini", "[CAMERA_PARAMS]\nfx = 26\nfy = $eval{27\n");
+    try
+    {
+        (void)loadTumCamera(dir_ / "formula.ini", in_);
+        ADD_FAILURE() << "an unfinished formula";
+    }
+    catch (const InputError& e)
+    {
+        EXPECT_THAT(e.what(), HasSubstr("formula.ini: Line 3: Expected closing `}`"));
+    }
 }
 
 TEST_F(ConvertApp, listsMayHaveAByteOrderMarkAndAbsoluteNames)
@@ -280,7 +290,7 @@ TEST_F(ConvertApp, mistakesAreNamed)
         expect("size.txt: width and height are not whole numbers", {"--camera", dir_ / "size.txt"});
     }
     cv::imwrite(dir_ / "in/depth/0.png", colours_[0]);
-    expect("depth/0.png: is not a 16 bit depth image", {"--strict"});
+    expect("depth/0.png: is not a depth image of 16 bit and one channel", {"--strict"});
     std::filesystem::remove(dir_ / "in/depth/0.png");
     expect("cannot open " + in_ + "/depth/0.png: no such file", {"--strict"});
     std::filesystem::rename(dir_ / "in/rgb", dir_ / "in/elsewhere");

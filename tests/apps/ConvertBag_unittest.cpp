@@ -359,6 +359,9 @@ TEST_F(ConvertBag, truncatedAndDamagedBagsEndInOneLine)
         EXPECT_EQ(convert(), kExitBadInput) << size;
         EXPECT_EQ(std::count(text_.begin(), text_.end(), '\n'), 1) << text_;
     }
+    test::writeBytes(path_, std::string(1000, 'x'));
+    EXPECT_EQ(convert(), kExitBadInput);
+    EXPECT_THAT(text_, HasSubstr(path_ + ": is not a whole ROS 1 bag: "));
     // The index is whole, a chunk in the middle is not.
     std::string damaged = whole;
     const std::size_t chunk = damaged.find("compression=none", whole.size() / 2);

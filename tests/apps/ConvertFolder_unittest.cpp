@@ -57,6 +57,7 @@ TEST_F(ConvertFolder, numberedImagesWithACalibration)
     ASSERT_EQ(run({"folder", in_, "--fps", "15"}), kExitOk) << text_;
     EXPECT_THAT(text_, HasSubstr("3 frames"));
     EXPECT_THAT(text_, HasSubstr("regular by number only"));
+    EXPECT_THAT(text_, HasSubstr("\ndepth: 2 m, the median of a frame"));
     expectFrames(15, 500);
     const PinholeCamera camera = frames()[0].camera;
     EXPECT_DOUBLE_EQ(camera.fy, 61);
@@ -162,6 +163,15 @@ TEST_F(ConvertFolder, record3dHasSmallDepthImages)
     write("in/metadata.json", R"({"w": 64, "h": 48, "K": [60, 0], "fps": 60})");
     EXPECT_EQ(run({"folder", in_}), kExitBadInput);
     EXPECT_THAT(text_, HasSubstr("metadata.json"));
+}
+
+TEST_F(ConvertFolder, aFolderOfMetadataIsNoFileOfIt)
+{
+    writeFrames("in/rgb/%d.jpg", "in/depth/%d.png");
+    write("in/camera.txt", kCamera);
+    write("in/metadata/mine.json", "{}");
+    ASSERT_EQ(run({"folder", in_}), kExitOk) << text_;
+    EXPECT_THAT(text_, HasSubstr("read as numbered images"));
 }
 
 TEST_F(ConvertFolder, strayScannerHasItsColourInAVideo)
@@ -315,6 +325,20 @@ TEST_F(ConvertFolder, impossibleCalibrationsRatesAndTimesAreRefused)
     std::filesystem::remove(dir_ / "in/camera_matrix.csv");
     std::filesystem::create_directory(dir_ / "in/camera_matrix.csv");
     expect("cannot open " + in_ + "/camera_matrix.csv: not a file");
+}
+
+/** Their names are numbers, but their stamps are known: at 30 Hz every velocity would be wrong. */
+TEST_F(ConvertFolder, stampsInListsAreNotIgnored)
+{
+    writeFrames("in/rgb/%d.jpg", "in/depth/%d.png");
+    write("in/camera.txt", kCamera);
+    write("in/rgb.txt", "1 rgb/0.jpg\n2 rgb/1.jpg\n3 rgb/2.jpg\n");
+    write("in/depth.txt", "1 depth/0.png\n2 depth/1.png\n3 depth/2.png\n");
+    EXPECT_EQ(run({"folder", in_}), kExitBadInput);
+    EXPECT_THAT(text_, HasSubstr(in_ + ": rgb.txt and depth.txt tell the stamps"));
+    EXPECT_THAT(text_, HasSubstr("pointplane-convert tum"));
+    EXPECT_EQ(run({"folder", in_, "--fps", "1"}), kExitOk) << text_;
+    expectFrames(1);
 }
 
 TEST_F(ConvertFolder, aTownInThePathIsNoCamera)

@@ -213,6 +213,22 @@ TEST_F(OdometryApp, theSummaryGroupsTheFramesThatWereNotTracked)
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
 }
 
+/** As of depth whose units are wrong by a thousand: every frame can be used, and none tells
+ * anything. */
+TEST_F(OdometryApp, aRunThatMeasuresNothingIsNotWell)
+{
+    const auto unitsOf = [](float units)
+    { return [units](int, CObservation3DRangeScan& scan) { scan.rangeUnits = units; }; };
+    const Outcome outcome = runOn(5, unitsOf(1e-6F));
+    EXPECT_THAT(outcome.out, HasSubstr("5 frames: 1 tracked, 4 predicted, 0 lost"));
+    EXPECT_EQ(outcome.code, kExitIncomplete);
+    EXPECT_THAT(
+        outcome.err, HasSubstr("no motion was measured, all of it is predicted; are the units of"));
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_EQ(runOn(5, unitsOf(1e-3F)).code, kExitOk);
+    EXPECT_EQ(runOn(1, unitsOf(1e-6F)).code, kExitOk);  // has no motion
+}
+
 /** Two rawlogs in the wrong order: one frame is late, then the clock has been set back. */
 TEST_F(OdometryApp, afterAClockSetBackTheProgramSaysWhatTheOdometrySays)
 {
@@ -292,6 +308,17 @@ TEST_F(OdometryApp, labelsOfAnyLengthLeaveTheSummaryWhole)
         runOn(2, [&](int, CObservation3DRangeScan& scan) { scan.sensorLabel = label; });
     EXPECT_THAT(outcome.out, HasSubstr(label + ": 2 frames: "));
     EXPECT_THAT(outcome.out, HasSubstr(" fps\n"));
+    EXPECT_THAT(
+        runOn(2, [&](int, CObservation3DRangeScan& scan) { scan.sensorLabel = ""; }).out,
+        HasSubstr("camera '': 2 frames: "));
+}
+
+TEST_F(OdometryApp, whatNoFrameToldIsNotInTheSummary)
+{
+    EXPECT_THAT(runOn(2, [](int, CObservation3DRangeScan&) {}).out, HasSubstr("\ndepth noise: "));
+    EXPECT_THAT(
+        runOn(2, [](int, CObservation3DRangeScan& scan) { scan.hasRangeImage = false; }).out,
+        testing::Not(HasSubstr("depth noise")));
 }
 
 TEST_F(OdometryApp, otherCamerasAreNamed)
@@ -393,7 +420,10 @@ TEST_F(OdometryApp, badInputIsNamedWithExitCode2)
     expect({dir_ / "text.rawlog", "-o", out_}, "is a text file, not a rawlog");
     expect(
         {in_, "-o", out_, "--sensor-label", "LEFT"},
-        "'LEFT' in the range asked for; labels in it: 'RGBD'");
+        "no frames of camera 'LEFT'; in it are 2 frames of camera 'RGBD'");
+    expect(
+        {in_, "-o", out_, "--first", "2"},
+        "--first 2 skips all of them; in it are 2 frames of camera 'RGBD'");
     expect({in_, "-o", in_}, "is an input");
     writeBytes(dir_ / "typo.ini", "[DepthNoise]\nsigmaInverseDept = 1\n");
     expect({in_, "-o", out_, "-c", dir_ / "typo.ini"}, "did you mean 'sigmaInverseDepth'?");
@@ -455,6 +485,9 @@ TEST_F(OdometryApp, damagedInputIsDoneUpToTheDamage)
         EXPECT_EQ(numPoses(out_), test::readAll(dir_ / "cut.rawlog").objects.size());
         EXPECT_EQ(test::readAll(out_).ending.kind, RawlogEnd::Clean);
     }
+    EXPECT_THAT(
+        run({dir_ / "cut.rawlog", in_, in_, "-o", out_}).err,
+        HasSubstr("; not read: " + in_ + " and 1 more\n"));
 }
 
 TEST_F(OdometryApp, severalCamerasAndSeveralFiles)

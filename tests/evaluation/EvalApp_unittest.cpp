@@ -189,6 +189,15 @@ TEST_F(EvalApp, theReportSaysHowItWasMade)
     EXPECT_THAT(html, HasSubstr("alpha = 7"));
     EXPECT_THAT(test::readBytes(files / "r/path-from-above.svg"), HasSubstr("ground truth"));
     EXPECT_EQ(run({"ate", truth, estimate, "--report", files / "r", "--run-config", "no"}).code, 2);
+    EXPECT_THAT(
+        run({"ate", truth, estimate, "--report", files / "r", "--run-config", files / ""}).err,
+        HasSubstr("cannot open " + files / "" + ": is a directory\n"));
+    for (const char* part : {"--run-config", "--diagnostics", "--overlays"})
+    {
+        const test::AppRun refused = run({"ate", truth, estimate, part, config});
+        EXPECT_EQ(refused.code, 2) << part;
+        EXPECT_THAT(refused.err, HasSubstr(std::string(part) + " requires --report"));
+    }
 }
 
 /** Half a second: no pairs 1 s apart. */
@@ -308,9 +317,53 @@ TEST_F(EvalApp, marksOfLostAndPredictedFramesAreReadAndSaid)
     EXPECT_THAT(refused.err, HasSubstr("bad.txt:1: not a status"));
 }
 
+/** Who reads the score sees that it is of a changed estimate. */
+TEST_F(EvalApp, theProtocolTellsWhatWasChanged)
+{
+    EXPECT_THAT(
+        run({"rpe", truth, estimate, "--scale", "2", "--offset", "0.001"}).out,
+        HasSubstr("at the nearest stamp, estimate's stamps +0.001 s and translations times 2, "));
+    EXPECT_THAT(
+        run({"ate", truth, estimate, "--scale", "0.5"}).out,
+        HasSubstr("association 0.02 s, estimate's translations times 0.5, "));
+    EXPECT_THAT(
+        run({"compare", truth, estimate, "--offset", "-0.001"}).out,
+        HasSubstr("estimate's stamps -0.001 s, "));
+    EXPECT_THAT(run({"rpe", truth, estimate}).out, testing::Not(HasSubstr("estimate's")));
+}
+
+/** All pairs have every distance: --delta without --fixed-delta would be ignored. */
+TEST_F(EvalApp, aDeltaWithoutEffectIsRefused)
+{
+    for (const std::vector<std::string>& delta :
+         {std::vector<std::string>{"--delta", "0.5"}, {"--delta-unit", "f"}})
+    {
+        std::vector<std::string> args{"rpe", truth, estimate};
+        args.insert(args.end(), delta.begin(), delta.end());
+        const test::AppRun refused = run(args);
+        EXPECT_EQ(refused.code, 2);
+        EXPECT_THAT(refused.err, HasSubstr("--fixed-delta"));
+        args.emplace_back("--fixed-delta");
+        EXPECT_EQ(run(args).code, 0);
+        args[0] = "compare";
+        args.back() = estimate;
+        EXPECT_EQ(run(args).code, 0);
+    }
+    EXPECT_THAT(run({"rpe", "--help"}).out, HasSubstr("--fixed-delta"));
+    EXPECT_THAT(run({"compare", "--help"}).out, testing::Not(HasSubstr("--fixed-delta")));
+}
+
 TEST_F(EvalApp, failuresSayWhyAndSetTheExitCode)
 {
-    EXPECT_EQ(run({}).code, 2);
+    const test::AppRun nothing = run({}), unknown = run({"mean", truth});
+    EXPECT_EQ(nothing.code, 2);
+    EXPECT_EQ(unknown.code, 2);
+    EXPECT_THAT(nothing.err, HasSubstr("no command; commands are rpe, ate, nees, compare ("));
+    EXPECT_THAT(unknown.err, HasSubstr("unknown command 'mean'; commands are rpe, "));
+    const test::AppRun compressed =
+        run({"ate", truth, writeFile(files, "rawlog.txt", "\x1f\x8b\x08")});
+    EXPECT_EQ(compressed.code, 2);
+    EXPECT_THAT(compressed.err, HasSubstr("rawlog.txt: is compressed, not text"));
     EXPECT_EQ(run({"rpe", truth}).code, 2);
     EXPECT_EQ(run({"rpe", truth, estimate, "--delta", "x"}).code, 2);
     EXPECT_EQ(run({"--help"}).code, 0);
@@ -318,7 +371,7 @@ TEST_F(EvalApp, failuresSayWhyAndSetTheExitCode)
 
     const test::AppRun missing = run({"rpe", truth, files / "none.txt"});
     EXPECT_EQ(missing.code, 2);
-    EXPECT_THAT(missing.err, HasSubstr("none.txt"));
+    EXPECT_THAT(missing.err, HasSubstr("none.txt: No such file or directory\n"));
 
     const test::AppRun unwritable =
         run({"rpe", truth, estimate, "--fixed-delta", "--json", files / "no/dir.json"});

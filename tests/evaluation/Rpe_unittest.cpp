@@ -273,3 +273,33 @@ TEST(Rpe, refusesWhatCannotBeScored)
     options.delta = 1000;  // no pair at all
     EXPECT_THROW((void)relativePoseError(truth, truth, options), std::runtime_error);
 }
+
+/** As in the script, over gaps; but it does not count for a measurement without a word. */
+TEST(Rpe, aPoseIsNotComparedWithItselfWithoutAWord)
+{
+    const Trajectory truth = line({0, 1, 2, 3, 4, 5});
+    const Trajectory estimate = line({0, 1, 3, 3, 4, 6});
+    RpeOptions options;
+    options.fixedDelta = true;
+    options.delta = 0.4;
+    EXPECT_THAT(
+        [&] { (void)relativePoseError(truth, estimate, options); },
+        testing::ThrowsMessage<std::runtime_error>(
+            HasSubstr("delta 0.4 s is shorter than half the distance between poses")));
+
+    options.delta = 1;
+    EXPECT_THAT(
+        describe(options, relativePoseError(truth, estimate, options)),
+        testing::Not(HasSubstr("itself")));
+
+    std::vector<StampedPose> poses;
+    for (const double stamp : {0.0, 1.0, 2.0, 6.0, 7.0, 8.0})
+    {
+        poses.push_back({stamp, Eigen::Isometry3d::Identity(), {}});
+        poses.back().pose.translation().x() = stamp;
+    }
+    const Trajectory gap = makeTrajectory("gap", poses);
+    EXPECT_THAT(
+        describe(options, relativePoseError(gap, gap, options)),
+        HasSubstr("4 of 4 pairs, 1 of a pose with itself"));
+}

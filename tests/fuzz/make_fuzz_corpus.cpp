@@ -239,6 +239,53 @@ void writeKlgLogs(const fs::path& folder)
     }
 }
 
+/** Each layout that `pointplane-convert folder` and `tum` know (folder_archive.h). */
+void writeFolders(const fs::path& folder)
+{
+    const std::string camera = ">>camera.txt\n8 8 3.5 2.5 0 0 0 0 0 8 6 1000\n";
+    const auto images = [](const std::string& colour, const std::string& depth)
+    { return ">>" + colour + " @c\n>>" + depth + " @d\n"; };
+    const std::string numbered = images("rgb/1.png", "depth/1.png") +
+                                 images("rgb/2.png", "depth/2.png") + ">>rgb/3.png @g\n" +
+                                 ">>depth/3.png @a\n";
+    save(folder / "numbered", numbered + camera);
+    save(
+        folder / "stamped",
+        images("rgb/1305031102.1753.png", "depth/1305031102.1604.png") +
+            images("rgb/1305031102211214.png", "depth/1305031102.2.png") + camera);
+    save(
+        folder / "tum",
+        numbered + camera +
+            ">>rgb.txt\n# stamp file\n1.1 rgb/1.png\n1.2 rgb/2.png\n>>depth.txt\n1.11 "
+            "depth/1.png\n1.21 depth/2.png\n1.3 depth/3.png\n>>groundtruth.txt\n1.1 0 0 0 0 0 0 "
+            "1\n");
+    const std::string matrix = "8 0 3.5 0\n0 8 2.5 0\n0 0 1 0\n0 0 0 1\n";
+    save(
+        folder / "scannet",
+        images("color/0.jpg", "depth/0.png") + ">>depth/1.png @s\n>>color/1.jpg @j\n" +
+            ">>intrinsic/intrinsic_color.txt\n" + matrix + ">>intrinsic/intrinsic_depth.txt\n" +
+            matrix);
+    save(folder / "7scenes", images("frame-000000.color.png", "frame-000000.depth.png") + camera);
+    save(
+        folder / "redwood",
+        images("image/0000001-000000033369.jpg", "depth/0000001-000000033369.png") + camera);
+    save(
+        folder / "replica",
+        images("results/frame000000.jpg", "results/depth000000.png") +
+            ">>cam_params.json\n{\"camera\": {\"w\": 8, \"h\": 6, \"fx\": 8, \"fy\": 8, \"cx\": "
+            "3.5, \"cy\": 2.5, \"scale\": 6553.5}}\n");
+    save(
+        folder / "record3d",
+        ">>rgb/0.jpg @j\n>>depth/0.tiff @f\n>>rgb/1.jpg @j\n>>depth/1.png @s\n" +
+            std::string(">>metadata.json\n{\"w\": 16, \"h\": 12, \"fps\": 60, \"K\": [16, 0, 0, 0, "
+                        "16, 0, 7.5, 5.5, 1], \"frameTimestamps\": [0.1, 0.2]}\n"));
+    save(
+        folder / "stray",
+        images("rgb/0.png", "depth/000000.png") +
+            ">>camera_matrix.csv\n8,0,3.5\n0,8,2.5\n0,0,1\n>>odometry.csv\ntimestamp, frame, x\n"
+            "5.5, 000000, 0\n");
+}
+
 fs::path newFolder(const fs::path& parent, const char* name)
 {
     fs::create_directories(parent / name);
@@ -259,6 +306,7 @@ int main(int argc, char** argv)
         writeRawlogs(newFolder(root, "rawlog"));
         writeTexts(newFolder(root, "text"));
         writeKlgLogs(newFolder(root, "klg"));
+        writeFolders(newFolder(root, "folder"));
         fs::copy_file(
             argv[1], newFolder(root, "ini") / "config", fs::copy_options::overwrite_existing);
         save(root / "ini" / "short", "[DepthNoise]\nsigmaPixelPx = 0.7 // px\n");

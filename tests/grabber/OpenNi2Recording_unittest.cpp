@@ -251,6 +251,12 @@ TEST_F(OpenNi2Recording, badRequestsAreExplained)
     EXPECT_EQ(record("", {"--warm-up", "nan"}), 2);
     EXPECT_EQ(record("", {"--frames", "99999999999999999999"}), 2);  // recorded for ever
     EXPECT_EQ(record("", {"--device", dir_ / "missing.oni"}), 2);
+    fs::create_directory(dir_ / "out_Images");
+    EXPECT_EQ(
+        record(
+            "", {"--frames", "3", "--images", "external", "--preview", dir_ / "out_Images/p.png"}),
+        2);
+    EXPECT_THAT(err_, HasSubstr("would write over what images of -o"));
     writeBytes(out_, "precious");
     EXPECT_EQ(record("", {"--frames", "3"}), 2);
     EXPECT_EQ(readBytes(out_), "precious");

@@ -122,6 +122,7 @@ TEST_F(CalibrationFile, errorsNameFileSectionAndKey)
     expectRejected("fx = 521.2", "fx = abc", "[OPENNI2_RIGHT]: fx, fy, cx and cy must be positive");
     expectRejected("resolution = [640 480]", "resolution = [640 400]", "does not fit");
     expectRejected("pose_quaternion", "pose", "has no key 'pose_quaternion'");
+    expectRejected("fx = 572.9", "fx = $eval{572.9", "Expected closing `}`");
     EXPECT_THROW(
         (void)calibrationFromIni(dir_ / "missing.ini", "OPENNI2", facts(true)), InputError);
 }

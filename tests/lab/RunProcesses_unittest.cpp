@@ -115,13 +115,24 @@ TEST_F(FakePrograms, aFailedRunIsSaidAndTheOthersAreKept)
     EXPECT_EQ(r.code, 1);
     EXPECT_THAT(r.out, testing::AllOf(HasSubstr("100.0 mm"), HasSubstr("failed")));
     EXPECT_THAT(r.err, HasSubstr("exit code 2, unknown value 'bad'"));
+    EXPECT_THAT(
+        r.err, HasSubstr("\npointplane-lab: 1 of 2 runs failed, first a PoseSolver.alpha=bad: "));
     EXPECT_TRUE(std::filesystem::exists(dir / "kept/000_a_PoseSolver.alpha=1.1.txt"));
 
-    const auto noProgram =
-        run({"sweep", "a.b", rawlog, "--values", "1,2", "--odometry", "/no/such"});
+    const auto noProgram = run(
+        {"sweep",
+         "a.b",
+         rawlog,
+         "--values",
+         "1",
+         "--odometry",
+         "/no/such",
+         "--keep",
+         dir / "kept2"});
     EXPECT_EQ(noProgram.code, 2);
     EXPECT_EQ(
         noProgram.err, "pointplane-lab: cannot run '/no/such'; name the program by --odometry\n");
+    EXPECT_FALSE(std::filesystem::exists(dir / "kept2"));
     EXPECT_EQ(run({"sweep", "a.b", dir / "none.rawlog", "--values", "1"}).code, 2);
     EXPECT_EQ(run({"sweep", "a.b", rawlog}).code, 2);  // nothing to try
     EXPECT_EQ(run({"sweep", "a.b", rawlog, "--range", "0,1,3", "--log"}).code, 2);

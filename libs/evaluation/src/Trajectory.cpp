@@ -168,6 +168,20 @@ void checkOverlap(const Trajectory& groundTruth, const Trajectory& estimate, dou
     }
 }
 
+std::string describeChanges(double offset, double scale)
+{
+    std::ostringstream out;
+    if (offset != 0)
+    {
+        out << " stamps " << std::showpos << offset << std::noshowpos << " s";
+    }
+    if (scale != 1)
+    {
+        out << (offset != 0 ? " and" : "") << " translations times " << scale;
+    }
+    return out.str().empty() ? "" : ", estimate's" + out.str();
+}
+
 double medianInterval(const Trajectory& trajectory)
 {
     return trajectory.size() < 2 ? 0 : statisticsOf(intervals(trajectory)).median;

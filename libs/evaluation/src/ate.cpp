@@ -86,9 +86,10 @@ std::string describe(const AteOptions& options, const AteResult& result, std::si
     std::snprintf(
         out,
         sizeof out,
-        "TUM protocol (evaluate_ate), %s, association %g s, %zu of %zu poses, ",
+        "TUM protocol (evaluate_ate), %s, association %g s%s, %zu of %zu poses, ",
         alignment,
         options.maxDifference,
+        describeChanges(options.offset, options.scale).c_str(),
         result.errors.size(),
         estimatePoses);
     return out + describe(result.coverage);

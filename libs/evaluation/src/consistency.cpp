@@ -64,7 +64,8 @@ NeesResult consistencyOf(
     {
         throw std::runtime_error(
             "only " + std::to_string(increments.size()) + " increment(s) of " + nameOf(interval) +
-            " have ground truth at both ends; at least two are needed");
+            " have ground truth at both ends; at least two are needed (--interval "
+            "chooses other lengths)");
     }
     const double n = static_cast<double>(increments.size());
     double joint = 0;

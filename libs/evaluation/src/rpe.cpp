@@ -180,6 +180,14 @@ void evaluateAll(const SampledTruth& truth, const PairError& error, RpeResult& r
         statisticsOfAll([&](std::size_t i, std::size_t j) { return error.translation(i, j); });
     result.rotation = rotation.get();
 }
+
+/** Their error is 0, whatever the estimate. */
+[[nodiscard]] std::size_t numWithThemselves(const RpeResult& result)
+{
+    const auto isOfOnePose = [](const RpePair& pair) { return pair.i == pair.j; };
+    return static_cast<std::size_t>(
+        std::count_if(result.pairs.begin(), result.pairs.end(), isOfOnePose));
+}
 }  // namespace
 
 DeltaUnit deltaUnitFromName(const std::string& name)
@@ -237,6 +245,13 @@ RpeResult relativePoseError(
             keepRandom(pairs, maxPairs, options.seed);
         }
         evaluateListed(pairs, truth, error, result);
+        if (numWithThemselves(result) == result.pairs.size())
+        {
+            throw std::runtime_error(
+                "delta " + nameOfDelta(options) +
+                " is shorter than half the distance between poses, so each would be compared with "
+                "itself");
+        }
     }
     else if (maxPairs == 0 || static_cast<double>(estimate.size()) < std::sqrt(maxPairs))
     {
@@ -265,7 +280,8 @@ std::string describe(const RpeOptions& options)
     const bool script = options.formula == RpeFormula::TumScript;
     const bool nearest = options.truthAt == TruthAt::NearestStamp;
     return std::string(script ? "TUM protocol (evaluate_rpe), " : "evo's formula, ") + delta +
-           ", ground truth " + (nearest ? "at the nearest stamp" : "interpolated");
+           ", ground truth " + (nearest ? "at the nearest stamp" : "interpolated") +
+           describeChanges(options.offset, options.scale);
 }
 
 std::string describe(const RpeOptions& options, const RpeResult& result)
@@ -278,6 +294,11 @@ std::string describe(const RpeOptions& options, const RpeResult& result)
         result.translation.count,
         result.candidatePairs,
         result.randomPairs ? (" drawn with seed " + std::to_string(options.seed)).c_str() : "");
-    return describe(options) + counts + describe(result.coverage);
+    const std::size_t alone = options.fixedDelta ? numWithThemselves(result) : 0;
+    return describe(options) + counts +
+           (alone > 0
+                ? std::to_string(alone) + " of a pose with itself, as nothing is at its delta, "
+                : "") +
+           describe(result.coverage);
 }
 }  // namespace pointplane

@@ -3,8 +3,10 @@
 #include <pointplane/evaluation/trajectory_text.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <set>
@@ -154,7 +156,8 @@ Trajectory readTrajectoryText(const std::string& path)
     std::ifstream file(path);
     if (!file || std::filesystem::is_directory(path))
     {
-        throw std::runtime_error("cannot read trajectory '" + path + "'");
+        throw std::runtime_error(
+            "cannot open " + path + ": " + (file ? "is a directory" : std::strerror(errno)));
     }
     skipByteOrderMark(file);
     std::vector<StampedPose> poses;

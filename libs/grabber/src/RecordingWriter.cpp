@@ -4,6 +4,7 @@
 #include <pointplane/grabber/RecordingWriter.h>
 #include <pointplane/mrpt_io/ObservationConverter.h>
 #include <pointplane/mrpt_io/errors.h>
+#include <pointplane/mrpt_io/rawlog_names.h>
 #include <pointplane/mrpt_io/recording_marks.h>
 
 #include <cmath>
@@ -106,8 +107,7 @@ std::string RecordingWriter::rawlogPath(int segment) const
 
 std::string RecordingWriter::imagesFolder(int segment) const
 {
-    const fs::path p(rawlogPath(segment));
-    return (p.parent_path() / (p.stem().string() + "_Images")).string();
+    return imagesFolderOf(rawlogPath(segment));
 }
 
 RecordingWriter::Job RecordingWriter::makeJob(const ImagePair& pair) const

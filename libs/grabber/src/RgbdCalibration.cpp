@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/grabber/RgbdCalibration.h>
+#include <pointplane/mrpt_io/ini_file.h>
 
-#include <mrpt/config/CConfigFile.h>
 #include <mrpt/core/bits_math.h>
 #include <mrpt/img/TStereoCamera.h>
 #include <mrpt/poses/CPose3DQuat.h>
 
 #include <cmath>
-#include <filesystem>
 
 namespace pointplane
 {
@@ -130,12 +129,8 @@ RgbdCalibration nominalCalibration(const CameraFacts& facts)
 RgbdCalibration calibrationFromIni(
     const std::string& path, const std::string& section, const CameraFacts& facts)
 {
-    // MRPT takes a missing file for an empty one.
-    if (!std::filesystem::is_regular_file(path))
-    {
-        throw InputError("no such calibration file: '" + path + "'");
-    }
-    const mrpt::config::CConfigFile file(path);
+    const auto ini = openIniFile(path);
+    const mrpt::config::CConfigFile& file = *ini;
     for (const char* side : {"_LEFT", "_RIGHT"})
     {
         requireKeys(file, path, section + side, {"resolution", "fx", "fy", "cx", "cy", "dist"});

@@ -21,11 +21,14 @@ std::string oneLine(const std::exception& e)
         return "out of memory";
     }
     std::string text = e.what();
-    // MRPT: "Message:  <text>\nLocation: ..." once per stack frame, the innermost first.
-    const std::string key = "Message:";
-    if (const auto at = text.find(key); at != std::string::npos)
+    // MRPT: a title, then "Message:  <text>\nLocation: ..." once per stack frame, the innermost
+    // first, or the text alone.
+    for (const std::string key : {"==== MRPT exception ====", "Message:"})
     {
-        text = text.substr(at + key.size());
+        if (const auto at = text.find(key); at != std::string::npos)
+        {
+            text = text.substr(at + key.size());
+        }
     }
     const auto first = text.find_first_not_of(" \t\r\n");
     if (first == std::string::npos)

@@ -76,6 +76,10 @@ struct Trajectory
  * has fewer than two poses */
 void checkOverlap(const Trajectory& groundTruth, const Trajectory& estimate, double offset);
 
+/** ", estimate's stamps +0.5 s and translations times 2": a score of it is that of another
+ * estimate. Empty where neither is changed. */
+[[nodiscard]] std::string describeChanges(double offset, double scale);
+
 /** Median of the intervals between stamps [s]; 0 for fewer than two poses. */
 [[nodiscard]] double medianInterval(const Trajectory& trajectory);
 
