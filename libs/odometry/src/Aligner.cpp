@@ -194,21 +194,20 @@ Alignment Aligner::attempt(const Scene& scene, const Motion& start, Search searc
 {
     Alignment out;
     out.predicted = scene.predicted;
-    Motion around = start;
     if (search == Search::Close)
     {
-        out.associations = associate(scene, around.T_prev_cur, 1);
+        out.associations = associate(scene, start.T_prev_cur, 1);
         estimate(scene, scene.predicted.motion.mean, out);
+        searchAgain(scene, start.T_prev_cur, out);
     }
     else
     {
-        out.associations = associate(scene, around.T_prev_cur, kWideSearch);
-        estimate(scene, around, out);
-        around = out.estimate.motion.mean;
-        out.associations = associate(scene, around.T_prev_cur, 1);
-        estimate(scene, around, out);
+        out.associations = associate(scene, start.T_prev_cur, kWideSearch);
+        estimate(scene, start, out);
+        const Motion coarse = out.estimate.motion.mean;
+        out.associations = associate(scene, coarse.T_prev_cur, 1);
+        estimate(scene, coarse, out);
     }
-    searchAgain(scene, around.T_prev_cur, out);
     judge_.judge(out);
     settleRivals(scene, out);
     verify(scene, out);
