@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "Stopwatch.h"
+#include "points_in_view.h"
 
 namespace pointplane
 {
@@ -17,59 +18,10 @@ namespace
 /** Search radius when too little is found again around the prediction, over the usual one. */
 constexpr double kWideSearch = 5;
 
-/** Of the search radius: if half of the points are found farther away than this, there are others
- * beyond it. */
-constexpr double kNearEdge = 0.5;
-
 /** Surfaces of a place that agree when it is recognised. By key points alone the motion is
  * centimetres off: less is asked than of an estimate, and twice what a wrong motion shows. What is
  * recalled is then aligned and judged like any reference. */
 constexpr double kRecognised = 0.6;
-
-/** Points of a reference that are due and in view of a camera. */
-int numInView(
-    const Reference& reference, const RgbdFrame& frame, const Eigen::Isometry3d& T_cur_ref)
-{
-    int out = 0;
-    for (size_t i = 0; i < reference.points.points.size(); ++i)
-    {
-        const Eigen::Vector3d p_cur = T_cur_ref * reference.points.points[i].p_cam.mean;
-        if (reference.points.isDue(i) && p_cur.z() > 0)
-        {
-            const Eigen::Vector2d uv_px = frame.camera.project(p_cur);
-            out += uv_px.x() >= 0 && uv_px.y() >= 0 && uv_px.x() < frame.camera.width &&
-                   uv_px.y() < frame.camera.height;
-        }
-    }
-    return out;
-}
-
-/** Median distance of the points from where a motion puts them [px]. */
-double medianOffset(
-    const std::vector<Association>& associations,
-    const PinholeCamera& camera,
-    const Eigen::Isometry3d& T_cur_world)
-{
-    std::vector<double> offsets;
-    for (const Association& association : associations)
-    {
-        const Reference& reference = *association.reference;
-        const Eigen::Isometry3d T_cur_ref = T_cur_world * reference.T_world_cam;
-        for (const PointTrack& track : association.points)
-        {
-            const auto& point = reference.points.points[static_cast<size_t>(track.ref)];
-            offsets.push_back(
-                (camera.project(T_cur_ref * point.p_cam.mean) - track.cur.uv_px).norm());
-        }
-    }
-    if (offsets.empty())
-    {
-        return 0;
-    }
-    const auto middle = offsets.begin() + static_cast<std::ptrdiff_t>(offsets.size() / 2);
-    std::nth_element(offsets.begin(), middle, offsets.end());
-    return *middle;
-}
 
 /** The camera's motion while it waited for the depth image. */
 Eigen::Isometry3d untilDepth(const Vector6d& velocity, double delay)
@@ -225,10 +177,10 @@ void Aligner::searchAgain(
     const Scene& scene, Eigen::Isometry3d T_prev_cur, Alignment& alignment) const
 {
     const RgbdFrame& frame = scene.current.frame;
-    const double farOff_px = kNearEdge * scene.frontEnd.searchRadius_px(frame);
-    while (params_.fuses() &&
-           medianOffset(alignment.associations, frame.camera, fromWorld(scene, T_prev_cur)) >
-               farOff_px)
+    const double radius_px = scene.frontEnd.searchRadius_px(frame);
+    while (
+        params_.fuses() &&
+        areNearEdge(alignment.associations, frame.camera, fromWorld(scene, T_prev_cur), radius_px))
     {
         T_prev_cur = alignment.estimate.motion.mean.T_prev_cur;
         Alignment again;
@@ -370,7 +322,7 @@ void Aligner::verify(const Scene& scene, Alignment& alignment)
     for (const Reference* reference : scene.track.references())
     {
         alignment.numSought +=
-            numInView(*reference, scene.current.frame, T_cur_world * reference->T_world_cam);
+            numInView(*reference, scene.current.frame.camera, T_cur_world * reference->T_world_cam);
         if (scene.current.hasDepth && alignment.agreement.seen() < Judge::kEnoughSurfaces)
         {
             const DepthMotion depth = depthMotion(
