@@ -104,6 +104,29 @@ TEST(NoiseScale, referencesThatCannotDisagreeTellNothing)
     EXPECT_EQ(noise.factors().points, before.points);
 }
 
+/** Over the geometric mean of the frames before. */
+TEST(NoiseScale, tellsABadFrame)
+{
+    NoiseScale noise(bare());
+    const auto next = [&](double scatter)
+    {
+        PoseAnalysis frame = with(1, 1);
+        frame.scatter = scatter;
+        noise.update(frame, 1.0 / 30);
+        return noise.ofFrame();
+    };
+    EXPECT_EQ(next(8), 1) << "nothing to compare the first one with";
+    EXPECT_NEAR(next(2), 0.25, 1e-12);
+    EXPECT_NEAR(next(40), 10, 1e-12);
+    EXPECT_EQ(next(0), 1) << "nothing is known of it";
+    for (int i = 0; i < 300; ++i)
+    {
+        EXPECT_LT(next(6), 1.1);
+    }
+    EXPECT_NEAR(next(600), 100, 1);
+    EXPECT_NEAR(next(6), 1, 0.1) << "one bad frame hardly changes what is usual";
+}
+
 TEST(NoiseScale, constantFactorsComeOnTop)
 {
     NoiseScale::TParams params;

@@ -246,8 +246,16 @@ TEST(Odometry, errorsAgainstKeyFramesDoNotAddUp)
         params.covariance.history = 10;
         params.covariance.model = model;
         params.covariance.viewSigma *= std::sqrt(drift);
-        const OdometryResult r = CheckedOdometry(params).run(0, 20);
-        return Variances{r.since[0].cov.trace(), r.since[9].cov.trace()};
+        CheckedOdometry odometry(params);
+        (void)odometry.run(0, 10);
+        Variances sum{0, 0};  // some frames are noisier than others
+        for (int i = 10; i < 20; ++i)
+        {
+            const OdometryResult r = odometry.run(i, i + 1);
+            sum.ofOne += r.since[0].cov.trace();
+            sum.ofTen += r.since.back().cov.trace();
+        }
+        return sum;
     };
     const Variances still = overFrames("joint", 0), drifting = overFrames("joint", 1),
                     fast = overFrames("joint", 5), independent = overFrames("independent", 0);

@@ -107,19 +107,6 @@ TEST(ReferenceWindow, newKeyframeAfterDistanceAngleOrLossOfOverlap)
     EXPECT_TRUE(window.needsKeyframe(shifted(3), 0.49));
 }
 
-/** 0.3 m of 0.15 m a view, and 15 deg of 10 deg a view. */
-TEST(ReferenceWindow, viewsByHand)
-{
-    ReferenceWindow::TParams params;
-    params.keyframeDistance = 0.15;
-    params.keyframeAngleDeg = 10;
-    Eigen::Isometry3d T = shifted(0.3);
-    EXPECT_NEAR(params.numViews(T), 2, 1e-12);
-    T.linear() = so3Exp(Eigen::Vector3d(0, 15 * M_PI / 180, 0));
-    EXPECT_NEAR(params.numViews(T), 3.5, 1e-12);
-    EXPECT_EQ(params.numViews(Eigen::Isometry3d::Identity()), 0);
-}
-
 TEST(ReferenceWindow, newestTellsTheOverlap)
 {
     ReferenceWindow window({});

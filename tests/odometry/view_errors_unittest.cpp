@@ -56,7 +56,7 @@ TEST(viewSigma, byHand)
     const Vector6d sigma = viewSigma(0.01, information);
     EXPECT_NEAR(sigma[0], 0.02, 1e-12);
     EXPECT_NEAR(sigma[2], 0.02, 1e-12);
-    EXPECT_NEAR(sigma[5], 0.005, 1e-12);
+    EXPECT_NEAR(sigma[5], 0.01, 1e-12);
     EXPECT_NEAR(viewSigma(0.01, Matrix6d::Zero())[0], 0.01, 1e-12) << "of nothing, 1 m";
 }
 }  // namespace pointplane

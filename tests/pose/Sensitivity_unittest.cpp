@@ -87,40 +87,6 @@ void bend(
     }
 }
 
-/** Squared change of residuals over the features' covariance, for each pair. */
-class Leftover
-{
- public:
-    explicit Leftover(const std::vector<FeatureResidual>& before)
-        : before_(before), sums_(before.size())
-    {
-    }
-
-    void add(const std::vector<FeatureResidual>& after)
-    {
-        for (size_t i = 0; i < sums_.size(); ++i)
-        {
-            const Eigen::Vector3d d = after[i].r - before_[i].r;
-            sums_[i] += d.dot(before_[i].curCov.inverse() * d) / 3;
-        }
-    }
-
-    /** Were the noise of points and planes as many times their covariances. */
-    void expectAsPredicted(int runs, double ofPoints, double ofPlanes) const
-    {
-        for (size_t i = 0; i < sums_.size(); ++i)
-        {
-            const FeatureResidual& f = before_[i];
-            const double predicted = f.own + ofPoints * f.ofPoints + ofPlanes * f.ofPlanes;
-            EXPECT_NEAR(sums_[i] / runs, predicted, 0.1 * predicted + 0.02) << i;
-        }
-    }
-
- private:
-    std::vector<FeatureResidual> before_;
-    std::vector<double> sums_;
-};
-
 /** Where the estimate goes when the problem changes. */
 Vector12d change(const PoseEstimate& before, const PoseEstimate& after)
 {
@@ -377,8 +343,7 @@ TEST(Sensitivity, toAllTogetherIsOne)
     EXPECT_THAT(sum, test::IsMatrixNear(Matrix6d(Matrix6d::Identity()), 1e-6));
 }
 
-/** Noise of the current frame alone, of which each feature is in one pair or in two: what it does
- * to the estimate, and what of it is left in the residuals. */
+/** Noise of the current frame alone, of which each feature is in one pair or in two. */
 TEST(Sensitivity, noiseOfTheCurrentFrame)
 {
     constexpr int kRuns = 2000;
@@ -402,7 +367,6 @@ TEST(Sensitivity, noiseOfTheCurrentFrame)
 
     test::GaussianSampler sampler(85);
     std::vector<Vector6d> errors;
-    Leftover points(solved.analysis.pointResiduals), planes(solved.analysis.planeResiduals);
     for (int run = 0; run < kRuns; ++run)
     {
         PoseProblem noisy = problem;
@@ -426,8 +390,6 @@ TEST(Sensitivity, noiseOfTheCurrentFrame)
         }
         const Solved after = solve(noisy);
         errors.push_back(change(solved.estimate, after.estimate).head<6>());
-        points.add(after.analysis.pointResiduals);
-        planes.add(after.analysis.planeResiduals);
     }
     const Matrix12d expected =
         solved.analysis.sensitivity.points + solved.analysis.sensitivity.planes;
@@ -436,8 +398,5 @@ TEST(Sensitivity, noiseOfTheCurrentFrame)
         test::whitenedDifference(
             test::sampleCovariance(errors), Matrix6d(expected.topLeftCorner<6, 6>())),
         0.25);
-    points.expectAsPredicted(kRuns, 1, 1);
-    planes.expectAsPredicted(kRuns, 1, 1);
-    EXPECT_LT(solved.analysis.planeResiduals[0].own, 0.9) << "the estimate follows it";
 }
 }  // namespace pointplane

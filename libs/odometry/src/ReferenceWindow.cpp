@@ -19,12 +19,6 @@ bool ReferenceWindow::TParams::isFrameToFrame() const
 
 bool ReferenceWindow::TParams::isAdjacent() const { return reference == "adjacent"; }
 
-double ReferenceWindow::TParams::numViews(const Eigen::Isometry3d& motion) const
-{
-    return motion.translation().norm() / keyframeDistance +
-           so3Log(motion.linear()).norm() / (keyframeAngleDeg * M_PI / 180);
-}
-
 void ReferenceWindow::TParams::check() const
 {
     (void)isFrameToFrame();

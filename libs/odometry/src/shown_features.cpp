@@ -22,16 +22,6 @@ FeatureUse useOf(double weight)
                                 : FeatureUse::Rejected;
 }
 
-double largestWeight(const std::vector<FeatureResidual>& features)
-{
-    double out = 0;
-    for (const FeatureResidual& feature : features)
-    {
-        out = std::max(out, feature.weight);
-    }
-    return out;
-}
-
 /** Keeps of points of the same place that which counts most; a new one least. */
 void keepEachOnce(std::vector<FrameFeatures::Point>& points)
 {
@@ -88,7 +78,10 @@ void showPairs(
     FrameFeatures& shown)
 {
     size_t i = 0, j = 0;  // in the order of PairBuilder
-    const double bestPlane = analysis ? largestWeight(analysis->planeResiduals) : 0;
+    const double bestPlane =
+        analysis && !analysis->planeWeights.empty()
+            ? *std::max_element(analysis->planeWeights.begin(), analysis->planeWeights.end())
+            : 0;
     for (const Association& association : associations)
     {
         for (const PlaneMatch& match : association.planes)
@@ -96,14 +89,14 @@ void showPairs(
             FeatureUse& use = shown.planeUses.at(static_cast<size_t>(match.cur));
             use = std::min(
                 use,
-                analysis ? useOf(analysis->planeResiduals.at(j++).weight / bestPlane)
+                analysis ? useOf(analysis->planeWeights.at(j++) / bestPlane)
                          : FeatureUse::Rejected);
         }
         for (const PointTrack& track : association.points)
         {
             shown.points.push_back(
                 {track.cur.uv_px,
-                 analysis ? useOf(analysis->pointResiduals.at(i++).weight) : FeatureUse::Rejected});
+                 analysis ? useOf(analysis->pointWeights.at(i++)) : FeatureUse::Rejected});
         }
         for (const PlaneMatch& match : association.movingPlanes)
         {

@@ -249,8 +249,9 @@ PoseAnalysis PoseSolver::analyse(const PoseProblem& problem, const PoseEstimate&
         out.pointDisagreement = analysis.pointDisagreement(solution.motion.cov);
         out.planeDisagreement = analysis.planeDisagreement(solution.motion.cov);
     }
-    out.pointResiduals = analysis.pointResiduals(out.sensitivity);
-    out.planeResiduals = analysis.planeResiduals(out.sensitivity);
+    out.scatter = analysis.scatter(out.sensitivity);
+    out.pointWeights = analysis.pointWeights();
+    out.planeWeights = analysis.planeWeights();
     return out;
 }
 }  // namespace pointplane

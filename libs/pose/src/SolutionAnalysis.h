@@ -39,9 +39,12 @@ class SolutionAnalysis
     /** See PoseSolver. */
     [[nodiscard]] double pointSupport() const;
 
-    /** Residuals with what noise of the current frame does to them. */
-    [[nodiscard]] std::vector<FeatureResidual> pointResiduals(const Sensitivity& of) const;
-    [[nodiscard]] std::vector<FeatureResidual> planeResiduals(const Sensitivity& of) const;
+    /** See PoseAnalysis. \param of sensitivity() */
+    [[nodiscard]] double scatter(const Sensitivity& of) const;
+
+    /** Of the pairs. */
+    [[nodiscard]] std::vector<double> pointWeights() const;
+    [[nodiscard]] std::vector<double> planeWeights() const;
 
  private:
     using Groups = std::map<int, FeatureSum>;  //!< by reference
@@ -54,9 +57,8 @@ class SolutionAnalysis
     void addPatches(Sensitivity& out) const;
     template <class Pairs>
     [[nodiscard]] Matrix12d currentNoise(const Pairs& pairs, size_t offset) const;
-    template <class Pairs>
-    [[nodiscard]] std::vector<FeatureResidual> residuals(
-        const Pairs& pairs, size_t offset, const Sensitivity& of) const;
+    [[nodiscard]] Vector12d pull(size_t i) const;
+    [[nodiscard]] std::vector<double> weights(size_t begin, size_t end) const;
     [[nodiscard]] double effectivePoints(const Vector12d& direction) const;
     [[nodiscard]] Disagreement disagreementOf(const Groups& groups, const Matrix12d& cov) const;
 

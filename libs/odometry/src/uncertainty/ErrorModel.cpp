@@ -14,11 +14,12 @@ namespace pointplane
 namespace
 {
 /** How large what the features of a frame err by together is, over what is propagated: as their
- * residuals grow with the view, and as the references contradict each other. The geometric mean of
- * points and planes, or that of the only kind that the frame has. */
-double commonLevel(const NoiseFactors& noise, const NoiseFactors& drift, const Sensitivity& of)
+ * residuals are, and as the references contradict each other. The geometric mean of points and
+ * planes, or that of the only kind that the frame has. */
+double commonLevel(const NoiseFactors& residuals, const NoiseFactors& levels, const Sensitivity& of)
 {
-    const double ofPoints = noise.points * drift.points, ofPlanes = noise.planes * drift.planes;
+    const double ofPoints = levels.points * residuals.points;
+    const double ofPlanes = levels.planes * residuals.planes;
     const bool hasPoints = !of.points.isZero(0), hasPlanes = !of.planes.isZero(0);
     if (hasPoints != hasPlanes)
     {
@@ -61,7 +62,6 @@ ErrorModel::ErrorModel(const OdometryParams& params)
       isJoint_(params.covariance.isJoint()),
       fuses_(params.pipeline.fuses()),
       noise_(params.noiseScale),
-      variogram_(params.noiseScale.timeConstant),
       camera_(params.shutter, params.lens)
 {
 }
@@ -75,18 +75,8 @@ CameraMatrix ErrorModel::changeCamera(const PinholeCamera& camera)
 
 JointCovariance::Measurement ErrorModel::learn(const Measured& frame)
 {
-    const NoiseFactors usual = noise_.residuals();
     noise_.update(frame.analysis, frame.dt);
-    if (isJoint_)
-    {
-        variogram_.update(
-            frame.analysis,
-            frame.references.front()->T_world_cam.linear(),
-            ofView_.numViews(frame.estimate.motion.mean.T_prev_cur),
-            frame.dt,
-            noise_.residuals());
-    }
-    JointCovariance::Measurement out = errorsOf(frame, usual);
+    JointCovariance::Measurement out = errorsOf(frame);
     const CameraCalibrator::Change change =
         camera_.update(frame.analysis, frame.bend, noise_.overCautious());
     out.cameraGain = change.gain;
@@ -94,9 +84,7 @@ JointCovariance::Measurement ErrorModel::learn(const Measured& frame)
     return out;
 }
 
-/** \param usual variance of the residuals in the frames before */
-JointCovariance::Measurement ErrorModel::errorsOf(
-    const Measured& frame, const NoiseFactors& usual) const
+JointCovariance::Measurement ErrorModel::errorsOf(const Measured& frame) const
 {
     JointCovariance::Measurement out;
     if (!isJoint_)
@@ -106,17 +94,14 @@ JointCovariance::Measurement ErrorModel::errorsOf(
         return out;
     }
     const Sensitivity& of = frame.analysis.sensitivity;
-    const NoiseFactors white = variogram_.levels().white;
-    // A frame whose residuals are larger than usual is blurred, or not where it should be.
-    const double ofPoints = std::max(1.0, frame.analysis.pointVariance / usual.points);
-    const double ofPlanes = std::max(1.0, frame.analysis.planeVariance / usual.planes);
+    const NoiseFactors residuals = noise_.residuals();
     out.references = of.references;
     out.camera = of.camera;
     out.bendVariance = frame.bend * frame.bend;
     out.patches = of.patches;
     out.referencePatches = of.referencePatches;
-    out.noise = params_.noise *
-                    (ofPoints * white.points * of.points + ofPlanes * white.planes * of.planes) +
+    out.noise = params_.noise * noise_.ofFrame() *
+                    (residuals.points * of.points + residuals.planes * of.planes) +
                 accelerationWhileExposed(of, frame.shutter, frame.acceleration2);
     out.prior = of.prior;
     if (!fuses_)
@@ -124,8 +109,7 @@ JointCovariance::Measurement ErrorModel::errorsOf(
         out.prior.rightCols<6>().setZero();  // the velocity is a new one for each frame
     }
     out.priorNoise = params_.motion * propagate(of.prior, frame.motionNoise);
-    const double level =
-        commonLevel(noise_.levels(), variogram_.levels().drift, frame.analysis.sensitivity);
+    const double level = noise_.ofFrame() * commonLevel(residuals, noise_.levels(), of);
     out.viewSigma = viewSigma(
         params_.viewSigma * std::sqrt(level),
         frame.estimate.infoPoints + frame.estimate.infoPlanes);

@@ -6,7 +6,6 @@
 #include <pointplane/odometry/uncertainty/CameraCalibrator.h>
 #include <pointplane/odometry/uncertainty/JointCovariance.h>
 #include <pointplane/odometry/uncertainty/NoiseScale.h>
-#include <pointplane/odometry/uncertainty/ResidualVariogram.h>
 #include <pointplane/pose/PoseSolver.h>
 
 #include <vector>
@@ -23,7 +22,7 @@ namespace pointplane
  * - X_r: error of the pose of reference r.
  * - v, v_r: what all features of this frame, and of reference r, err by together, because depth,
  *   lens and scene are not quite what they are modelled as. A Gaussian field over views:
- *   view_errors. Its size follows the residuals: NoiseScale, ResidualVariogram.
+ *   view_errors. Its size follows the residuals: NoiseScale.
  * - s, s_r: smooth error of the depth images, by which neighbouring points err together: a scale of
  *   depth in each patch, new in each image. None with structured light.
  * - Predicted motion: the previous pose and velocity, and white acceleration: MotionModel, which
@@ -31,8 +30,10 @@ namespace pointplane
  * - k: errors of the camera that all frames share: vignetting, principal point, focal length,
  *   radial distortion, scale of depth, and the shutter. All are considered: camera_errors. The
  *   shutter's are learnt, and those of a lens that nobody calibrated: CameraCalibrator.
- * - e: noise of the frame's own points and planes, learnt from how residuals change from frame to
- *   frame: ResidualVariogram. And acceleration while the images are exposed: exposure_errors.
+ * - e: noise of the frame's own points and planes, a part of what their residuals show:
+ *   NoiseScale. And acceleration while the images are exposed: exposure_errors.
+ *
+ * e and v are larger in a frame whose image pulls the pose apart: NoiseScale::ofFrame().
  *
  * JointCovariance keeps account of how the errors of all poses depend on these. Derivations are in
  * docs/theory.md, section Window; how to calibrate it is in docs/consistency.md. */
@@ -70,16 +71,11 @@ class ErrorModel
     JointCovariance::Measurement learn(const Measured& frame);
 
  private:
-    [[nodiscard]] JointCovariance::Measurement errorsOf(
-        const Measured& frame, const NoiseFactors& usual) const;
+    [[nodiscard]] JointCovariance::Measurement errorsOf(const Measured& frame) const;
 
     JointCovariance::TParams params_;
-    /** One view is what the default key frames are apart: learnt drift is per view, and must not
-     * depend on how many key frames a user wants. */
-    ReferenceWindow::TParams ofView_;
     bool isJoint_, fuses_;
     NoiseScale noise_;
-    ResidualVariogram variogram_;
     CameraCalibrator camera_;
 };
 }  // namespace pointplane

@@ -34,6 +34,7 @@ void NoiseScale::update(const PoseAnalysis& analysis, double dt)
     }
     pointResiduals_.follow(analysis.pointVariance, dt, params_.timeConstant);
     planeResiduals_.follow(analysis.planeVariance, dt, params_.timeConstant);
+    scatter_.follow(analysis.scatter, dt, params_.timeConstant);
 
     // The solver was told common_ times the constant factor, which is not for this.
     const auto needed = [](const Disagreement& d, double told)
@@ -57,6 +58,18 @@ void NoiseScale::Average::follow(double variance, double dt, double timeConstant
         const double rate = 1 - std::exp(-dt / timeConstant);
         cautious += rate * (target - cautious);
         quick += std::max(rate, 1.0 / (numFrames + kFirstFrames)) * (target - quick);
+    }
+}
+
+void NoiseScale::Scatter::follow(double scatter, double dt, double timeConstant)
+{
+    ofFrame = 1;
+    if (scatter > 0)
+    {
+        const double now = std::log(scatter);
+        ofFrame = numFrames > 0 ? std::exp(now - usualLog) : 1;
+        ++numFrames;
+        usualLog += std::max(1 - std::exp(-dt / timeConstant), 1.0 / numFrames) * (now - usualLog);
     }
 }
 

@@ -8,13 +8,10 @@ namespace pointplane
 namespace
 {
 /** Over which errors become those of another view: about the distance from which a scene of a room
- * looks different, and the time over which cameras and scenes change. Chosen, as the part of the
- * rotation, by the NEES of true motions: docs/experiments.md. */
+ * looks different, and the time over which cameras and scenes change. Chosen by the NEES of true
+ * motions: docs/experiments.md. */
 constexpr double kDistance = 0.6;  // [m]
 constexpr double kTime = 10;       // [s]
-
-/** A rotation errs by this part of what would move the scene as far as the translation does. */
-constexpr double kRotation = 0.5;
 
 /** How far away [m] the features are: where a rotation moves them as far as a translation of that
  * distance times the angle. */
@@ -35,7 +32,7 @@ Vector6d viewSigma(double sigma, const Matrix6d& information)
 {
     Vector6d out;
     out << Eigen::Vector3d::Constant(sigma * distanceOf(information)),
-        Eigen::Vector3d::Constant(sigma * kRotation);
+        Eigen::Vector3d::Constant(sigma);
     return out;
 }
 }  // namespace pointplane

@@ -53,9 +53,6 @@ class ReferenceWindow
         void check() const;
         [[nodiscard]] bool isFrameToFrame() const;  //!< or against key frames
         [[nodiscard]] bool isAdjacent() const;      //!< to the frame before, whatever became of it
-        /** How far a motion changes what is seen: 1 for another view of the scene, which needs a
-         * key frame of its own. */
-        [[nodiscard]] double numViews(const Eigen::Isometry3d& motion) const;
     };
 
     /** \throws std::invalid_argument naming the key */

@@ -47,24 +47,6 @@ struct CameraInformation
     CameraVector gradient{CameraVector::Zero()};  //!< of half of the cost
 };
 
-/** How far a feature is from where the estimate puts it, and how much of that the current frame's
- * noise explains. If the noise is w_points (w_planes) times the propagated covariance, and w is
- * that of the feature's own kind, then the expectation of r^T curCov^-1 r / 3 is
- *
- *     own * w + ofPoints * w_points + ofPlanes * w_planes
- *
- * All three are zero for a point without depth: it shows a part of the noise only. */
-struct FeatureResidual
-{
-    int reference{0}, inReference{-1};                //!< as in the pair
-    Eigen::Vector3d r{0, 0, 0};                       //!< in the previous frame [m] or [1/m]
-    Eigen::Matrix3d curCov{Eigen::Matrix3d::Zero()};  //!< of the current feature, in r
-    double own{1};       //!< below 1, because the estimate follows the feature
-    double ofPoints{0};  //!< because all points move the estimate
-    double ofPlanes{0};  //!< because all planes move it
-    double weight{1};    //!< robust weight: 1 = counts fully, 0 = not at all
-};
-
 /** What a solution tells besides the motion. */
 struct PoseAnalysis
 {
@@ -77,6 +59,12 @@ struct PoseAnalysis
     double planeVariance{0};  //!< the same of planes
     Disagreement pointDisagreement;  //!< of the references' points, with all other features
     Disagreement planeDisagreement;  //!< of their planes, likewise
-    std::vector<FeatureResidual> pointResiduals, planeResiduals;  //!< of the pairs
+    /** How far the parts of the image pull the pose apart: mean square of their pulls, over what
+     * the propagated noise explains; 0 = nothing to compare. A part is a cell of the view with its
+     * points, or a plane. Where noise is all, it is the variance of the residuals. It is larger
+     * where neighbours err together, as by blur, by a shutter in jerky motion, or by bent depth
+     * (Liang and Zeger 1986, the variance of clustered data). */
+    double scatter{0};
+    std::vector<double> pointWeights, planeWeights;  //!< robust, of the pairs: 1 = counts fully
 };
 }  // namespace pointplane

@@ -26,8 +26,8 @@ class JointCovariance
     struct TParams
     {
         std::string model{"joint"};
-        double noise{1.0};
-        double viewSigma{0.00045};
+        double noise{0.33};
+        double viewSigma{0.0003};
         double motion{0.07};
         double vignetting{0.15};
         double principalPoint{0.3};
@@ -46,7 +46,8 @@ class JointCovariance
             v("noise",
               noise,
               "-",
-              "noise of one frame's points and planes: factor on the variance that was learnt");
+              "noise of one frame's points and planes: part of the variance of their residuals, "
+              "which holds the references' noise, too");
             v("viewSigma",
               viewSigma,
               "-",

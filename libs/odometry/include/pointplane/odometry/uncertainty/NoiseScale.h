@@ -11,7 +11,8 @@ namespace pointplane
  * Residuals tell how large errors are that differ between features; sensors differ by more than a
  * factor of ten in this. Errors that the features of a frame have in common do not show in
  * residuals. They show where reference frames contradict each other about the pose (docs/theory.md,
- * Noise of features).
+ * Noise of features). And some frames are worse than others: there, the parts of the image pull the
+ * pose apart.
  *
  * It learns slowly. A depth image that bends for a second makes points look worse and planes
  * better; a pose that believed this at once would follow the bent image. */
@@ -68,6 +69,11 @@ class NoiseScale
      * that of points, or of planes if there are no points. */
     [[nodiscard]] double overCautious() const;
 
+    /** Variance of the errors of the latest frame over that of a usual one: its scatter
+     * (PoseAnalysis) over the geometric mean of those before, which single bad frames hardly move.
+     */
+    [[nodiscard]] double ofFrame() const { return scatter_.ofFrame; }
+
     /** Learnt from the residuals alone. */
     [[nodiscard]] NoiseFactors residuals() const
     {
@@ -84,7 +90,15 @@ class NoiseScale
         void follow(double variance, double dt, double timeConstant);
     };
 
+    struct Scatter
+    {
+        double usualLog{0}, ofFrame{1};
+        int numFrames{0};
+        void follow(double scatter, double dt, double timeConstant);
+    };
+
     TParams params_;
+    Scatter scatter_;
     Average pointResiduals_, planeResiduals_;  //!< by the residuals alone
     Average pointCommon_, planeCommon_;        //!< over that, by the references' disagreement
 };

@@ -16,8 +16,8 @@ namespace pointplane
 [[nodiscard]] double viewCorrelation(const Eigen::Isometry3d& motion, double time);
 
 /** Standard deviation of that error, as an error of the pose (left perturbation) [m, rad]: sigma D
- * per axis of the translation and sigma / 2 per axis of the rotation. D is the distance of the
- * features, which `information` tells.
+ * per axis of the translation and sigma per axis of the rotation, which moves the features as far.
+ * D is their distance, which `information` tells.
  * \param information of the pose by all features, J^T W J */
 [[nodiscard]] Vector6d viewSigma(double sigma, const Matrix6d& information);
 }  // namespace pointplane
