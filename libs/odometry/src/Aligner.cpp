@@ -146,20 +146,17 @@ Alignment Aligner::attempt(const Scene& scene, const Motion& start, Search searc
 {
     Alignment out;
     out.predicted = scene.predicted;
-    if (search == Search::Close)
-    {
-        out.associations = associate(scene, start.T_prev_cur, 1);
-        estimate(scene, scene.predicted.motion.mean, out);
-        searchAgain(scene, start.T_prev_cur, out);
-    }
-    else
+    Motion sought = start;                       // where features are searched for
+    Motion first = scene.predicted.motion.mean;  // where the solver starts
+    if (search == Search::Wide)
     {
         out.associations = associate(scene, start.T_prev_cur, kWideSearch);
         estimate(scene, start, out);
-        const Motion coarse = out.estimate.motion.mean;
-        out.associations = associate(scene, coarse.T_prev_cur, 1);
-        estimate(scene, coarse, out);
+        sought = first = out.estimate.motion.mean;
     }
+    out.associations = associate(scene, sought.T_prev_cur, 1);
+    estimate(scene, first, out);
+    searchAgain(scene, sought.T_prev_cur, first, out);
     judge_.judge(out);
     settleRivals(scene, out);
     verify(scene, out);
@@ -172,9 +169,13 @@ Alignment Aligner::attempt(const Scene& scene, const Motion& start, Search searc
 
 /** Points beyond the search radius are not found, and those within it pull the motion to where they
  * were searched for. So they are searched for again around the estimate, while more of them agree.
- * \param T_prev_cur where they were searched for */
+ * \param T_prev_cur where they were searched for
+ * \param first where the solver starts */
 void Aligner::searchAgain(
-    const Scene& scene, Eigen::Isometry3d T_prev_cur, Alignment& alignment) const
+    const Scene& scene,
+    Eigen::Isometry3d T_prev_cur,
+    const Motion& first,
+    Alignment& alignment) const
 {
     const RgbdFrame& frame = scene.current.frame;
     const double radius_px = scene.frontEnd.searchRadius_px(frame);
@@ -188,7 +189,7 @@ void Aligner::searchAgain(
         again.estimate.iterations = alignment.estimate.iterations;
         again.msPose = alignment.msPose;
         again.associations = associate(scene, T_prev_cur, 1);
-        estimate(scene, scene.predicted.motion.mean, again);
+        estimate(scene, first, again);
         if (again.estimate.numPointInliers <= alignment.estimate.numPointInliers)
         {
             return;

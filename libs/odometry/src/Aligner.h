@@ -63,7 +63,11 @@ class Aligner
     };
 
     [[nodiscard]] Alignment attempt(const Scene& scene, const Motion& start, Search search) const;
-    void searchAgain(const Scene& scene, Eigen::Isometry3d T_prev_cur, Alignment& alignment) const;
+    void searchAgain(
+        const Scene& scene,
+        Eigen::Isometry3d T_prev_cur,
+        const Motion& first,
+        Alignment& alignment) const;
     void settleRivals(const Scene& scene, Alignment& alignment) const;
     void distrustPoints(const Scene& scene, Alignment& alignment) const;
     void searchImages(const Scene& scene, Alignment& best) const;
