@@ -97,12 +97,14 @@ TEST_F(ErrorModelTest, aSmoothErrorOfDepthIsPassedOn)
 TEST_F(ErrorModelTest, onlyTheKindsThatAFrameHasCount)
 {
     analysis.sensitivity.planes.setZero();
+    analysis.pointVariance = 9;
+    params.noiseScale.adaptive = true;
     const double points = learn().viewSigma[0];
     analysis.sensitivity.planes = analysis.sensitivity.points;
     const double both = learn().viewSigma[0];
     analysis.sensitivity.points.setZero();
     const double planes = learn().viewSigma[0];
-    EXPECT_NEAR(both, std::sqrt(points * planes), 1e-15);
+    EXPECT_NEAR(both * both, (points * points + planes * planes) / 2, 1e-15);
 }
 
 TEST_F(ErrorModelTest, aFrameErrsByAccelerationWhileItIsExposed)

@@ -14,8 +14,8 @@ namespace pointplane
 namespace
 {
 /** How large what the features of a frame err by together is, over what is propagated: as their
- * residuals are, and as the references contradict each other. The geometric mean of points and
- * planes, or that of the only kind that the frame has. */
+ * residuals are, and as the references contradict each other. The mean of points and planes, or
+ * that of the only kind that the frame has. */
 double commonLevel(const NoiseFactors& residuals, const NoiseFactors& levels, const Sensitivity& of)
 {
     const double ofPoints = levels.points * residuals.points;
@@ -25,7 +25,7 @@ double commonLevel(const NoiseFactors& residuals, const NoiseFactors& levels, co
     {
         return hasPoints ? ofPoints : ofPlanes;
     }
-    return std::sqrt(ofPoints * ofPlanes);
+    return (ofPoints + ofPlanes) / 2;
 }
 
 /** How alike the views of the references and of the frame are. */

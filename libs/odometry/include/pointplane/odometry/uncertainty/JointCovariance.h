@@ -27,7 +27,7 @@ class JointCovariance
     {
         std::string model{"joint"};
         double noise{0.33};
-        double viewSigma{0.0003};
+        double viewSigma{0.00027};
         double motion{0.07};
         double vignetting{0.15};
         double principalPoint{0.3};
