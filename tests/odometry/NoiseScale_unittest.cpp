@@ -123,8 +123,30 @@ TEST(NoiseScale, tellsABadFrame)
     {
         EXPECT_LT(next(6), 1.1);
     }
-    EXPECT_NEAR(next(600), 100, 1);
+    EXPECT_NEAR(next(300), 50, 0.5);
     EXPECT_NEAR(next(6), 1, 0.1) << "one bad frame hardly changes what is usual";
+}
+
+/** Images of a camera at rest may hold hardly any noise, until it moves; and the other way round.
+ */
+TEST(NoiseScale, noFrameIsCertainOrWorthless)
+{
+    NoiseScale noise(bare());
+    const auto next = [&](double scatter)
+    {
+        PoseAnalysis frame = with(1, 1);
+        frame.scatter = scatter;
+        noise.update(frame, 1.0 / 30);
+        return noise.ofFrame();
+    };
+    (void)next(1);
+    EXPECT_EQ(next(1e-12), 0.1);
+    for (int i = 0; i < 600; ++i)
+    {
+        (void)next(1e-12);
+    }
+    EXPECT_NEAR(next(1e-12), 1, 1e-3);
+    EXPECT_EQ(next(1), 100);
 }
 
 TEST(NoiseScale, constantFactorsComeOnTop)

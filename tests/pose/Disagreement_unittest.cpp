@@ -12,15 +12,6 @@ namespace
 {
 constexpr int kRuns = 300;
 
-test::PairWorld world(unsigned seed)
-{
-    test::PairWorld out(seed);
-    out.addPoints(40);
-    out.addPlanes(6);
-    out.T_prev_cur = out.randomMotion(0.03, 0.035);
-    return out;
-}
-
 /** Every other feature comes from another reference. */
 template <class Pairs>
 void splitInTwo(Pairs& pairs)
@@ -47,7 +38,7 @@ PoseAnalysis analyse(const PoseProblem& problem)
  * \param sigmaCommon [m, rad] of an error of pose that all points of a reference have in common */
 Ratios disagreement(unsigned seed, double noise, double sigmaCommon)
 {
-    test::PairWorld w = world(seed);
+    test::PairWorld w = test::moved(seed, 40, 6);
     Disagreement points, planes;
     for (int run = 0; run < kRuns; ++run)
     {
@@ -95,7 +86,7 @@ TEST(Disagreement, showsErrorsThatPointsHaveInCommon)
 
 TEST(Disagreement, oneReferenceOfOneKindHasNothingToCompareWith)
 {
-    test::PairWorld w = world(74);
+    test::PairWorld w = test::moved(74, 40, 6);
     const PoseAnalysis e = analyse(test::atRest(w.drawPoints(), {}));
     EXPECT_EQ(e.pointDisagreement.expected, 0);
     EXPECT_EQ(e.planeDisagreement.expected, 0);
@@ -103,7 +94,7 @@ TEST(Disagreement, oneReferenceOfOneKindHasNothingToCompareWith)
 
 TEST(Disagreement, pointsAndPlanesOfOneReferenceAreCompared)
 {
-    test::PairWorld w = world(75);
+    test::PairWorld w = test::moved(75, 40, 6);
     const PoseAnalysis e = analyse(test::atRest(w.drawPoints(), w.drawPlanes()));
     EXPECT_GT(e.pointDisagreement.expected, 0);
     EXPECT_GT(e.planeDisagreement.expected, 0);

@@ -148,4 +148,14 @@ class PairWorld
     std::vector<Point> points_;
     std::vector<PlaneTruth> planes_;
 };
+
+/** So many points and planes, seen after a motion of 3 cm and 2 deg. */
+inline PairWorld moved(unsigned seed, int numPoints, int numPlanes)
+{
+    PairWorld out(seed);
+    out.addPoints(numPoints);
+    out.addPlanes(numPlanes);
+    out.T_prev_cur = out.randomMotion(0.03, 0.035);
+    return out;
+}
 }  // namespace pointplane::test

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RivalMotions.h"
 
+#include <pointplane/pose/view_cell.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -148,9 +150,7 @@ std::pair<double, double> surfaces(
         {
             continue;
         }
-        Cell& cell = cells[{
-            static_cast<int>(std::floor(p.x() / p.z() / kCell)),
-            static_cast<int>(std::floor(p.y() / p.z() / kCell))}];
+        Cell& cell = cells[viewCell(p, kCell)];
         (sides[i] == Side::First ? cell.first : cell.second) += 1;
         cell.depth += p.z();
     }

@@ -2,6 +2,7 @@
 #include "SolutionAnalysis.h"
 
 #include <pointplane/core/covariance.h>
+#include <pointplane/pose/view_cell.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -9,7 +10,6 @@
 #include <Eigen/QR>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -21,8 +21,8 @@ namespace
  * nothing. */
 constexpr double kLeastShare = 0.03;
 
-/** Side of a part of the image, over its distance: 11 degrees. From half to three times as much,
- * the pulls scatter alike. */
+/** Side of a part of the view, over its distance: 11 degrees. Half to three times as much tells bad
+ * frames as well. */
 constexpr double kCell = 0.2;
 
 /** Feature and index of all pairs, those of the same feature one after the other. */
@@ -254,41 +254,40 @@ double SolutionAnalysis::effectivePoints(const Vector12d& direction) const
     return sumOfSquares > 0 ? sum * sum / sumOfSquares : 0;
 }
 
-/** By how much one pair moves the solution: all pulls and that of the prior cancel. */
-Vector12d SolutionAnalysis::pull(size_t i) const
-{
-    return H_inverse_ * (equations_.influence(i) * equations_.residual(i).r);
-}
-
 double SolutionAnalysis::scatter(const Sensitivity& of) const
 {
     std::map<std::pair<int, int>, Vector12d> cells;
+    std::map<int, Vector12d> planes;
+    const auto add = [&](auto& parts, const auto& part, size_t i)
+    {
+        parts.emplace(part, Vector12d::Zero()).first->second +=
+            equations_.influence(i) * equations_.residual(i).r;
+    };
     for (size_t i = 0; i < problem_.points.size(); ++i)
     {
-        const Eigen::Vector3d& p = problem_.points[i].cur.mean;
-        const std::pair cell(
-            static_cast<int>(std::floor(p.x() / p.z() / kCell)),
-            static_cast<int>(std::floor(p.y() / p.z() / kCell)));
-        cells.emplace(cell, Vector12d::Zero()).first->second += pull(i);
+        add(cells, viewCell(problem_.points[i].cur.mean, kCell), i);
     }
-    std::map<int, Vector12d> planes;
     for (const auto& [plane, i] : sortedByFeature(problem_.planes))
     {
-        planes.emplace(plane, Vector12d::Zero()).first->second += pull(problem_.points.size() + i);
+        add(planes, plane, problem_.points.size() + i);
     }
-    Matrix6d pulls = Matrix6d::Zero();
-    for (const auto& [cell, x] : cells)
+    Matrix12d scores = Matrix12d::Zero();
+    const auto addSquares = [&](const auto& parts)
     {
-        pulls += x.head<6>() * x.head<6>().transpose();
-    }
-    for (const auto& [plane, x] : planes)
-    {
-        pulls += x.head<6>() * x.head<6>().transpose();
-    }
+        for (const auto& [part, score] : parts)
+        {
+            scores += score * score.transpose();
+        }
+    };
+    addSquares(cells);
+    addSquares(planes);
+    const Matrix6d pulls = propagate(H_inverse_, scores).topLeftCorner<6, 6>();
     // Few features move the solution in some directions only.
     const Eigen::CompleteOrthogonalDecomposition<Matrix6d> noise(
         Matrix6d((of.points + of.planes).topLeftCorner<6, 6>()));
-    return noise.rank() > 0 ? noise.solve(pulls).trace() / static_cast<double>(noise.rank()) : 0;
+    // The solution brings as many parts to agree as it has directions, right or wrong.
+    const bool tells = cells.size() + planes.size() > 6 && noise.rank() > 0;
+    return tells ? noise.solve(pulls).trace() / static_cast<double>(noise.rank()) : 0;
 }
 
 std::vector<double> SolutionAnalysis::pointWeights() const

@@ -57,7 +57,6 @@ class SolutionAnalysis
     void addPatches(Sensitivity& out) const;
     template <class Pairs>
     [[nodiscard]] Matrix12d currentNoise(const Pairs& pairs, size_t offset) const;
-    [[nodiscard]] Vector12d pull(size_t i) const;
     [[nodiscard]] std::vector<double> weights(size_t begin, size_t end) const;
     [[nodiscard]] double effectivePoints(const Vector12d& direction) const;
     [[nodiscard]] Disagreement disagreementOf(const Groups& groups, const Matrix12d& cov) const;

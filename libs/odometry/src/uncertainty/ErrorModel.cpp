@@ -6,7 +6,6 @@
 #include <pointplane/odometry/uncertainty/exposure_errors.h>
 #include <pointplane/odometry/uncertainty/view_errors.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace pointplane

@@ -67,7 +67,7 @@ void NoiseScale::Scatter::follow(double scatter, double dt, double timeConstant)
     if (scatter > 0)
     {
         const double now = std::log(scatter);
-        ofFrame = numFrames > 0 ? std::exp(now - usualLog) : 1;
+        ofFrame = numFrames > 0 ? plausible(std::exp(now - usualLog)) : 1;
         ++numFrames;
         usualLog += std::max(1 - std::exp(-dt / timeConstant), 1.0 / numFrames) * (now - usualLog);
     }

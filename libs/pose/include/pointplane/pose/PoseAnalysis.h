@@ -60,10 +60,10 @@ struct PoseAnalysis
     Disagreement pointDisagreement;  //!< of the references' points, with all other features
     Disagreement planeDisagreement;  //!< of their planes, likewise
     /** How far the parts of the image pull the pose apart: mean square of their pulls, over what
-     * the propagated noise explains; 0 = nothing to compare. A part is a cell of the view with its
-     * points, or a plane. Where noise is all, it is the variance of the residuals. It is larger
-     * where neighbours err together, as by blur, by a shutter in jerky motion, or by bent depth
-     * (Liang and Zeger 1986, the variance of clustered data). */
+     * the propagated noise explains; 0 = too few parts to compare. A part is a cell of the view
+     * with its points, or a plane. Where noise is all, it is the variance of the residuals. It is
+     * larger where neighbours err together, as by blur, by a shutter in jerky motion, or by bent
+     * depth (Liang and Zeger 1986, the variance of clustered data). */
     double scatter{0};
     std::vector<double> pointWeights, planeWeights;  //!< robust, of the pairs: 1 = counts fully
 };
