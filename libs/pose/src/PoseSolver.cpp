@@ -27,35 +27,37 @@ constexpr double kDamping = 1e-9;
  * foreseen, all of them look like outliers there, and Tukey's function never takes them back. */
 constexpr double kStartWidening = 4;
 
-/** Student's t for the predicted motion, beyond the norm that is expected: a jerk must not be
- * smoothed away. Where the pose is not as predicted, the velocity is not either. */
+/** Squared Mahalanobis norm of the pose's deviation from the predicted one. */
+double deviation(const MotionPrior& prior, const Vector12d& residual)
+{
+    return residual.head<6>().dot(prior.pose * residual.head<6>());
+}
+
+/** Student's t for the predicted pose, beyond the norm that is expected: a jerk must not be
+ * smoothed away. */
 struct RobustPrior
 {
     const MotionPrior& prior;
     double dof;
 
-    [[nodiscard]] double deviation(const Vector12d& r) const
-    {
-        return r.head<6>().dot(prior.pose * r.head<6>());
-    }
     [[nodiscard]] bool isDoubted(double norm2) const { return dof > 0 && norm2 > 6; }
 
     [[nodiscard]] Matrix12d information(const Motion& motion) const
     {
-        const double norm2 = deviation(prior.residual(motion));
+        const double norm2 = deviation(prior, prior.residual(motion));
         Matrix12d out = prior.velocityGivenPose;
-        out.topLeftCorner<6, 6>() += prior.pose;
-        return (isDoubted(norm2) ? (dof + 6) / (dof + norm2) : 1.0) * out;
+        out.topLeftCorner<6, 6>() +=
+            (isDoubted(norm2) ? (dof + 6) / (dof + norm2) : 1.0) * prior.pose;
+        return out;
     }
 
     [[nodiscard]] double cost(const Motion& motion) const
     {
         const Vector12d r = prior.residual(motion);
-        const double norm2 = deviation(r);
-        const double velocity = r.dot(prior.velocityGivenPose * r);
-        return isDoubted(norm2) ? 6 + (dof + 6) * std::log((dof + norm2) / (dof + 6)) +
-                                      (dof + 6) / (dof + norm2) * velocity
-                                : norm2 + velocity;
+        const double norm2 = deviation(prior, r);
+        const double poseCost =
+            isDoubted(norm2) ? 6 + (dof + 6) * std::log((dof + norm2) / (dof + 6)) : norm2;
+        return poseCost + r.dot(prior.velocityGivenPose * r);
     }
 };
 
