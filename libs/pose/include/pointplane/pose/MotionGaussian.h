@@ -29,9 +29,9 @@ constexpr double kExactSigma = 1e-6;
 /** What is known of a motion without the current frame.
  *
  * Its error is e = [log(T_mean T^-1); V_mean - V], with first half e_T. The information of the
- * joint Gaussian is split in two: how good the pose is, and which velocity goes with it. A jerk
- * makes the first smaller and leaves the second. Both are positive semidefinite: a direction
- * without information is free. */
+ * joint Gaussian is split in two, because either may be doubted alone: how good the pose is, and
+ * which velocity goes with it. Both are positive semidefinite: a direction without information is
+ * free. */
 struct MotionPrior
 {
     Motion mean;
