@@ -10,6 +10,7 @@
 
 #include "Stopwatch.h"
 #include "points_in_view.h"
+#include "surfaces.h"
 
 namespace pointplane
 {
@@ -304,6 +305,10 @@ void Aligner::estimate(const Scene& scene, const Motion& start, Alignment& align
     scene.pairs.build(alignment.associations, problem.points, problem.planes);
     problem.prior = scene.predicted.prior;
     problem.noise = scene.errors.noise();
+    if (params_.fuses())
+    {
+        problem.surfaces = rememberedInliers(alignment.associations, scene.current);
+    }
     PoseEstimate out;
     out.motion = scene.predicted.motion;
     if (static_cast<int>(alignment.numMatches()) >= judge_.minMatches())

@@ -12,6 +12,7 @@
 #include "Track.h"
 #include "frame_checks.h"
 #include "shown_features.h"
+#include "surfaces.h"
 #include "uncertainty/ErrorModel.h"
 
 namespace pointplane
@@ -179,7 +180,8 @@ void Odometry::Impl::measure(const Features& current, Alignment& alignment, Odom
             motion.mean,
             alignment.problem.points,
             alignment.problem.planes);
-    const PoseAnalysis analysis = aligner.analyse(alignment);
+    PoseAnalysis analysis = aligner.analyse(alignment);
+    countMoving(alignment.associations, current, analysis.surfaces);
     const JointCovariance::Measurement measurement = errors.learn(
         {track.references(),
          alignment.estimate,
@@ -197,6 +199,7 @@ void Odometry::Impl::measure(const Features& current, Alignment& alignment, Odom
         (track.needsKeyframe(motion.mean.T_prev_cur, track.overlap(alignment.associations)) ||
          Judge::needsNewView(alignment, shown.moving.share()));
     Reference reference = referenceOf(current);
+    reference.surfaces = analysis.surfaces;
     shown.isKeyframe = isKeyframe;
     if (isKeyframe)
     {

@@ -29,7 +29,11 @@ double tukeyCost(double squaredNorm, double limit)
 }  // namespace
 
 NormalEquations::NormalEquations(const PoseSolver::Settings& solver, const PoseProblem& problem)
-    : solver_(solver), points_(problem.points), planes_(problem.planes), noise_(problem.noise)
+    : solver_(solver),
+      points_(problem.points),
+      planes_(problem.planes),
+      noise_(problem.noise),
+      earlier_(problem.surfaces)
 {
 }
 
@@ -46,6 +50,7 @@ void NormalEquations::evaluate(const Motion& motion, double widening)
         const double least = solver_.weighting == PoseSolver::Weighting::None ? 0.1 : 1.0;
         scale_ = widening * std::max(least, std::sqrt(robustVariance()));
     }
+    countInliers();
     pointSum_ = {};
     planeSum_ = {};
     for (size_t i = 0; i < residuals_.size(); ++i)
@@ -150,9 +155,31 @@ std::pair<double, double> NormalEquations::robust(double squaredNorm, bool isPoi
     return {1, squaredNorm};
 }
 
+void NormalEquations::countInliers()
+{
+    surfaces_ = earlier_;
+    for (size_t i = 0; i < points_.size(); ++i)
+    {
+        const auto surface = static_cast<size_t>(points_[i].surface);
+        if (points_[i].surface >= 0 && surface < surfaces_.size())
+        {
+            surfaces_[surface].points += 1;
+            surfaces_[surface].inliers += weight(i);
+        }
+    }
+}
+
+double NormalEquations::ofSurface(size_t i) const
+{
+    const int surface = isPoint(i) ? points_[i].surface : planes_[i - points_.size()].feature;
+    const bool isKnown = surface >= 0 && static_cast<size_t>(surface) < surfaces_.size();
+    return isKnown ? surfaces_[static_cast<size_t>(surface)].value() : 1;
+}
+
 double NormalEquations::gain(size_t i) const
 {
-    return isPoint(i) ? 1 / noise_.points : solver_.params.alpha / noise_.planes;  // [P17 Eq. 10]
+    const double g = isPoint(i) ? 1 / noise_.points : solver_.params.alpha / noise_.planes;
+    return ofSurface(i) * g;  // [P17 Eq. 10]
 }
 
 int NormalEquations::dof(size_t i) const { return isPoint(i) ? points_[i].dof() : 3; }

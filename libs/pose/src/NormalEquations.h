@@ -63,6 +63,12 @@ class NormalEquations
         return robust(residuals_[i].squaredNorm, isPoint(i)).first;
     }
 
+    /** How far the surface that it is on agrees with the motion, in (0, 1]. */
+    [[nodiscard]] double ofSurface(size_t i) const;
+
+    /** With the points of this frame. */
+    [[nodiscard]] const std::vector<InlierRatio>& surfaces() const { return surfaces_; }
+
     /** How the gradient changes with the residual. */
     [[nodiscard]] Matrix123d influence(size_t i) const;
 
@@ -87,6 +93,7 @@ class NormalEquations
     };
 
     [[nodiscard]] Weighted weighted(size_t i, const Motion& motion) const;
+    void countInliers();
     [[nodiscard]] double gain(size_t i) const;
     [[nodiscard]] bool isPoint(size_t i) const { return i < points_.size(); }
     [[nodiscard]] std::pair<double, double> robust(double squaredNorm, bool isPoint) const;
@@ -99,6 +106,8 @@ class NormalEquations
     const std::vector<PointPair>& points_;
     const std::vector<PlanePair>& planes_;
     NoiseFactors noise_;
+    const std::vector<InlierRatio>& earlier_;
+    std::vector<InlierRatio> surfaces_;
     std::vector<Weighted> residuals_;  //!< of the points, then of the planes
     double scale_{1};
     FeatureSum pointSum_, planeSum_;

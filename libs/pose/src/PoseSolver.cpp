@@ -254,6 +254,7 @@ PoseAnalysis PoseSolver::analyse(const PoseProblem& problem, const PoseEstimate&
     out.scatter = analysis.scatter(out.sensitivity);
     out.pointWeights = analysis.pointWeights();
     out.planeWeights = analysis.planeWeights();
+    out.surfaces = equations.surfaces();
     return out;
 }
 }  // namespace pointplane

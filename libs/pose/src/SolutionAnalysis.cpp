@@ -305,7 +305,7 @@ std::vector<double> SolutionAnalysis::weights(size_t begin, size_t end) const
     std::vector<double> out;
     for (size_t i = begin; i < end; ++i)
     {
-        out.push_back(equations_.weight(i));
+        out.push_back(equations_.ofSurface(i) * equations_.weight(i));
     }
     return out;
 }

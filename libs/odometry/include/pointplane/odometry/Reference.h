@@ -7,6 +7,7 @@
 #include <pointplane/planes/PlaneFeature.h>
 #include <pointplane/planes/PlaneMatcher.h>
 #include <pointplane/points/PointTracker.h>
+#include <pointplane/pose/InlierRatio.h>
 #include <pointplane/sensor/RgbdFrame.h>
 
 #include <memory>
@@ -32,6 +33,7 @@ struct Reference
     Vector6d velocity{Vector6d::Zero()};  //!< body velocity at stamp [m/s, rad/s]
     ShutterModel shutter;                 //!< as far as the source knows it
     PlaneSet planes;
+    std::vector<InlierRatio> surfaces;       //!< of the planes' points so far; empty: not known
     PointReference points;                   //!< empty for a frame that is not a key frame
     std::shared_ptr<KeyframeImages> images;  //!< of a key frame
 };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <pointplane/core/types.h>
+#include <pointplane/pose/InlierRatio.h>
 #include <pointplane/pose/pairs.h>
 
 #include <map>
@@ -65,6 +66,7 @@ struct PoseAnalysis
      * larger where neighbours err together, as by blur, by a shutter in jerky motion, or by bent
      * depth (Liang and Zeger 1986, the variance of clustered data). */
     double scatter{0};
-    std::vector<double> pointWeights, planeWeights;  //!< robust, of the pairs: 1 = counts fully
+    std::vector<double> pointWeights, planeWeights;  //!< of the pairs: 1 = counts fully
+    std::vector<InlierRatio> surfaces;  //!< PoseProblem::surfaces, with this frame's points
 };
 }  // namespace pointplane

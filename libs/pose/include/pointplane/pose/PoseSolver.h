@@ -2,6 +2,7 @@
 #pragma once
 
 #include <pointplane/core/Parameters.h>
+#include <pointplane/pose/InlierRatio.h>
 #include <pointplane/pose/MotionGaussian.h>
 #include <pointplane/pose/PoseAnalysis.h>
 #include <pointplane/pose/pairs.h>
@@ -25,6 +26,9 @@ struct PoseProblem
     std::vector<PlanePair> planes;
     MotionPrior prior;  //!< what is known without the pairs
     NoiseFactors noise;
+    /** How many points of each plane (PlanePair::feature) agreed in earlier frames. A plane and the
+     * points on it count as far as its points agree, then and now. Empty: all count fully. */
+    std::vector<InlierRatio> surfaces{};
 };
 
 /** Squared Mahalanobis norms of residuals, in the order of the pairs. */

@@ -44,6 +44,7 @@ struct PointPair
     int reference{0};                         //!< which of the frames that cur is compared with
     int inReference{-1};                      //!< which of that frame's points ref is
     int feature{-1};                          //!< pairs of equal ones err together; -1: of its own
+    int surface{-1};                          //!< PlanePair::feature of the plane it is on; or -1
     int refPatch{-1}, curPatch{-1};           //!< of their images; -1: depth has no smooth error
     bool hasDepth{true};                      //!< else cur may be anywhere along its ray
 

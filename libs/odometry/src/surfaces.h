@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pointplane/odometry/Features.h>
+#include <pointplane/odometry/Reference.h>
+#include <pointplane/pose/InlierRatio.h>
+
+#include <vector>
+
+namespace pointplane
+{
+/** Which plane covers the pixel: an index into PlaneSet::planes, or -1. */
+[[nodiscard]] int surfaceAt(const Eigen::Vector2d& uv_px, const PlaneSet& planes);
+
+/** What earlier frames tell of each plane of the current frame: how many points on it have agreed
+ * with the camera's motion so far. A plane is known from the first reference that it is matched
+ * with. */
+[[nodiscard]] std::vector<InlierRatio> rememberedInliers(
+    const std::vector<Association>& associations, const Features& current);
+
+/** Counts points that go with what moves (Association::movingPoints) as outliers. */
+void countMoving(
+    const std::vector<Association>& associations,
+    const Features& current,
+    std::vector<InlierRatio>& surfaces);
+}  // namespace pointplane

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "surfaces.h"
+
+#include <pointplane/odometry/Odometry.h>
+
+#include <cmath>
+#include <vector>
+
+#include "hell_frames.h"
+#include <gtest/gtest.h>
+
+namespace pointplane
+{
+namespace
+{
+/** Two planes, left and right of column 10. */
+Features twoPlanes(double stamp)
+{
+    Features out;
+    out.frame.stamp = stamp;
+    out.planes.planes.resize(2);
+    out.planes.labels = cv::Mat(20, 20, CV_8UC1, cv::Scalar(1));
+    out.planes.labels.colRange(10, 20) = 2;
+    return out;
+}
+
+Reference knowing(double stamp, const std::vector<InlierRatio>& surfaces)
+{
+    Reference out;
+    out.stamp = stamp;
+    out.surfaces = surfaces;
+    return out;
+}
+
+PointTrack trackAt(double u)
+{
+    PointTrack out;
+    out.cur.uv_px = {u, 5};
+    return out;
+}
+}  // namespace
+
+TEST(Surfaces, ofPixelsByHand)
+{
+    PlaneSet planes = twoPlanes(0).planes;
+    planes.labels.at<std::uint8_t>(3, 3) = 0;
+    EXPECT_EQ(surfaceAt({9.4, 5}, planes), 0);
+    EXPECT_EQ(surfaceAt({9.6, 5}, planes), 1);
+    EXPECT_EQ(surfaceAt({3, 3}, planes), -1) << "no plane";
+    EXPECT_EQ(surfaceAt({-0.6, 5}, planes), -1);
+    EXPECT_EQ(surfaceAt({5, 19.6}, planes), -1);
+    EXPECT_EQ(surfaceAt({5, 5}, {}), -1) << "no planes were looked for";
+}
+
+TEST(Surfaces, areForgottenOverTwoSeconds)
+{
+    const Reference reference = knowing(7, {{8, 4}, {30, 3}});
+    Association association;
+    association.reference = &reference;
+    association.planes = {{1, 0}};
+    const auto known = rememberedInliers({association}, twoPlanes(9));
+    ASSERT_EQ(known.size(), 2U);
+    EXPECT_NEAR(known[0].points, 30 * std::exp(-1), 1e-12);
+    EXPECT_NEAR(known[0].inliers, 3 * std::exp(-1), 1e-12);
+    EXPECT_EQ(known[1].points, 0) << "seen first";
+}
+
+TEST(Surfaces, areKnownFromTheFirstReferenceThatKnowsThem)
+{
+    const Reference first = knowing(9, {}), second = knowing(9, {{5, 1}}),
+                    third = knowing(9, {{70, 70}});
+    std::vector<Association> associations(3);
+    associations[0].reference = &first;
+    associations[1].reference = &second;
+    associations[2].reference = &third;
+    associations[0].planes = {{0, 0}};
+    associations[1].movingPlanes = {{0, 0}};
+    associations[2].planes = {{0, 0}};
+    EXPECT_EQ(rememberedInliers(associations, twoPlanes(9))[0].points, 5);
+}
+
+TEST(Surfaces, whatMovesIsCountedAgainstThem)
+{
+    Association association;
+    association.points = {trackAt(2)};
+    association.movingPoints = {trackAt(4), trackAt(15), trackAt(16), trackAt(99)};
+    std::vector<InlierRatio> surfaces{{1, 1}, {0, 0}};
+    countMoving({association, association}, twoPlanes(9), surfaces);
+    EXPECT_EQ(surfaces[0].points, 1 + 2);
+    EXPECT_EQ(surfaces[0].inliers, 1);
+    EXPECT_EQ(surfaces[1].points, 4);
+    std::vector<InlierRatio> none;  // as in the paper
+    countMoving({association}, twoPlanes(9), none);
+    EXPECT_TRUE(none.empty());
+}
+
+/** Two people who move in front of a camera that is held still: 11 mm over a second if the surfaces
+ * on them count fully. */
+TEST(Surfaces, peopleWhoTalkDoNotMoveTheCamera)
+{
+    test::CachedSequence seated("seated");
+    Odometry odometry{OdometryParams()};
+    const int second = 30, numFrames = 90;
+    std::vector<Eigen::Isometry3d> T_world_cam;
+    double squares = 0;
+    for (int i = 0; i < numFrames; ++i)
+    {
+        T_world_cam.push_back(odometry.process(seated.frame(i)).pose.mean);
+        if (i >= second)
+        {
+            const Eigen::Isometry3d motion =
+                T_world_cam[static_cast<size_t>(i - second)].inverse() * T_world_cam.back();
+            const Eigen::Isometry3d truth = seated.sequence().trueMotion(i - second, i);
+            squares += (motion.translation() - truth.translation()).squaredNorm();
+        }
+    }
+    EXPECT_LT(std::sqrt(squares / (numFrames - second)), 0.006);
+}
+}  // namespace pointplane
