@@ -8,8 +8,8 @@ namespace pointplane
 {
 namespace
 {
-/** Time [s] after which the points of a frame count for 1/e of what they did. A quarter or twice as
- * much makes no difference that could be measured. */
+/** Time [s] after which the points of a frame count for 1/e of what they did. A fifth of a second
+ * and five seconds do about as well: docs/experiments_archive.md. */
 constexpr double kMemory = 2;
 }  // namespace
 
