@@ -23,6 +23,15 @@ NoiseScale::TParams bare()
     params.pointFactor = params.planeFactor = 1;
     return params;
 }
+
+/** Learns from one more frame with this scatter. \return how bad it is */
+double afterScatter(NoiseScale& noise, double scatter)
+{
+    PoseAnalysis frame = with(1, 1);
+    frame.scatter = scatter;
+    noise.update(frame, 1.0 / 30);
+    return noise.ofFrame();
+}
 }  // namespace
 
 TEST(NoiseScale, followsTheResiduals)
@@ -108,13 +117,7 @@ TEST(NoiseScale, referencesThatCannotDisagreeTellNothing)
 TEST(NoiseScale, tellsABadFrame)
 {
     NoiseScale noise(bare());
-    const auto next = [&](double scatter)
-    {
-        PoseAnalysis frame = with(1, 1);
-        frame.scatter = scatter;
-        noise.update(frame, 1.0 / 30);
-        return noise.ofFrame();
-    };
+    const auto next = [&](double scatter) { return afterScatter(noise, scatter); };
     EXPECT_EQ(next(8), 1) << "nothing to compare the first one with";
     EXPECT_NEAR(next(2), 0.25, 1e-12);
     EXPECT_NEAR(next(40), 10, 1e-12);
@@ -132,13 +135,7 @@ TEST(NoiseScale, tellsABadFrame)
 TEST(NoiseScale, noFrameIsCertainOrWorthless)
 {
     NoiseScale noise(bare());
-    const auto next = [&](double scatter)
-    {
-        PoseAnalysis frame = with(1, 1);
-        frame.scatter = scatter;
-        noise.update(frame, 1.0 / 30);
-        return noise.ofFrame();
-    };
+    const auto next = [&](double scatter) { return afterScatter(noise, scatter); };
     (void)next(1);
     EXPECT_EQ(next(1e-12), 0.1);
     for (int i = 0; i < 600; ++i)

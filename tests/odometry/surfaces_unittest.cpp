@@ -94,7 +94,7 @@ TEST(Surfaces, whatMovesIsCountedAgainstThem)
     EXPECT_TRUE(none.empty());
 }
 
-/** Two people who move in front of a camera that is held still: 11 mm over a second if the surfaces
+/** Two people who move in front of a camera that is held still: 10 mm over a second if the surfaces
  * on them count fully. */
 TEST(Surfaces, peopleWhoTalkDoNotMoveTheCamera)
 {

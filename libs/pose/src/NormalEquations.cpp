@@ -160,8 +160,7 @@ void NormalEquations::countInliers()
     surfaces_ = earlier_;
     for (size_t i = 0; i < points_.size(); ++i)
     {
-        const auto surface = static_cast<size_t>(points_[i].surface);
-        if (points_[i].surface >= 0 && surface < surfaces_.size())
+        if (const size_t surface = surfaceOf(i); surface < surfaces_.size())
         {
             surfaces_[surface].points += 1;
             surfaces_[surface].inliers += weight(i);
@@ -169,11 +168,17 @@ void NormalEquations::countInliers()
     }
 }
 
+/** Index into surfaces(); beyond its end for a pair on none of them. */
+size_t NormalEquations::surfaceOf(size_t i) const
+{
+    return static_cast<size_t>(
+        isPoint(i) ? points_[i].surface : planes_[i - points_.size()].feature);
+}
+
 double NormalEquations::ofSurface(size_t i) const
 {
-    const int surface = isPoint(i) ? points_[i].surface : planes_[i - points_.size()].feature;
-    const bool isKnown = surface >= 0 && static_cast<size_t>(surface) < surfaces_.size();
-    return isKnown ? surfaces_[static_cast<size_t>(surface)].value() : 1;
+    const size_t surface = surfaceOf(i);
+    return surface < surfaces_.size() ? surfaces_[surface].value() : 1;
 }
 
 double NormalEquations::gain(size_t i) const

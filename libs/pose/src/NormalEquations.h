@@ -94,6 +94,7 @@ class NormalEquations
 
     [[nodiscard]] Weighted weighted(size_t i, const Motion& motion) const;
     void countInliers();
+    [[nodiscard]] size_t surfaceOf(size_t i) const;
     [[nodiscard]] double gain(size_t i) const;
     [[nodiscard]] bool isPoint(size_t i) const { return i < points_.size(); }
     [[nodiscard]] std::pair<double, double> robust(double squaredNorm, bool isPoint) const;
