@@ -438,6 +438,8 @@ TEST(JointCovariance, monteCarlo)
         m.priorNoise = setup.covariance<12>(0.1, 1);
         m.viewSigma = Vector6d::LinSpaced(0.3, 0.8);
         m.views = viewsOf(k == 1 ? std::vector<int>{0} : std::vector<int>{0, k - 1}, k);
+        m.views.ofPlanes = m.views.correlation;
+        m.planeViewRoot = setup.covariance<6>(0.1, 0.5);
         m.camera = setup.vector<12>() * setup.vector<kNumCameraErrors>().transpose();
         m.camera.bottomRightCorner<6, 3>().setConstant(0.4);
         m.cameraGain = 0.8 * CameraMatrix::Identity();
@@ -461,6 +463,7 @@ TEST(JointCovariance, monteCarlo)
     {
         std::vector<Vector6d> pose{sampler.sample(startCov)};
         const std::vector<Vector6d> view = sampledViews(kFrames, sampler);
+        const std::vector<Vector6d> planeView = sampledViews(kFrames, sampler);
         std::vector<PatchVector> bends;
         for (int k = 0; k < kFrames; ++k)
         {
@@ -484,7 +487,8 @@ TEST(JointCovariance, monteCarlo)
                 shared +=
                     change *
                     (toBase * pose[reference] +
-                     m.viewSigma.cwiseProduct(view[static_cast<size_t>(k)] - view[reference]));
+                     m.viewSigma.cwiseProduct(view[static_cast<size_t>(k)] - view[reference]) +
+                     m.planeViewRoot * (planeView[static_cast<size_t>(k)] - planeView[reference]));
             }
             shared += m.patches * bends[static_cast<size_t>(k)];
             for (const auto& [frame, change] : m.referencePatches)

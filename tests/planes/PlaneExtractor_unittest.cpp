@@ -438,7 +438,7 @@ TEST(PlaneExtractor, refusesParametersOutOfRange)
     refused([](auto& p) { p.mergeSigmas = -1; });
     refused([](auto& p) { p.stepSigmas = 0; });
     refused([](auto& p) { p.slopePx = -1; });
-    refused([](auto& p) { p.correlatedPixels = 0.5; });
+    refused([](auto& p) { p.correlatedPixels = -1; });
     refused([](auto& p) { p.fitWeights = "some"; });
 }
 }  // namespace pointplane

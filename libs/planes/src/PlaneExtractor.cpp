@@ -13,6 +13,7 @@
 #include <numeric>
 
 #include "EdgeErosion.h"
+#include "correlated_pixels.h"
 #include "label_painting.h"
 #include "segment_pixels.h"
 
@@ -50,7 +51,7 @@ void PlaneExtractor::TParams::check() const
     checkRange("mergeSigmas", mergeSigmas, 0.1, 100);
     checkRange("stepSigmas", stepSigmas, 0.1, 100);
     checkRange("slopePx", slopePx, 0, 100);
-    checkRange("correlatedPixels", correlatedPixels, 1, 1e5);
+    checkRange("correlatedPixels", correlatedPixels, 0, 1e5);
     POINTPLANE_CHECK(
         fitWeights == "inverseDepth" || fitWeights == "sigmaZ",
         "fitWeights = " << fitWeights << " is neither inverseDepth nor sigmaZ");
@@ -60,20 +61,6 @@ PlaneExtractor::PlaneExtractor(const TParams& params, const DepthNoise& noise)
     : params_(params), noise_(noise)
 {
     params_.check();
-}
-
-/** How many pixels err as one: some by their noise, many by what bends surfaces, each with its
- * share in the variance. */
-double PlaneExtractor::correlatedPixels(
-    const PlaneMoments& plane, double numPixels, cv::Size image) const
-{
-    if (noise_.isConstantInInverseDepth())
-    {
-        return params_.correlatedPixels;
-    }
-    const double share = noise_.relativeShare(plane.q / plane.n);
-    const double bent = std::min(numPixels, kBentPart * image.area());
-    return (1 - share) * params_.correlatedPixels + share * bent;
 }
 
 PlaneSet PlaneExtractor::extract(const cv::Mat& depth, const PinholeCamera& camera)
@@ -118,7 +105,7 @@ PlaneSet PlaneExtractor::fitToCells(
     {
         const CellCluster core = erosion.eroded(cluster);
         const auto plane = feature(
-            fitInverseDepth(core.moments, noise_), core, core.moments.numPixels, depth.size());
+            fitInverseDepth(core.moments, noise_), core, core.moments.numPixels, depth.rows);
         if (plane)
         {
             out.planes.push_back(*plane);
@@ -153,7 +140,7 @@ PlaneSet PlaneExtractor::fitToPixels(
         }
         const auto numInliers = static_cast<double>(inliers.size());
         const auto plane =
-            feature(fit(segment.points, inliers), clusters[k], numInliers, depth.size());
+            feature(fit(segment.points, inliers), clusters[k], numInliers, depth.rows);
         if (plane)
         {
             out.planes.push_back(*plane);
@@ -182,18 +169,33 @@ std::optional<PlaneGaussian> PlaneExtractor::fit(
                                           : fitInverseDepth(moments, noise_);
 }
 
+/** As the residuals tell; at least as many as the camera's kind says. */
+double PlaneExtractor::pixelsThatErrAsOne(
+    const PlaneGaussian& plane, const CellCluster& cells, double numPixels) const
+{
+    if (params_.correlatedPixels > 0)
+    {
+        return params_.correlatedPixels;
+    }
+    const double numCells = static_cast<double>(grid_.moments.size());
+    const double area = numCells * grid_.cellSizePx * grid_.cellSizePx;
+    const double bent = noise_.relativeShare(cells.moments.q / cells.moments.n) *
+                        std::min(numPixels, kBentPart * area);
+    return std::max(bent, correlatedPixels(cells, grid_, plane.theta_m, plane.cov_m));
+}
+
 /** \return nothing for what is no plane */
 std::optional<PlaneFeature> PlaneExtractor::feature(
     std::optional<PlaneGaussian> plane,
     const CellCluster& cells,
     double numPixels,
-    cv::Size image) const
+    int imageHeight) const
 {
     if (!plane || !(plane->theta_m.norm() > 1e-3) || !plane->cov_m.allFinite())
     {
         return std::nullopt;
     }
-    plane->cov_m *= correlatedPixels(cells.moments, numPixels, image);
-    return PlaneFeature{*plane, static_cast<int>(numPixels), rowLever(cells, grid_, image.height)};
+    plane->cov_m *= pixelsThatErrAsOne(*plane, cells, numPixels);
+    return PlaneFeature{*plane, static_cast<int>(numPixels), rowLever(cells, grid_, imageHeight)};
 }
 }  // namespace pointplane

@@ -51,6 +51,9 @@ class NormalEquations
 
     [[nodiscard]] PairNorms norms() const;
 
+    /** Squared Mahalanobis norm of a residual, over the median of chi-square. */
+    [[nodiscard]] double relativeNorm(size_t i) const;
+
     /** Adds one residual to a sum. */
     void add(FeatureSum& sum, size_t i) const;
 
@@ -99,7 +102,6 @@ class NormalEquations
     [[nodiscard]] bool isPoint(size_t i) const { return i < points_.size(); }
     [[nodiscard]] std::pair<double, double> robust(double squaredNorm, bool isPoint) const;
     [[nodiscard]] int dof(size_t i) const;
-    [[nodiscard]] double relativeNorm(size_t i) const;
     [[nodiscard]] double robustVariance() const;
     [[nodiscard]] double relativeMedian(size_t begin, size_t end) const;
 

@@ -246,6 +246,7 @@ PoseAnalysis PoseSolver::analyse(const PoseProblem& problem, const PoseEstimate&
     analysis.addCamera(out);
     out.pointVariance = equations.pointVariance();
     out.planeVariance = equations.planeVariance();
+    out.planeResiduals = analysis.planeResiduals();
     if (analysis.numGroups() > 1)
     {
         out.pointDisagreement = analysis.pointDisagreement(solution.motion.cov);

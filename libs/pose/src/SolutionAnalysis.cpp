@@ -2,6 +2,7 @@
 #include "SolutionAnalysis.h"
 
 #include <pointplane/core/covariance.h>
+#include <pointplane/pose/median_variance.h>
 #include <pointplane/pose/view_cell.h>
 
 #include <Eigen/Cholesky>
@@ -20,6 +21,10 @@ namespace
 /** Of a direction about which a group knows less than this, as a part of what all know, it says
  * nothing. */
 constexpr double kLeastShare = 0.03;
+
+/** Where the pose follows planes in all but this part of their dimensions, their residuals tell
+ * nothing of their noise. Three planes that alone tell the pose have a third left. */
+constexpr double kLeastLeft = 0.25;
 
 /** Side of a part of the view, over its distance: 11 degrees. Half to three times as much tells bad
  * frames as well. */
@@ -288,6 +293,32 @@ double SolutionAnalysis::scatter(const Sensitivity& of) const
     // The solution brings as many parts to agree as it has directions, right or wrong.
     const bool tells = cells.size() + planes.size() > 6 && noise.rank() > 0;
     return tells ? noise.solve(pulls).trace() / static_cast<double>(noise.rank()) : 0;
+}
+
+/** Poses follow planes by as many dimensions as planes tell of them: that of the frame does, and
+ * those of the references did. Residuals have so many fewer. */
+PlaneResiduals SolutionAnalysis::planeResiduals() const
+{
+    PlaneResiduals out;
+    const Matrix6d byPlanes = equations_.planes().H.topLeftCorner<6, 6>();
+    const Matrix6d H = byPlanes + equations_.points().H.topLeftCorner<6, 6>();
+    const double dimensions = H.completeOrthogonalDecomposition().solve(byPlanes).trace();
+    out.followed = dimensions / 6;
+    std::map<int, std::vector<double>> norms;
+    for (size_t i = 0; i < problem_.planes.size(); ++i)
+    {
+        norms[problem_.planes[i].reference].push_back(
+            equations_.relativeNorm(problem_.points.size() + i));
+    }
+    for (auto& [reference, ofPlanes] : norms)
+    {
+        const double all = 3 * static_cast<double>(ofPlanes.size()), dof = all - dimensions;
+        if (dof >= kLeastLeft * all)
+        {
+            out.references.push_back({reference, medianVariance(ofPlanes) * all / dof, dof});
+        }
+    }
+    return out;
 }
 
 std::vector<double> SolutionAnalysis::pointWeights() const

@@ -45,6 +45,7 @@ class SolutionAnalysis
     /** Of the pairs. */
     [[nodiscard]] std::vector<double> pointWeights() const;
     [[nodiscard]] std::vector<double> planeWeights() const;
+    [[nodiscard]] PlaneResiduals planeResiduals() const;
 
  private:
     using Groups = std::map<int, FeatureSum>;  //!< by reference

@@ -6,27 +6,15 @@
 #include <pointplane/odometry/uncertainty/exposure_errors.h>
 #include <pointplane/odometry/uncertainty/view_errors.h>
 
+#include <Eigen/Eigenvalues>
+
 #include <cmath>
+#include <map>
 
 namespace pointplane
 {
 namespace
 {
-/** How large what the features of a frame err by together is, over what is propagated: as their
- * residuals are, and as the references contradict each other. The mean of points and planes, or
- * that of the only kind that the frame has. */
-double commonLevel(const NoiseFactors& residuals, const NoiseFactors& levels, const Sensitivity& of)
-{
-    const double ofPoints = levels.points * residuals.points;
-    const double ofPlanes = levels.planes * residuals.planes;
-    const bool hasPoints = !of.points.isZero(0), hasPlanes = !of.planes.isZero(0);
-    if (hasPoints != hasPlanes)
-    {
-        return hasPoints ? ofPoints : ofPlanes;
-    }
-    return (ofPoints + ofPlanes) / 2;
-}
-
 /** How alike the views of the references and of the frame are. */
 JointCovariance::Views viewsOf(const ErrorModel::Measured& frame)
 {
@@ -42,17 +30,29 @@ JointCovariance::Views viewsOf(const ErrorModel::Measured& frame)
     poses.push_back(poses.front() * frame.estimate.motion.mean.T_prev_cur);
     stamps.push_back(stamps.front() + frame.dt);
     const auto n = static_cast<Eigen::Index>(poses.size());
-    out.correlation = Eigen::MatrixXd::Identity(n, n);
+    out.correlation = out.ofPlanes = Eigen::MatrixXd::Identity(n, n);
     for (size_t i = 0; i < poses.size(); ++i)
     {
         for (size_t k = 0; k < i; ++k)
         {
             const auto row = static_cast<Eigen::Index>(i), column = static_cast<Eigen::Index>(k);
+            const Eigen::Isometry3d motion = poses[i].inverse() * poses[k];
+            const double time = stamps[i] - stamps[k];
             out.correlation(row, column) = out.correlation(column, row) =
-                viewCorrelation(poses[i].inverse() * poses[k], stamps[i] - stamps[k]);
+                viewCorrelation(motion, time);
+            out.ofPlanes(row, column) = out.ofPlanes(column, row) =
+                planeViewCorrelation(motion, time);
         }
     }
     return out;
+}
+
+/** The symmetric R with R R^T = S. */
+Matrix6d rootOf(const Matrix6d& S)
+{
+    const Eigen::SelfAdjointEigenSolver<Matrix6d> es(S);
+    return es.eigenvectors() * es.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() *
+           es.eigenvectors().transpose();
 }
 }  // namespace
 
@@ -61,6 +61,7 @@ ErrorModel::ErrorModel(const OdometryParams& params)
       isJoint_(params.covariance.isJoint()),
       fuses_(params.pipeline.fuses()),
       noise_(params.noiseScale),
+      planes_(params.noiseScale.timeConstant),
       camera_(params.shutter, params.lens)
 {
 }
@@ -74,8 +75,16 @@ CameraMatrix ErrorModel::changeCamera(const PinholeCamera& camera)
 
 JointCovariance::Measurement ErrorModel::learn(const Measured& frame)
 {
+    const JointCovariance::Views views = viewsOf(frame);
+    std::map<int, double> correlation;  // of the planes, with the new frame
+    for (size_t k = 0; k < views.frames.size(); ++k)
+    {
+        correlation[views.frames[k]] = views.ofPlanes.rightCols<1>()[static_cast<Eigen::Index>(k)];
+    }
     noise_.update(frame.analysis, frame.dt);
+    planes_.update(frame.analysis.planeResiduals, correlation, frame.dt);
     JointCovariance::Measurement out = errorsOf(frame);
+    out.views = views;
     const CameraCalibrator::Change change =
         camera_.update(frame.analysis, frame.bend, noise_.overCautious());
     out.cameraGain = change.gain;
@@ -99,8 +108,8 @@ JointCovariance::Measurement ErrorModel::errorsOf(const Measured& frame) const
     out.bendVariance = frame.bend * frame.bend;
     out.patches = of.patches;
     out.referencePatches = of.referencePatches;
-    out.noise = params_.noise * noise_.ofFrame() *
-                    (residuals.points * of.points + residuals.planes * of.planes) +
+    out.noise = noise_.ofFrame() *
+                    (params_.noise * residuals.points * of.points + planes_.own() * of.planes) +
                 accelerationWhileExposed(of, frame.shutter, frame.acceleration2);
     out.prior = of.prior;
     if (!fuses_)
@@ -108,11 +117,15 @@ JointCovariance::Measurement ErrorModel::errorsOf(const Measured& frame) const
         out.prior.rightCols<6>().setZero();  // the velocity is a new one for each frame
     }
     out.priorNoise = params_.motion * propagate(of.prior, frame.motionNoise);
-    const double level = noise_.ofFrame() * commonLevel(residuals, noise_.levels(), of);
-    out.viewSigma = viewSigma(
-        params_.viewSigma * std::sqrt(level),
-        frame.estimate.infoPoints + frame.estimate.infoPlanes);
-    out.views = viewsOf(frame);
+    // As large as the residuals of points are, and as the references contradict each other.
+    const double level = noise_.ofFrame() * noise_.levels().points * residuals.points;
+    if (!of.points.isZero(0))
+    {
+        out.viewSigma = viewSigma(
+            params_.viewSigma * std::sqrt(level),
+            frame.estimate.infoPoints + frame.estimate.infoPlanes);
+    }
+    out.planeViewRoot = rootOf(planes_.byView() * Matrix6d(of.planes.topLeftCorner<6, 6>()));
     return out;
 }
 }  // namespace pointplane

@@ -6,6 +6,7 @@
 #include <pointplane/odometry/uncertainty/CameraCalibrator.h>
 #include <pointplane/odometry/uncertainty/JointCovariance.h>
 #include <pointplane/odometry/uncertainty/NoiseScale.h>
+#include <pointplane/odometry/uncertainty/PlaneErrors.h>
 #include <pointplane/pose/PoseSolver.h>
 
 #include <vector>
@@ -14,7 +15,7 @@ namespace pointplane
 {
 /** Where errors of a measured pose come from, and how large they are. To first order
  *
- *     x = sum_r (K_r (X_r + v - v_r) + C_r s_r) + C s + K_0 (predicted motion) + B k + e
+ *     x = sum_r (K_r (X_r + v - v_r + z - z_r) + C_r s_r) + C s + K_0 (predicted motion) + B k + e
  *
  * x is the error of pose and velocity; K_r, K_0 and B are how the solution follows each term
  * (Sensitivity in PoseAnalysis). The terms:
@@ -22,7 +23,10 @@ namespace pointplane
  * - X_r: error of the pose of reference r.
  * - v, v_r: what all features of this frame, and of reference r, err by together, because depth,
  *   lens and scene are not quite what they are modelled as. A Gaussian field over views:
- *   view_errors. Its size follows the residuals: NoiseScale.
+ *   view_errors. Its size follows the residuals of points: NoiseScale.
+ * - z, z_r: what the planes of this frame, and of reference r, err by, because they are bent and cut
+ *   out as the view is. A field like v; it moves the pose as the noise of planes does. Its size is
+ *   learnt from how residuals grow between unlike views: PlaneErrors.
  * - s, s_r: smooth error of the depth images, by which neighbouring points err together: a scale of
  *   depth in each patch, new in each image. None with structured light.
  * - Predicted motion: the previous pose and velocity, and white acceleration: MotionModel, which
@@ -31,7 +35,7 @@ namespace pointplane
  *   radial distortion, scale of depth, and the shutter. All are considered: camera_errors. The
  *   shutter's are learnt, and those of a lens that nobody calibrated: CameraCalibrator.
  * - e: noise of the frame's own points and planes, a part of what their residuals show:
- *   NoiseScale. And acceleration while the images are exposed: exposure_errors.
+ *   NoiseScale, PlaneErrors. And acceleration while the images are exposed: exposure_errors.
  *
  * e and v are larger in a frame whose image pulls the pose apart: NoiseScale::ofFrame().
  *
@@ -76,6 +80,7 @@ class ErrorModel
     JointCovariance::TParams params_;
     bool isJoint_, fuses_;
     NoiseScale noise_;
+    PlaneErrors planes_;
     CameraCalibrator camera_;
 };
 }  // namespace pointplane

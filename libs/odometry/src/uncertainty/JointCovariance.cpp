@@ -70,7 +70,7 @@ void JointCovariance::restart(int frame, const std::vector<int>& poses)
     kept.push_back(frame);
     keep({}, kept);
     previous_ = frame;
-    addView({frame}, 0, Eigen::MatrixXd::Identity(1, 1));
+    addView(Kind::View, {frame}, 0, Eigen::MatrixXd::Identity(1, 1));
 }
 
 /** Of pose and velocity on all blocks so far. The predicted motion starts at the previous frame
@@ -80,16 +80,23 @@ Eigen::MatrixXd JointCovariance::dependence(
 {
     const Matrix6d Ad_inverse = Ad.inverse();
     Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * kSize, cov_.cols());
+    const auto addView = [&](Kind kind, int reference, const Matrix126d& change)
+    {
+        A.middleCols<kSize>(find(kind, reference)) -= change;
+        A.middleCols<kSize>(find(kind, frame)) += change;
+    };
     const auto prior = measurement.prior.leftCols<kSize>();
     A.middleCols<kSize>(find(Kind::Pose, previous_)) += prior * Ad_inverse;
     A.middleCols<kSize>(find(Kind::Velocity, 0)) +=
         dt * prior + measurement.prior.rightCols<kSize>();
     for (const auto& [reference, change] : measurement.references)
     {
-        const Matrix126d byView = change * measurement.viewSigma.asDiagonal();
         A.middleCols<kSize>(find(Kind::Pose, reference)) += change * Ad_inverse;
-        A.middleCols<kSize>(find(Kind::View, reference)) -= byView;
-        A.middleCols<kSize>(find(Kind::View, frame)) += byView;
+        addView(Kind::View, reference, change * measurement.viewSigma.asDiagonal());
+        if (has(Kind::PlaneView, frame))
+        {
+            addView(Kind::PlaneView, reference, change * measurement.planeViewRoot);
+        }
     }
     for (const auto& [reference, change] : measurement.referencePatches)
     {
@@ -104,7 +111,12 @@ void JointCovariance::measure(
     int frame, const Eigen::Isometry3d& T_world_prev, double dt, const Measurement& measurement)
 {
     const Matrix6d Ad = adjoint(T_world_prev);
-    addViews(frame, measurement.views);
+    const Views& views = measurement.views;
+    addViews(frame, Kind::View, views.frames, views.correlation);
+    if (!measurement.planeViewRoot.isZero(0))
+    {
+        addViews(frame, Kind::PlaneView, views.frames, views.ofPlanes);
+    }
     addBends(measurement);
 
     // Pose and velocity, camera, and the smooth error of the depth image, if there is one.
@@ -145,15 +157,16 @@ void JointCovariance::measure(
 }
 
 /** Of a new frame, and of places that were recalled. */
-void JointCovariance::addViews(int frame, const Views& views)
+void JointCovariance::addViews(
+    int frame, Kind kind, const std::vector<int>& references, const Eigen::MatrixXd& C)
 {
-    std::vector<int> frames = views.frames;
+    std::vector<int> frames = references;
     frames.push_back(frame);
     for (std::size_t k = 0; k < frames.size(); ++k)
     {
-        if (!has(Kind::View, frames[k]))
+        if (!has(kind, frames[k]))
         {
-            addView(frames, k, views.correlation);
+            addView(kind, frames, k, C);
         }
     }
 }
@@ -176,12 +189,12 @@ void JointCovariance::addBends(const Measurement& measurement)
 /** What is known of the error at other views foretells a part of it (kriging); the rest is new.
  * \param C correlation of the errors of `frames` */
 void JointCovariance::addView(
-    const std::vector<int>& frames, std::size_t added, const Eigen::MatrixXd& C)
+    Kind kind, const std::vector<int>& frames, std::size_t added, const Eigen::MatrixXd& C)
 {
     std::vector<std::size_t> known;
     for (std::size_t k = 0; k < frames.size(); ++k)
     {
-        if (has(Kind::View, frames[k]))
+        if (has(kind, frames[k]))
         {
             known.push_back(k);
         }
@@ -194,12 +207,12 @@ void JointCovariance::addView(
         const Eigen::VectorXd weights = C(known, known).ldlt().solve(shared);
         for (std::size_t k = 0; k < known.size(); ++k)
         {
-            A.middleCols<kSize>(find(Kind::View, frames[known[k]])) =
+            A.middleCols<kSize>(find(kind, frames[known[k]])) =
                 weights[static_cast<Eigen::Index>(k)] * Matrix6d::Identity();
         }
         isNew = std::max(0.0, 1 - weights.dot(shared));
     }
-    prepend({{Kind::View, frames[added]}}, A, isNew * Matrix6d::Identity());
+    prepend({{kind, frames[added]}}, A, isNew * Matrix6d::Identity());
 }
 
 void JointCovariance::keep(const std::vector<int>& references, const std::vector<int>& poses)
@@ -218,7 +231,7 @@ void JointCovariance::keep(const std::vector<int>& references, const std::vector
             isWanted = numPoses++ <= params_.history || frame == previous_ || isReference ||
                        contains(poses, frame);
         }
-        else if (kind == Kind::View || kind == Kind::Bend)
+        else if (kind == Kind::View || kind == Kind::PlaneView || kind == Kind::Bend)
         {
             isWanted = isReference;
         }

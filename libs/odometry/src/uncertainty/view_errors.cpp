@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/odometry/uncertainty/view_errors.h>
 
+#include <Eigen/Geometry>
+
 #include <cmath>
 
 namespace pointplane
@@ -12,6 +14,9 @@ namespace
  * motions: docs/experiments.md. */
 constexpr double kDistance = 0.6;  // [m]
 constexpr double kTime = 10;       // [s]
+
+/** A turn that moves planes to other parts of the image: a third of a Kinect's view. */
+constexpr double kPlaneAngle = 0.3;  // [rad]
 
 /** How far away [m] the features are: where a rotation moves them as far as a translation of that
  * distance times the angle. */
@@ -26,6 +31,12 @@ double distanceOf(const Matrix6d& information)
 double viewCorrelation(const Eigen::Isometry3d& motion, double time)
 {
     return std::exp(-motion.translation().norm() / kDistance - std::abs(time) / kTime);
+}
+
+double planeViewCorrelation(const Eigen::Isometry3d& motion, double time)
+{
+    const double angle = Eigen::AngleAxisd(motion.linear()).angle();
+    return viewCorrelation(motion, time) * std::exp(-angle / kPlaneAngle);
 }
 
 Vector6d viewSigma(double sigma, const Matrix6d& information)

@@ -30,7 +30,7 @@ class PlaneExtractor
         bool mergeCoplanarPlanes{true};
         bool ransac{false};
         std::string fitWeights{"inverseDepth"};
-        double correlatedPixels{100.0};
+        double correlatedPixels{0};
 
         template <class V>
         void visit(V&& v)
@@ -73,7 +73,8 @@ class PlaneExtractor
             v("correlatedPixels",
               correlatedPixels,
               "px",
-              "neighbouring pixels share errors: factor on a plane's covariance");
+              "so many neighbouring pixels err as one: factor on a plane's covariance; 0: as the "
+              "plane's residuals tell");
         }
         /** \throws std::invalid_argument naming the key */
         void check() const;
@@ -106,9 +107,9 @@ class PlaneExtractor
         std::optional<PlaneGaussian> plane,
         const CellCluster& cells,
         double numPixels,
-        cv::Size image) const;
-    [[nodiscard]] double correlatedPixels(
-        const PlaneMoments& plane, double numPixels, cv::Size image) const;
+        int imageHeight) const;
+    [[nodiscard]] double pixelsThatErrAsOne(
+        const PlaneGaussian& plane, const CellCluster& cells, double numPixels) const;
 
     TParams params_;
     DepthNoise noise_;

@@ -48,6 +48,19 @@ struct CameraInformation
     CameraVector gradient{CameraVector::Zero()};  //!< of half of the cost
 };
 
+/** How large the residuals of planes are. */
+struct PlaneResiduals
+{
+    struct OfReference
+    {
+        int reference;
+        double variance;  //!< over the propagated one
+        double dof;       //!< of the residuals, without what poses follow
+    };
+    std::vector<OfReference> references;  //!< that tell
+    double followed{1};  //!< part of the pose that follows planes; 1: nothing else tells it
+};
+
 /** What a solution tells besides the motion. */
 struct PoseAnalysis
 {
@@ -58,6 +71,7 @@ struct PoseAnalysis
     CameraInformation cameraByReference;
     double pointVariance{0};  //!< of the points' residuals, over the propagated one; 0 = none
     double planeVariance{0};  //!< the same of planes
+    PlaneResiduals planeResiduals;
     Disagreement pointDisagreement;  //!< of the references' points, with all other features
     Disagreement planeDisagreement;  //!< of their planes, likewise
     /** How far the parts of the image pull the pose apart: mean square of their pulls, over what

@@ -26,8 +26,8 @@ class JointCovariance
     struct TParams
     {
         std::string model{"joint"};
-        double noise{0.33};
-        double viewSigma{0.00027};
+        double noise{0.2};
+        double viewSigma{0.0005};
         double motion{0.07};
         double vignetting{0.15};
         double principalPoint{0.3};
@@ -46,8 +46,8 @@ class JointCovariance
             v("noise",
               noise,
               "-",
-              "noise of one frame's points and planes: part of the variance of their residuals, "
-              "which holds the references' noise, too");
+              "noise of one frame's points: part of the variance of their residuals, which holds "
+              "the references' noise, too");
             v("viewSigma",
               viewSigma,
               "-",
@@ -87,12 +87,14 @@ class JointCovariance
         [[nodiscard]] bool isJoint() const;  //!< model is joint, not independent
     };
 
-    /** How alike the errors of views are (viewCorrelation()). */
+    /** How alike the errors of views are (view_errors.h). */
     struct Views
     {
         std::vector<int> frames;  //!< ids of the references
-        /** Of these frames and, as the last row and column, of the new one. */
+        /** Of these frames and, as the last row and column, of the new one: of what all features
+         * err by together, and of what the planes do. */
         Eigen::MatrixXd correlation{Eigen::MatrixXd::Identity(1, 1)};
+        Eigen::MatrixXd ofPlanes{Eigen::MatrixXd::Identity(1, 1)};
     };
 
     /** What pose (left perturbation in the previous measured frame) and velocity of a measured
@@ -105,6 +107,7 @@ class JointCovariance
         Matrix12d priorNoise{Matrix12d::Zero()};  //!< of the predicted motion, without the velocity
         MotionByCamera camera{MotionByCamera::Zero()};  //!< change with errors of the camera
         Vector6d viewSigma{Vector6d::Zero()};           //!< of errors by the view (viewSigma())
+        Matrix6d planeViewRoot{Matrix6d::Zero()};  //!< those of the planes are this * unit noise
         Views views;
         double bendVariance{0};  //!< of the scale of depth in each patch of an image
         MotionByPatches patches{MotionByPatches::Zero()};   //!< change with that of this image
@@ -160,8 +163,9 @@ class JointCovariance
         Pose,
         Velocity,
         Camera,
-        Bend,  //!< of a reference: scale of depth in each patch of its image
-        View   //!< of a reference: error by its view, in units of Measurement::viewSigma
+        Bend,      //!< of a reference: scale of depth in each patch of its image
+        View,      //!< of a reference: error by its view, in units of Measurement::viewSigma
+        PlaneView  //!< likewise of its planes, in those of Measurement::planeViewRoot
     };
     struct Block
     {
@@ -177,9 +181,11 @@ class JointCovariance
     [[nodiscard]] bool has(Kind kind, int frame) const;
     [[nodiscard]] Eigen::Index find(Kind kind, int frame) const;
     [[nodiscard]] Matrix6d at(Eigen::Index row, Eigen::Index column) const;
-    void addViews(int frame, const Views& views);
+    void addViews(
+        int frame, Kind kind, const std::vector<int>& references, const Eigen::MatrixXd& C);
     void addBends(const Measurement& measurement);
-    void addView(const std::vector<int>& frames, std::size_t added, const Eigen::MatrixXd& C);
+    void addView(
+        Kind kind, const std::vector<int>& frames, std::size_t added, const Eigen::MatrixXd& C);
     [[nodiscard]] Eigen::MatrixXd dependence(
         int frame, const Matrix6d& Ad, double dt, const Measurement& measurement) const;
     void prepend(

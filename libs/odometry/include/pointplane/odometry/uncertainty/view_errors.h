@@ -15,6 +15,10 @@ namespace pointplane
  * \return correlation of their errors: exp(-distance / 0.6 m - time / 10 s) */
 [[nodiscard]] double viewCorrelation(const Eigen::Isometry3d& motion, double time);
 
+/** The same of what the planes of the frames err by: they also look different where a turn puts
+ * them into another part of the image. \return viewCorrelation() * exp(-angle / 0.3 rad) */
+[[nodiscard]] double planeViewCorrelation(const Eigen::Isometry3d& motion, double time);
+
 /** Standard deviation of that error, as an error of the pose (left perturbation) [m, rad]: sigma D
  * per axis of the translation and sigma per axis of the rotation, which moves the features as far.
  * D is their distance, which `information` tells.

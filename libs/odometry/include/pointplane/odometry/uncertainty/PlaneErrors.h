@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pointplane/pose/PoseAnalysis.h>
+
+#include <map>
+
+namespace pointplane
+{
+/** Learns how large the errors of planes are, as variances over the propagated one.
+ *
+ * Depth images are bent, and a plane is cut out differently from elsewhere. While the camera
+ * stands, this error stays the same. It shows in the residuals against a reference that saw the
+ * plane from elsewhere. So residuals grow with how unlike two views are:
+ *
+ *     E(variance) = own + byView (1 - correlation of the views)
+ *
+ * A line through what all references show tells both. It is fitted by least squares with a fading
+ * memory. Derivation: docs/theory.md, Window. */
+class PlaneErrors
+{
+ public:
+    /** \param timeConstant of the memory [s] */
+    explicit PlaneErrors(double timeConstant) : timeConstant_(timeConstant) {}
+
+    /** Learns from a measured frame, `dt` [s] after the one before.
+     * \param correlation of the views of frame and reference, by the reference's id */
+    void update(
+        const PlaneResiduals& residuals, const std::map<int, double>& correlation, double dt);
+
+    /** New in each frame. At least the part of the pose that nothing but planes tells: where the
+     * pose follows them, their residuals are small whatever their errors are. */
+    [[nodiscard]] double own() const { return raised_ * own_; }
+
+    /** Of planes whose views have nothing in common. */
+    [[nodiscard]] double byView() const { return raised_ * byView_; }
+
+ private:
+    void fit();
+
+    double timeConstant_;
+    double own_{1}, byView_{1};
+    double raised_{1};  //!< both, to what residuals cannot show
+    /** Sums over what was seen: weight, and with it x = 1 - correlation, the variance y. */
+    double sum_{0}, x_{0}, xx_{0}, y_{0}, xy_{0};
+};
+}  // namespace pointplane

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/odometry/uncertainty/PlaneErrors.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pointplane
+{
+namespace
+{
+/** What is believed of a camera before its first frame counts as the residuals of one plane. */
+constexpr double kPriorDof = 3;
+
+/** What one frame says, over what is known: a wrong match must not count like many right ones. */
+constexpr double kMostChange = 10;
+
+/** Below this, errors new in each frame are too small to tell from none. */
+constexpr double kLeastVariance = 0.1;
+}  // namespace
+
+void PlaneErrors::update(
+    const PlaneResiduals& residuals, const std::map<int, double>& correlation, double dt)
+{
+    const double kept = std::exp(-dt / timeConstant_);
+    for (double* sum : {&sum_, &x_, &xx_, &y_, &xy_})
+    {
+        *sum *= kept;
+    }
+    for (const PlaneResiduals::OfReference& of : residuals.references)
+    {
+        const double x = 1 - correlation.at(of.reference);
+        const double known = own_ + byView_ * x;
+        const double y = std::clamp(of.variance, known / kMostChange, known * kMostChange);
+        sum_ += of.dof;
+        x_ += of.dof * x;
+        xx_ += of.dof * x * x;
+        y_ += of.dof * y;
+        xy_ += of.dof * x * y;
+    }
+    fit();
+    raised_ = std::max(1.0, residuals.followed / own_);
+}
+
+/** With the prior, that both are 1. Neither is negative. */
+void PlaneErrors::fit()
+{
+    const double n = sum_ + kPriorDof, xx = xx_ + kPriorDof;
+    const double y = y_ + kPriorDof, xy = xy_ + kPriorDof;
+    const double determinant = n * xx - x_ * x_;
+    own_ = (y * xx - xy * x_) / determinant;
+    byView_ = (n * xy - x_ * y) / determinant;
+    if (own_ < kLeastVariance)
+    {
+        own_ = kLeastVariance;
+        byView_ = (xy - own_ * x_) / xx;
+    }
+    if (byView_ < 0)
+    {
+        byView_ = 0;
+        own_ = y / n;
+    }
+}
+}  // namespace pointplane
