@@ -60,6 +60,7 @@ ErrorModel::ErrorModel(const OdometryParams& params)
     : params_(params.covariance),
       isJoint_(params.covariance.isJoint()),
       fuses_(params.pipeline.fuses()),
+      learns_(params.noiseScale.adaptive),
       noise_(params.noiseScale),
       planes_(params.noiseScale.timeConstant),
       camera_(params.shutter, params.lens)
@@ -82,7 +83,10 @@ JointCovariance::Measurement ErrorModel::learn(const Measured& frame)
         correlation[views.frames[k]] = views.ofPlanes.rightCols<1>()[static_cast<Eigen::Index>(k)];
     }
     noise_.update(frame.analysis, frame.dt);
-    planes_.update(frame.analysis.planeResiduals, correlation, frame.dt);
+    if (learns_)
+    {
+        planes_.update(frame.analysis.planeResiduals, correlation, frame.dt);
+    }
     JointCovariance::Measurement out = errorsOf(frame);
     out.views = views;
     const CameraCalibrator::Change change =

@@ -78,7 +78,7 @@ class ErrorModel
     [[nodiscard]] JointCovariance::Measurement errorsOf(const Measured& frame) const;
 
     JointCovariance::TParams params_;
-    bool isJoint_, fuses_;
+    bool isJoint_, fuses_, learns_;
     NoiseScale noise_;
     PlaneErrors planes_;
     CameraCalibrator camera_;
