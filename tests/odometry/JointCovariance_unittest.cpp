@@ -100,6 +100,7 @@ TEST(JointCovariance, framesErrByTheirViews)
         measurement.views.frames = {1};
         measurement.views.correlation.resize(2, 2);
         measurement.views.correlation << 1, correlation, correlation, 1;
+        measurement.referencePoints = measurement.references;
         joint.measure(2, kAtRest, kFrame, measurement);
         EXPECT_THAT(joint.latest(), isTimesIdentity(1 + 4 * 2 * (1 - correlation)));
     }
@@ -114,10 +115,12 @@ TEST(JointCovariance, backAtAReferencesViewNothingIsLeftOfItsError)
     measurement.views.frames = {1};
     measurement.views.correlation.resize(2, 2);
     measurement.views.correlation << 1, 0.5, 0.5, 1;
+    measurement.referencePoints = measurement.references;
     joint.measure(2, kAtRest, kFrame, measurement);
     joint.keep({1});
     EXPECT_THAT(joint.latest(), isTimesIdentity(1 + 4));
     measurement.views.correlation.setOnes();
+    measurement.referencePoints = measurement.references;
     joint.measure(3, kAtRest, kFrame, measurement);
     EXPECT_THAT(joint.latest(), isTimesIdentity(1));
     EXPECT_THAT(joint.relative(2, kAtRest), isTimesIdentity(2 + 4));
@@ -136,6 +139,7 @@ TEST(JointCovariance, aFramesOwnErrorIsNotAveragedByManyReferences)
         measurement.views.frames = {1};
         measurement.views.correlation.resize(2, 2);
         measurement.views.correlation << 1, betweenReferences, betweenReferences, 1;
+        measurement.referencePoints = measurement.references;
         joint.measure(2, kAtRest, kFrame, measurement);
         measurement.references[1] << 0.5 * Matrix6d::Identity(), Matrix6d::Zero();
         measurement.references[2] = measurement.references[1];
@@ -143,6 +147,7 @@ TEST(JointCovariance, aFramesOwnErrorIsNotAveragedByManyReferences)
         measurement.views.correlation = Eigen::Matrix3d::Identity();
         measurement.views.correlation(0, 1) = measurement.views.correlation(1, 0) =
             betweenReferences;
+        measurement.referencePoints = measurement.references;
         joint.measure(3, kAtRest, kFrame, measurement);
         return joint.latest();
     };
@@ -324,6 +329,7 @@ TEST(JointCovariance, viewsThatAreAlmostTheSameAreNoTrouble)
         }
         measurement.views.correlation = Eigen::MatrixXd::Constant(n + 1, n + 1, 1 - 1e-9);
         measurement.views.correlation.diagonal().setOnes();
+        measurement.referencePoints = measurement.references;
         joint.measure(frame, kAtRest, kFrame, measurement);
         EXPECT_LT(joint.latest().norm(), 1e-6) << frame;
         EXPECT_GE(joint.latest().trace(), 0) << frame;
@@ -339,6 +345,7 @@ TEST(JointCovariance, aRecalledReferenceErrsAsReferencesOfLikeViewsDo)
     {
         JointCovariance joint = started();
         JointCovariance::Measurement measurement = against(1);
+        measurement.referencePoints = measurement.references;
         joint.measure(2, kAtRest, kFrame, measurement);
         joint.restart(2, {1});
         measurement.viewSigma.setConstant(2);
@@ -347,6 +354,7 @@ TEST(JointCovariance, aRecalledReferenceErrsAsReferencesOfLikeViewsDo)
         measurement.views.correlation(0, 1) = measurement.views.correlation(1, 0) = withPrevious;
         measurement.views.correlation(0, 2) = measurement.views.correlation(2, 0) = 1;
         measurement.views.correlation(1, 2) = measurement.views.correlation(2, 1) = withPrevious;
+        measurement.referencePoints = measurement.references;
         joint.measure(3, kAtRest, kFrame, measurement);
         return joint.latest();
     };
@@ -432,6 +440,7 @@ TEST(JointCovariance, monteCarlo)
             Matrix126d& change = m.references.emplace(reference, Matrix126d::Zero()).first->second;
             change += 0.3 * Matrix126d::Identity() +
                       0.1 * setup.vector<12>() * setup.vector<6>().transpose();
+            m.referencePoints[reference] = 0.6 * change;
         }
         m.prior = 0.4 * Matrix12d::Identity();
         m.noise = setup.covariance<12>(0.1, 1);
@@ -487,8 +496,13 @@ TEST(JointCovariance, monteCarlo)
                 shared +=
                     change *
                     (toBase * pose[reference] +
-                     m.viewSigma.cwiseProduct(view[static_cast<size_t>(k)] - view[reference]) +
                      m.planeViewRoot * (planeView[static_cast<size_t>(k)] - planeView[reference]));
+            }
+            for (const auto& [frame, change] : m.referencePoints)
+            {
+                const auto reference = static_cast<size_t>(frame);
+                shared += change * m.viewSigma.cwiseProduct(
+                                       view[static_cast<size_t>(k)] - view[reference]);
             }
             shared += m.patches * bends[static_cast<size_t>(k)];
             for (const auto& [frame, change] : m.referencePatches)

@@ -85,6 +85,7 @@ TEST(PoseHistory, covariancesStayPositiveDefiniteWhereNothingIsKnown)
     {
         measurement.references.clear();
         measurement.references[1] << Matrix6d::Identity(), Matrix6d::Zero();
+        measurement.referencePoints = measurement.references;
         history.measure(history.latest(), elsewhere(), kFrame, measurement);
         history.keep({1}, {});
         expectPositiveDefinite(history.pose().cov);

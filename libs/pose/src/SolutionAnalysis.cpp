@@ -74,16 +74,18 @@ SolutionAnalysis::Groups SolutionAnalysis::byReference(const Pairs& pairs, size_
 Sensitivity SolutionAnalysis::sensitivity() const
 {
     Sensitivity out;
-    for (const auto& [groups, all] :
-         {std::pair(&pointGroups_, &out.pointsMoved), std::pair(&planeGroups_, &out.planesMoved)})
+    // Moving a reference one way, or the frame the other way, is the same.
+    for (const auto& [reference, group] : pointGroups_)
     {
-        for (const auto& [reference, group] : *groups)
-        {
-            // Moving a reference one way, or the frame the other way, is the same.
-            const Matrix126d change = (H_inverse_ * group.H).leftCols<6>();
-            out.references.emplace(reference, Matrix126d::Zero()).first->second += change;
-            *all -= change;
-        }
+        const Matrix126d change = (H_inverse_ * group.H).leftCols<6>();
+        out.references[reference] = out.referencePoints[reference] = change;
+        out.pointsMoved -= change;
+    }
+    for (const auto& [reference, group] : planeGroups_)
+    {
+        const Matrix126d change = (H_inverse_ * group.H).leftCols<6>();
+        out.references.emplace(reference, Matrix126d::Zero()).first->second += change;
+        out.planesMoved -= change;
     }
     addPatches(out);
     out.points = propagate(H_inverse_, currentNoise(problem_.points, 0));
@@ -303,7 +305,12 @@ PlaneResiduals SolutionAnalysis::planeResiduals() const
     const Matrix6d byPlanes = equations_.planes().H.topLeftCorner<6, 6>();
     const Matrix6d H = byPlanes + equations_.points().H.topLeftCorner<6, 6>();
     const double dimensions = H.completeOrthogonalDecomposition().solve(byPlanes).trace();
-    out.followed = dimensions / 6;
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6d> parts(
+        byPlanes, H, Eigen::EigenvaluesOnly | Eigen::Ax_lBx);
+    if (parts.info() == Eigen::Success)
+    {
+        out.followed = std::clamp(parts.eigenvalues().minCoeff(), 0.0, 1.0);
+    }
     std::map<int, std::vector<double>> norms;
     for (size_t i = 0; i < problem_.planes.size(); ++i)
     {

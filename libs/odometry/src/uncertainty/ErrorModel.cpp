@@ -108,6 +108,7 @@ JointCovariance::Measurement ErrorModel::errorsOf(const Measured& frame) const
     const Sensitivity& of = frame.analysis.sensitivity;
     const NoiseFactors residuals = noise_.residuals();
     out.references = of.references;
+    out.referencePoints = of.referencePoints;
     out.camera = of.camera;
     out.bendVariance = frame.bend * frame.bend;
     out.patches = of.patches;

@@ -92,11 +92,14 @@ Eigen::MatrixXd JointCovariance::dependence(
     for (const auto& [reference, change] : measurement.references)
     {
         A.middleCols<kSize>(find(Kind::Pose, reference)) += change * Ad_inverse;
-        addView(Kind::View, reference, change * measurement.viewSigma.asDiagonal());
         if (has(Kind::PlaneView, frame))
         {
             addView(Kind::PlaneView, reference, change * measurement.planeViewRoot);
         }
+    }
+    for (const auto& [reference, change] : measurement.referencePoints)
+    {
+        addView(Kind::View, reference, change * measurement.viewSigma.asDiagonal());
     }
     for (const auto& [reference, change] : measurement.referencePatches)
     {

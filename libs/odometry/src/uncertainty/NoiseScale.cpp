@@ -57,7 +57,7 @@ void NoiseScale::Average::follow(double variance, double dt, double timeConstant
         const double target = plausible(variance);
         const double rate = 1 - std::exp(-dt / timeConstant);
         cautious += rate * (target - cautious);
-        quick += std::max(rate, 1.0 / (numFrames + kFirstFrames)) * (target - quick);
+        quick *= std::pow(target / quick, std::max(rate, 1.0 / (numFrames + kFirstFrames)));
     }
 }
 

@@ -25,6 +25,8 @@ struct Sensitivity
 {
     /** Change with the pose of each reference frame (left perturbation in the previous frame). */
     std::map<int, Matrix126d> references;
+    /** The part of that by points, for the references that have some. */
+    std::map<int, Matrix126d> referencePoints;
     /** Change if all points, or all planes, of the current frame moved (left perturbation in the
      * previous frame). */
     Matrix126d pointsMoved{Matrix126d::Zero()}, planesMoved{Matrix126d::Zero()};
@@ -58,7 +60,9 @@ struct PlaneResiduals
         double dof;       //!< of the residuals, without what poses follow
     };
     std::vector<OfReference> references;  //!< that tell
-    double followed{1};  //!< part of the pose that follows planes; 1: nothing else tells it
+    /** What planes tell of the direction that they tell least, of what all features do; 1: nothing
+     * else tells of the pose. */
+    double followed{1};
 };
 
 /** What a solution tells besides the motion. */

@@ -27,7 +27,7 @@ class JointCovariance
     {
         std::string model{"joint"};
         double noise{0.2};
-        double viewSigma{0.0005};
+        double viewSigma{0.0007};
         double motion{0.07};
         double vignetting{0.15};
         double principalPoint{0.3};
@@ -51,7 +51,7 @@ class JointCovariance
             v("viewSigma",
               viewSigma,
               "-",
-              "error that all features of a frame share, by where the camera stands: standard "
+              "error that all points of a frame share, by where the camera stands: standard "
               "deviation, as a fraction of the scene's distance");
             v("motion",
               motion,
@@ -101,9 +101,10 @@ class JointCovariance
      * frame depend on. */
     struct Measurement
     {
-        std::map<int, Matrix126d> references;     //!< by id: change with a reference's pose
-        Matrix12d prior{Matrix12d::Zero()};       //!< change with that of the predicted motion
-        Matrix12d noise{Matrix12d::Zero()};       //!< of the frame's own features
+        std::map<int, Matrix126d> references;       //!< by id: change with a reference's pose
+        std::map<int, Matrix126d> referencePoints;  //!< likewise with where its points see it
+        Matrix12d prior{Matrix12d::Zero()};         //!< change with that of the predicted motion
+        Matrix12d noise{Matrix12d::Zero()};         //!< of the frame's own features
         Matrix12d priorNoise{Matrix12d::Zero()};  //!< of the predicted motion, without the velocity
         MotionByCamera camera{MotionByCamera::Zero()};  //!< change with errors of the camera
         Vector6d viewSigma{Vector6d::Zero()};           //!< of errors by the view (viewSigma())

@@ -85,7 +85,7 @@ class NoiseScale
     struct Average
     {
         double cautious{1};  //!< from the first value on with the time constant, for the solver
-        double quick{1};     //!< at first the mean of all frames, for covariances
+        double quick{1};     //!< at first the geometric mean of all frames, for covariances
         int numFrames{0};
         void follow(double variance, double dt, double timeConstant);
     };

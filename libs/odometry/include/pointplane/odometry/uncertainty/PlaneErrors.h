@@ -28,8 +28,8 @@ class PlaneErrors
     void update(
         const PlaneResiduals& residuals, const std::map<int, double>& correlation, double dt);
 
-    /** New in each frame. At least the part of the pose that nothing but planes tells: where the
-     * pose follows them, their residuals are small whatever their errors are. */
+    /** New in each frame. At least PlaneResiduals::followed: where nothing but planes tells the
+     * pose, it follows them, and their residuals are small whatever their errors are. */
     [[nodiscard]] double own() const { return raised_ * own_; }
 
     /** Of planes whose views have nothing in common. */
