@@ -37,6 +37,7 @@ JointCovariance::Measurement against(int reference)
 {
     JointCovariance::Measurement out;
     out.references[reference] << Matrix6d::Identity(), Matrix6d::Zero();
+    out.referencePoints = out.references;
     out.noise = ofPose(Matrix6d::Identity());
     return out;
 }
@@ -493,16 +494,15 @@ TEST(JointCovariance, monteCarlo)
             for (const auto& [frame, change] : m.references)
             {
                 const auto reference = static_cast<size_t>(frame);
-                shared +=
-                    change *
-                    (toBase * pose[reference] +
-                     m.planeViewRoot * (planeView[static_cast<size_t>(k)] - planeView[reference]));
+                shared += change * (toBase * pose[reference] +
+                                    m.planeViewRoot *
+                                        (planeView[static_cast<size_t>(k)] - planeView[reference]));
             }
             for (const auto& [frame, change] : m.referencePoints)
             {
                 const auto reference = static_cast<size_t>(frame);
-                shared += change * m.viewSigma.cwiseProduct(
-                                       view[static_cast<size_t>(k)] - view[reference]);
+                shared += change *
+                          m.viewSigma.cwiseProduct(view[static_cast<size_t>(k)] - view[reference]);
             }
             shared += m.patches * bends[static_cast<size_t>(k)];
             for (const auto& [frame, change] : m.referencePatches)
