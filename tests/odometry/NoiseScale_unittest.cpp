@@ -61,7 +61,9 @@ TEST(NoiseScale, residualsAreAveragedFromTheStart)
     {
         noise.update(with(0.5, 0.5), 1.0 / 30);
     }
-    EXPECT_NEAR(noise.residuals().points, std::pow(4, 3.0 / 15) * std::pow(0.5, 12.0 / 15), 1e-12);
+    EXPECT_NEAR(noise.residuals().points, (3 * 4 + 12 * 0.5) / 15, 1e-12);
+    EXPECT_NEAR(
+        noise.typicalResiduals().points, std::pow(4, 3.0 / 15) * std::pow(0.5, 12.0 / 15), 1e-12);
     EXPECT_GT(noise.factors().points, 2);
 }
 

@@ -106,7 +106,7 @@ JointCovariance::Measurement ErrorModel::errorsOf(const Measured& frame) const
         return out;
     }
     const Sensitivity& of = frame.analysis.sensitivity;
-    const NoiseFactors residuals = noise_.residuals();
+    const NoiseFactors residuals = noise_.typicalResiduals();
     out.references = of.references;
     out.referencePoints = of.referencePoints;
     out.camera = of.camera;

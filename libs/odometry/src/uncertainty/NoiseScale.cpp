@@ -23,6 +23,7 @@ NoiseScale::NoiseScale(const TParams& params) : params_(params)
     {
         pointResiduals_.cautious = planeResiduals_.cautious = kFirstVariance;
         pointResiduals_.quick = planeResiduals_.quick = kFirstVariance;
+        pointResiduals_.typical = planeResiduals_.typical = kFirstVariance;
     }
 }
 
@@ -57,7 +58,9 @@ void NoiseScale::Average::follow(double variance, double dt, double timeConstant
         const double target = plausible(variance);
         const double rate = 1 - std::exp(-dt / timeConstant);
         cautious += rate * (target - cautious);
-        quick *= std::pow(target / quick, std::max(rate, 1.0 / (numFrames + kFirstFrames)));
+        const double quickRate = std::max(rate, 1.0 / (numFrames + kFirstFrames));
+        quick += quickRate * (target - quick);
+        typical *= std::pow(target / typical, quickRate);
     }
 }
 
@@ -75,7 +78,9 @@ void NoiseScale::Scatter::follow(double scatter, double dt, double timeConstant)
 
 NoiseFactors NoiseScale::levels() const
 {
-    return {pointResiduals_.quick * pointCommon_.quick, planeResiduals_.quick * planeCommon_.quick};
+    return {
+        pointResiduals_.typical * pointCommon_.typical,
+        planeResiduals_.typical * planeCommon_.typical};
 }
 
 double NoiseScale::overCautious() const

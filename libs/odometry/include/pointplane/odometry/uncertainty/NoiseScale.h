@@ -74,6 +74,13 @@ class NoiseScale
      */
     [[nodiscard]] double ofFrame() const { return scatter_.ofFrame; }
 
+    /** Learnt from the residuals alone: what a frame usually has. As a geometric mean, it soon
+     * forgets the first guess. */
+    [[nodiscard]] NoiseFactors typicalResiduals() const
+    {
+        return {pointResiduals_.typical, planeResiduals_.typical};
+    }
+
     /** Learnt from the residuals alone. */
     [[nodiscard]] NoiseFactors residuals() const
     {
@@ -85,7 +92,8 @@ class NoiseScale
     struct Average
     {
         double cautious{1};  //!< from the first value on with the time constant, for the solver
-        double quick{1};     //!< at first the geometric mean of all frames, for covariances
+        double quick{1};     //!< at first the mean of all frames
+        double typical{1};   //!< at first the geometric mean of all frames, for covariances
         int numFrames{0};
         void follow(double variance, double dt, double timeConstant);
     };
