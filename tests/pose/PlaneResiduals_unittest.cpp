@@ -73,6 +73,21 @@ TEST(PlaneResiduals, twoPlanesAloneTellNothing)
     EXPECT_TRUE(residuals.references.empty());
 }
 
+/** Also where they leave directions free. */
+TEST(PlaneResiduals, nothingButPlanesIsFollowed)
+{
+    for (const int numPlanes : {1, 2, 3, 8})
+    {
+        test::PairWorld world(6);
+        world.addPlanes(numPlanes);
+        const PoseSolver solver(test::gaussianSolver());
+        PoseProblem problem = test::atRest({}, world.drawPlanes(1));
+        const PlaneResiduals residuals =
+            solver.analyse(problem, solver.solve(problem, {})).planeResiduals;
+        EXPECT_NEAR(residuals.followed, 1, 1e-6) << numPlanes;
+    }
+}
+
 TEST(PlaneResiduals, ofEachReference)
 {
     test::PairWorld world(4);

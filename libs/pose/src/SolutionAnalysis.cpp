@@ -303,13 +303,16 @@ PlaneResiduals SolutionAnalysis::planeResiduals() const
 {
     PlaneResiduals out;
     const Matrix6d byPlanes = equations_.planes().H.topLeftCorner<6, 6>();
-    const Matrix6d H = byPlanes + equations_.points().H.topLeftCorner<6, 6>();
+    const Matrix6d byPoints = equations_.points().H.topLeftCorner<6, 6>();
+    const Matrix6d H = byPlanes + byPoints;
     const double dimensions = H.completeOrthogonalDecomposition().solve(byPlanes).trace();
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6d> parts(
-        byPlanes, H, Eigen::EigenvaluesOnly | Eigen::Ax_lBx);
-    if (parts.info() == Eigen::Success)
+    if (!byPoints.isZero(0))
     {
-        out.followed = std::clamp(parts.eigenvalues().minCoeff(), 0.0, 1.0);
+        // What nothing tells (H is singular there) must not count as told by points.
+        const Matrix6d told = H + 1e-14 * H.trace() * Matrix6d::Identity();
+        const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6d> parts(
+            byPoints, told, Eigen::EigenvaluesOnly | Eigen::Ax_lBx);
+        out.followed = std::clamp(1 - parts.eigenvalues().maxCoeff(), 0.0, 1.0);
     }
     std::map<int, std::vector<double>> norms;
     for (size_t i = 0; i < problem_.planes.size(); ++i)

@@ -91,7 +91,7 @@ class JointCovariance
     struct Views
     {
         std::vector<int> frames;  //!< ids of the references
-        /** Of these frames and, as the last row and column, of the new one: of what all features
+        /** Of these frames and, as the last row and column, of the new one: of what all points
          * err by together, and of what the planes do. */
         Eigen::MatrixXd correlation{Eigen::MatrixXd::Identity(1, 1)};
         Eigen::MatrixXd ofPlanes{Eigen::MatrixXd::Identity(1, 1)};
