@@ -103,15 +103,15 @@ TEST(Judge, planesAreDoubtedWherePointsShouldAgree)
         judge.contradict(a, kUsual);
         return a;
     };
-    const Alignment doubted = judged(kUncertain, 300, 800);
-    EXPECT_FALSE(doubted.holds);
-    EXPECT_THAT(doubted.reason, testing::HasSubstr("0 of 300 points in view"));
-    EXPECT_THAT(doubted.reason, testing::HasSubstr("0.5 s after"));
-    EXPECT_TRUE(judged(kUncertain, 300, 950).holds);
-    EXPECT_TRUE(judged(kUncertain, 0, 800).holds) << "no points to ask";
-    EXPECT_TRUE(judged(kCertain, 300, 800).holds);
-    EXPECT_FALSE(judged(kCertain, 300, 700).holds) << "neither points nor surfaces agree";
-    EXPECT_TRUE(judged(kCertain, 0, 700).holds) << "no points to ask";
+    for (const double sigma : {kCertain, kUncertain})
+    {
+        const Alignment doubted = judged(sigma, 300, 700);
+        EXPECT_FALSE(doubted.holds) << "neither points nor surfaces agree";
+        EXPECT_THAT(doubted.reason, testing::HasSubstr("0 of 300 points in view"));
+        EXPECT_THAT(doubted.reason, testing::HasSubstr("0.5 s after"));
+        EXPECT_TRUE(judged(sigma, 300, 800).holds);
+        EXPECT_TRUE(judged(sigma, 0, 700).holds) << "no points to ask";
+    }
 }
 
 TEST(Judge, surfacesThatAreNotWhereTheyShouldBeContradict)

@@ -63,7 +63,7 @@ TEST(NoiseScale, residualsAreAveragedFromTheStart)
     }
     EXPECT_NEAR(noise.residuals().points, (3 * 4 + 12 * 0.5) / 15, 1e-12);
     EXPECT_NEAR(
-        noise.typicalResiduals().points, std::pow(4, 3.0 / 15) * std::pow(0.5, 12.0 / 15), 1e-12);
+        noise.typicalPoints().residuals, std::pow(4, 3.0 / 15) * std::pow(0.5, 12.0 / 15), 1e-12);
     EXPECT_GT(noise.factors().points, 2);
 }
 
@@ -158,7 +158,7 @@ TEST(NoiseScale, constantFactorsComeOnTop)
     noise.update(with(50, 50), 1);
     EXPECT_EQ(noise.factors().points, 3);
     EXPECT_EQ(noise.factors().planes, 5);
-    EXPECT_EQ(noise.levels().planes, 1);
+    EXPECT_EQ(noise.typicalPoints().residuals, 1);
 }
 
 TEST(NoiseScale, refusesParametersOutOfRange)

@@ -19,11 +19,6 @@ namespace
 /** Search radius when too little is found again around the prediction, over the usual one. */
 constexpr double kWideSearch = 5;
 
-/** Surfaces of a place that agree when it is recognised. By key points alone the motion is
- * centimetres off: less is asked than of an estimate, and twice what a wrong motion shows. What is
- * recalled is then aligned and judged like any reference. */
-constexpr double kRecognised = 0.6;
-
 /** The camera's motion while it waited for the depth image. */
 Eigen::Isometry3d untilDepth(const Vector6d& velocity, double delay)
 {
@@ -269,8 +264,8 @@ std::optional<int> Aligner::recognise(
     for (auto place = track.places().rbegin(); place != track.places().rend(); ++place)
     {
         const auto motion = frontEnd.alignImages(*place, current);
-        if (motion &&
-            frontEnd.compare(*place, current, motion->T_cur_ref, 0).fraction() > kRecognised)
+        if (motion && frontEnd.compare(*place, current, motion->T_cur_ref, 0).fraction() >
+                          Judge::kConvincingSurfaces)
         {
             return place->id;
         }

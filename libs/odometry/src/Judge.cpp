@@ -20,21 +20,10 @@ namespace
 /** Fewer matches than this in total cannot fix a pose [P17, section Pose estimation]. */
 constexpr int kMinMatches = 3;
 
-/** Points that should be in view: of fewer, a share says little. */
-constexpr int kHandful = 2 * kFewPoints;
-
 /** Standard deviations from the predicted motion beyond which an estimate has to be convincing by
  * itself. Cameras in hands stay below three, at any frame rate: the prediction knows how little it
  * knows. Of estimates beyond five, hardly one is right (docs/theory.md, "Verdict"). */
 constexpr double kMostSurprise = 5;
-
-/** Of the surfaces in view, nine tenths agree with a right motion and a third with one that is
- * wrong by 5 cm or 5 deg (docs/theory.md, "Verdict"): so much is between. */
-constexpr double kConvincingSurfaces = 0.75;
-
-/** Where neither points nor the prediction confirm it, so much must agree of the surfaces: nine
- * tenths do with a right motion. */
-constexpr double kConfirmingSurfaces = 0.9;
 
 /** Residuals up to twice as large as in the frames before, squared: a wrong motion disagrees more.
  */
@@ -72,7 +61,7 @@ double maxSigma(const Matrix6d& cov)
 /** Fraction of the points in view that agrees with the estimate; smaller if there are few. */
 double pointShare(const Alignment& a)
 {
-    return static_cast<double>(a.estimate.numPointInliers) / std::max(a.numSought, kHandful);
+    return static_cast<double>(a.estimate.numPointInliers) / std::max(a.numSought, kFewPoints);
 }
 
 /** How much speaks for an alignment, to compare it with others of the same frame. */
@@ -98,9 +87,8 @@ bool isConfirmed(const Alignment& a)
 /** Whether it rests on planes that may be others: points in view should agree, and do not. */
 bool isOfDoubtfulPlanes(const Alignment& a)
 {
-    const double enough = isConfirmed(a) ? kConvincingSurfaces : kConfirmingSurfaces;
-    return a.numSought >= kHandful && a.estimate.numPointInliers < kFewPoints &&
-           a.agreement.fraction() <= enough;
+    return a.numSought >= kFewPoints && a.estimate.numPointInliers < kFewPoints &&
+           a.agreement.fraction() <= Judge::kConvincingSurfaces;
 }
 }  // namespace
 
@@ -150,8 +138,8 @@ bool Judge::isConvincing(const Alignment& a, const NoiseFactors& usual)
     const int worth = a.estimate.numPointInliers + 3 * static_cast<int>(a.problem.planes.size());
     const bool isSeen =
         a.agreement.seen() > 0 ? a.agreement.fraction() > kConvincingSurfaces : mostPointsAgree(a);
-    return a.holds && worth >= kFewPoints && (isConfirmed(a) || a.numSought < kHandful) && isSeen &&
-           a.estimate.pointChi2PerDof < kConvincingRise * usual.points &&
+    return a.holds && worth >= kFewPoints && (isConfirmed(a) || a.numSought < kFewPoints) &&
+           isSeen && a.estimate.pointChi2PerDof < kConvincingRise * usual.points &&
            a.estimate.planeChi2PerDof < kConvincingRise * usual.planes;
 }
 

@@ -53,6 +53,10 @@ class Judge
     /** The reason of a frame that is not believed because of that. */
     [[nodiscard]] static std::string fewPointsAgree(const Alignment& alignment);
 
+    /** Of the surfaces in view, nine tenths agree with a right motion and a third with one that is
+     * wrong by 5 cm or 5 deg (docs/theory.md, "Verdict"): so much is between. */
+    static constexpr double kConvincingSurfaces = 0.75;
+
     /** So many surfaces are enough to compare: of a tenth of the view (PixelGrid). */
     static constexpr int kEnoughSurfaces = 480;
 

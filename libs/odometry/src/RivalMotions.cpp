@@ -13,12 +13,8 @@ namespace pointplane
 {
 namespace
 {
-/** Fewer points than this, or a smaller part of all, are wrong matches, not a motion. */
+/** Fewer points than this are wrong matches, not a motion. */
 constexpr int kLeastPoints = 20;
-constexpr double kLeastShare = 0.1;
-
-/** Of the points that disagree with the first motion, so many agree about the second one. */
-constexpr double kCoherent = 0.5;
 
 /** So many of the points tell two motions apart: of a single motion fewer seem to. */
 constexpr double kTelling = 1.0 / 3;
@@ -68,40 +64,24 @@ std::optional<SecondMotion> secondMotion(
     const PoseEstimate& estimate,
     double limit)
 {
-    struct Count
-    {
-        int disagree{0}, all{0};
-    };
-    std::map<int, Count> counts;
+    std::map<int, int> counts;
     const auto disagrees = [&](size_t i) { return estimate.norms.points[i] > limit; };
     for (size_t i = 0; i < problem.points.size(); ++i)
     {
-        Count& count = counts[problem.points[i].reference];
-        ++count.all;
-        count.disagree += disagrees(i) ? 1 : 0;
+        counts[problem.points[i].reference] += disagrees(i) ? 1 : 0;
     }
     const auto most = std::max_element(
         counts.begin(),
         counts.end(),
-        [](const auto& a, const auto& b) { return a.second.disagree < b.second.disagree; });
-    if (most == counts.end() || most->second.disagree < kLeastPoints ||
-        most->second.disagree < kLeastShare * most->second.all)
+        [](const auto& a, const auto& b) { return a.second < b.second; });
+    if (most == counts.end() || most->second < kLeastPoints)
     {
         return {};
     }
     const auto isOfRest = [&](size_t i)
     { return disagrees(i) && problem.points[i].reference == most->first; };
     const PoseProblem rest{chosen(problem.points, isOfRest), {}, problem.prior, problem.noise};
-    const SecondMotion out{solver.solve(rest, estimate.motion.mean).motion.mean, most->first};
-    const PairNorms norms = solver.norms(rest, out.motion);
-    const auto numAgree = std::count_if(
-        norms.points.begin(), norms.points.end(), [&](double norm) { return norm <= limit; });
-    if (numAgree < kLeastPoints ||
-        static_cast<double>(numAgree) < kCoherent * most->second.disagree)
-    {
-        return {};
-    }
-    return out;
+    return SecondMotion{solver.solve(rest, estimate.motion.mean).motion.mean, most->first};
 }
 
 std::vector<Side> sides(

@@ -106,7 +106,7 @@ JointCovariance::Measurement ErrorModel::errorsOf(const Measured& frame) const
         return out;
     }
     const Sensitivity& of = frame.analysis.sensitivity;
-    const NoiseFactors residuals = noise_.typicalResiduals();
+    const NoiseScale::TypicalPoints points = noise_.typicalPoints();
     out.references = of.references;
     out.referencePoints = of.referencePoints;
     out.camera = of.camera;
@@ -114,7 +114,7 @@ JointCovariance::Measurement ErrorModel::errorsOf(const Measured& frame) const
     out.patches = of.patches;
     out.referencePatches = of.referencePatches;
     out.noise = noise_.ofFrame() *
-                    (params_.noise * residuals.points * of.points + planes_.own() * of.planes) +
+                    (params_.noise * points.residuals * of.points + planes_.own() * of.planes) +
                 accelerationWhileExposed(of, frame.shutter, frame.acceleration2);
     out.prior = of.prior;
     if (!fuses_)
@@ -123,7 +123,8 @@ JointCovariance::Measurement ErrorModel::errorsOf(const Measured& frame) const
     }
     out.priorNoise = params_.motion * propagate(of.prior, frame.motionNoise);
     // As large as the residuals of points are, and as the references contradict each other.
-    const double level = noise_.ofFrame() * noise_.levels().points * residuals.points;
+    const double level =
+        noise_.ofFrame() * points.residuals * points.residuals * points.disagreement;
     if (!of.points.isZero(0))
     {
         out.viewSigma = viewSigma(

@@ -76,13 +76,6 @@ void NoiseScale::Scatter::follow(double scatter, double dt, double timeConstant)
     }
 }
 
-NoiseFactors NoiseScale::levels() const
-{
-    return {
-        pointResiduals_.typical * pointCommon_.typical,
-        planeResiduals_.typical * planeCommon_.typical};
-}
-
 double NoiseScale::overCautious() const
 {
     const Average& average = pointResiduals_.numFrames > 0 ? pointResiduals_ : planeResiduals_;

@@ -62,9 +62,6 @@ class NoiseScale
      * motion. */
     [[nodiscard]] NoiseFactors factors() const;
 
-    /** Learnt from residuals and disagreement, without the constant factors. */
-    [[nodiscard]] NoiseFactors levels() const;
-
     /** Variance of the residuals so far over the one that factors() starts with, out of caution:
      * that of points, or of planes if there are no points. */
     [[nodiscard]] double overCautious() const;
@@ -74,11 +71,16 @@ class NoiseScale
      */
     [[nodiscard]] double ofFrame() const { return scatter_.ofFrame; }
 
-    /** Learnt from the residuals alone: what a frame usually has. As a geometric mean, it soon
-     * forgets the first guess. */
-    [[nodiscard]] NoiseFactors typicalResiduals() const
+    /** What the points of a frame usually have, for covariances. As geometric means, these soon
+     * forget the first guess. */
+    struct TypicalPoints
     {
-        return {pointResiduals_.typical, planeResiduals_.typical};
+        double residuals;     //!< variance, over the propagated one
+        double disagreement;  //!< how much more the references contradict each other
+    };
+    [[nodiscard]] TypicalPoints typicalPoints() const
+    {
+        return {pointResiduals_.typical, pointCommon_.typical};
     }
 
     /** Learnt from the residuals alone. */
