@@ -63,7 +63,7 @@ TEST(NoiseScale, residualsAreAveragedFromTheStart)
     }
     EXPECT_NEAR(noise.residuals().points, (3 * 4 + 12 * 0.5) / 15, 1e-12);
     EXPECT_NEAR(
-        noise.typicalPoints().residuals, std::pow(4, 3.0 / 15) * std::pow(0.5, 12.0 / 15), 1e-12);
+        noise.typicalPoints().residuals, std::pow(4, 1.0 / 13) * std::pow(0.5, 12.0 / 13), 1e-12);
     EXPECT_GT(noise.factors().points, 2);
 }
 

@@ -71,8 +71,9 @@ class NoiseScale
      */
     [[nodiscard]] double ofFrame() const { return scatter_.ofFrame; }
 
-    /** What the points of a frame usually have, for covariances. As geometric means, these soon
-     * forget the first guess. */
+    /** What the points of a frame usually have, for covariances. As geometric means, in which the
+     * first guess counts as one frame, these soon forget it: a camera that turns fast in its first
+     * frames has residuals of 50 times the propagated variance. */
     struct TypicalPoints
     {
         double residuals;     //!< variance, over the propagated one
@@ -95,7 +96,8 @@ class NoiseScale
     {
         double cautious{1};  //!< from the first value on with the time constant, for the solver
         double quick{1};     //!< at first the mean of all frames
-        double typical{1};   //!< at first the geometric mean of all frames, for covariances
+        double typical{1};   //!< at first the geometric mean of all frames, for covariances; the
+                             //!< first guess counts as one frame
         int numFrames{0};
         void follow(double variance, double dt, double timeConstant);
     };
