@@ -76,7 +76,7 @@ CLI::Validator isWhole(bool isSigned)
             {
                 return what + "not zero or a positive number";
             }
-            text = (isNegative ? "-" : "") + digits;
+            text = (isNegative && isSigned ? "-" : "") + digits;
             errno = 0;
             isSigned ? (void)std::strtoll(text.c_str(), nullptr, 10)
                      : (void)std::strtoull(text.c_str(), nullptr, 10);

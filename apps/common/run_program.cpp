@@ -3,10 +3,10 @@
 
 #include <pointplane/mrpt_io/errors.h>
 
+#include <opencv2/core/utility.hpp>
+
 #include <algorithm>
-#include <cerrno>
 #include <csignal>
-#include <cstring>
 #include <iostream>
 #include <memory>
 #include <system_error>
@@ -116,15 +116,6 @@ class HelpFormatter : public CLI::Formatter
     return text;
 }
 
-/** OpenCV's threads (TBB) tell what the system refused them in words only, e.g. "pthread_create has
- * failed: Resource temporarily unavailable". */
-[[nodiscard]] bool isRefusalOfSystem(const std::exception& e)
-{
-    const std::string text = e.what();
-    return text.find(std::strerror(EAGAIN)) != std::string::npos ||
-           text.find(std::strerror(ENOMEM)) != std::string::npos;
-}
-
 /** Of the current exception. \return the exit code */
 int report(const std::string& program, std::ostream& err)
 {
@@ -153,9 +144,7 @@ int report(const std::string& program, std::ostream& err)
     }
     catch (const std::exception& e)
     {
-        return say(
-            oneLine(e),
-            isOutOfMemory(e) || isRefusalOfSystem(e) ? kExitEnvironment : kExitBadInput);
+        return say(oneLine(e), isOutOfMemory(e) ? kExitEnvironment : kExitBadInput);
     }
 }
 }  // namespace
@@ -211,6 +200,9 @@ int runProgram(const char* name, Program program, int argc, char** argv)
     // ulimit -f, and a reader that leaves: writing fails instead.
     std::signal(SIGXFSZ, SIG_IGN);
     std::signal(SIGPIPE, SIG_IGN);
+    // Programs have threads of their own: OpenCV's make nothing faster there, and where memory is
+    // short, those of oneTBB hang or end the program.
+    cv::setNumThreads(1);
     Call call{program, {}};
     try
     {

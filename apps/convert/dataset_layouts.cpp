@@ -62,12 +62,12 @@ std::optional<FolderLayout> replica(const fs::path& folder)
             PinholeCamera camera = pinholeOf(
                 pixelsIn(c, "w", path),
                 pixelsIn(c, "h", path),
-                numberIn(c, "fx", path),
-                numberIn(c, "cx", path),
-                numberIn(c, "cy", path));
-            camera.fy = numberIn(c, "fy", path);
+                numberAt(c, "fx", path),
+                numberAt(c, "cx", path),
+                numberAt(c, "cy", path));
+            camera.fy = numberAt(c, "fy", path);
             out.camera = colourCamera(camera);
-            out.unitsPerMetre = numberIn(c, "scale", path);
+            out.unitsPerMetre = numberAt(c, "scale", path);
             break;
         }
     }

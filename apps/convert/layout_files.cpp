@@ -76,7 +76,7 @@ std::optional<nlohmann::json> jsonObjectIn(const fs::path& path)
     return out;
 }
 
-double numberIn(const nlohmann::json& json, const char* key, const fs::path& path)
+double numberAt(const nlohmann::json& json, const char* key, const fs::path& path)
 {
     const auto found = json.find(key);
     if (found == json.end() || !found->is_number())
@@ -89,7 +89,7 @@ double numberIn(const nlohmann::json& json, const char* key, const fs::path& pat
 int pixelsIn(const nlohmann::json& json, const char* key, const fs::path& path)
 {
     constexpr double kLargest = 65535;
-    const double size = numberIn(json, key, path);
+    const double size = numberAt(json, key, path);
     if (!(size >= 1 && size <= kLargest))
     {
         throw InputError(path.string() + ": '" + key + "' is not a number of pixels");

@@ -24,7 +24,7 @@ namespace pointplane
 [[nodiscard]] std::optional<nlohmann::json> jsonObjectIn(const std::filesystem::path& path);
 
 /** \param path of the file, for the message */
-[[nodiscard]] double numberIn(
+[[nodiscard]] double numberAt(
     const nlohmann::json& json, const char* key, const std::filesystem::path& path);
 
 /** Pixels of a side. */

@@ -113,7 +113,7 @@ void readRecord3d(const fs::path& folder, FolderLayout& out)
         out.camera = colourCamera(camera);
         if (json->contains("fps"))
         {
-            out.fps = numberIn(*json, "fps", path);
+            out.fps = numberAt(*json, "fps", path);
             if (!(*out.fps > 0))
             {
                 throw InputError(path.string() + ": 'fps' is not a positive number");

@@ -3,6 +3,7 @@
 #include <pointplane/mrpt_io/errors.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -10,6 +11,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -164,15 +166,14 @@ TEST_F(RunProgram, anOutputToTheStandardOutputIsAloneThere)
 
 TEST(RunCommand, whatTheSystemRefusesIsExitCode3)
 {
-    const auto codeOf = [](const std::string& problem)
+    const auto codeOf = [](const auto& problem)
     {
         CLI::App app;
         std::ostringstream out, err;
-        return runCommand(app, {}, out, err, [&]() -> int { throw std::runtime_error(problem); });
+        return runCommand(app, {}, out, err, [&]() -> int { throw problem; });
     };
-    EXPECT_EQ(
-        codeOf("pthread_create has failed: Resource temporarily unavailable"), kExitEnvironment);
-    EXPECT_EQ(codeOf("something else"), kExitBadInput);
+    EXPECT_EQ(codeOf(std::system_error(EAGAIN, std::generic_category())), kExitEnvironment);
+    EXPECT_EQ(codeOf(std::runtime_error("something else")), kExitBadInput);
 }
 
 TEST(RunCommand, wholeNumbersAreThoseThatWereGiven)
