@@ -200,8 +200,8 @@ int runProgram(const char* name, Program program, int argc, char** argv)
     // ulimit -f, and a reader that leaves: writing fails instead.
     std::signal(SIGXFSZ, SIG_IGN);
     std::signal(SIGPIPE, SIG_IGN);
-    // Programs have threads of their own: OpenCV's make nothing faster there, and where memory is
-    // short, those of oneTBB hang or end the program.
+    // Programs have threads of their own: OpenCV's make nothing faster (on two cores), and where
+    // memory is short, those of oneTBB hang or end the program.
     cv::setNumThreads(1);
     Call call{program, {}};
     try

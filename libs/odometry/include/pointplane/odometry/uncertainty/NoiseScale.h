@@ -44,7 +44,7 @@ class NoiseScale
         void check() const;
     };
 
-    /** Variance before anything is known, as if so many frames had said it. */
+    /** Variance before anything is known; for the solver, as if so many frames had said it. */
     static constexpr double kFirstVariance = 4;
     static constexpr int kFirstFrames = 3;
 
