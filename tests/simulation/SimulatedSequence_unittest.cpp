@@ -67,6 +67,58 @@ TEST(SimulatedSequence, sameSeedGivesTheSameBytesInAnyOrder)
     EXPECT_FALSE(sameBytes(first.gray, c.frame(7).gray));
 }
 
+/** The recording states the calibration that it was told; the pictures are those of the true
+ * camera. */
+TEST(SimulatedSequence, aWrongCalibrationIsNotStated)
+{
+    SimulationParams wrong = SimulationParams::ideal();
+    wrong.width = 320;
+    wrong.height = 240;
+    wrong.focalLengthError = 0.05;
+    wrong.depthScaleError = 0.05;
+    const std::uint64_t seed = 3;
+    SimulationParams right = SimulationParams::ideal();
+    right.width = 320;
+    right.height = 240;
+    right.focalLengthPx = 2 * wrong.trueCamera(seed).fx;
+    const SimulatedSequence a("desk", wrong, seed), b(a.scene(), right, seed);
+    const RgbdFrame seen = a.frame(0), asIfRight = b.frame(0);
+    EXPECT_DOUBLE_EQ(seen.camera.fx, 525 / 2.0);
+    EXPECT_GT(std::abs(asIfRight.camera.fx - seen.camera.fx), 1);
+    EXPECT_TRUE(sameBytes(seen.gray, asIfRight.gray));
+    const double scale = wrong.depthScale(seed);
+    EXPECT_GT(std::abs(scale - 1), 1e-3);
+    EXPECT_LT(cv::norm(seen.depth, scale * asIfRight.depth, cv::NORM_INF), 1e-5);
+}
+
+TEST(SimulationParams, calibrationsOfManySeedsErrAsTold)
+{
+    SimulationParams params;
+    params.width = 1280;
+    params.focalLengthError = 0.01;
+    params.principalPointError = 2;
+    params.depthScaleError = 0.005;
+    const PinholeCamera stated = params.camera();
+    const int numSeeds = 2000;
+    double focal = 0, x = 0, y = 0, xy = 0, scale = 0;
+    for (int seed = 0; seed < numSeeds; ++seed)
+    {
+        const PinholeCamera camera = params.trueCamera(static_cast<std::uint64_t>(seed));
+        EXPECT_EQ(camera.fx, camera.fy);
+        focal += std::pow(camera.fx / stated.fx - 1, 2) / numSeeds;
+        x += std::pow(camera.cx - stated.cx, 2) / numSeeds;
+        y += std::pow(camera.cy - stated.cy, 2) / numSeeds;
+        xy += (camera.cx - stated.cx) * (camera.cy - stated.cy) / numSeeds;
+        scale += std::pow(params.depthScale(static_cast<std::uint64_t>(seed)) - 1, 2) / numSeeds;
+    }
+    // Twice as many pixels as 640 wide: twice as many of them off.
+    EXPECT_NEAR(std::sqrt(focal), 0.01, 0.0006);
+    EXPECT_NEAR(std::sqrt(x), 4, 0.25);
+    EXPECT_NEAR(std::sqrt(y), 4, 0.25);
+    EXPECT_LT(std::abs(xy), 1.2);
+    EXPECT_NEAR(std::sqrt(scale), 0.005, 0.0003);
+}
+
 TEST(SimulatedSequence, noiseOfFramesIsIndependent)
 {
     SimulationParams params = SimulationParams::ideal();

@@ -74,7 +74,8 @@ cv::Mat gridNoise(
 DepthSensor::DepthSensor(
     const SimulationParams& params, const Scene& scene, std::uint64_t cameraKey)
     : params_(params),
-      camera_(params.camera()),
+      camera_(params.trueCamera(cameraKey)),
+      depthScale_(static_cast<float>(params.depthScale(cameraKey))),
       pixelScale_(params.width / 640.0),
       step_(params.disparityStepPx / params.disparityPxMetre)
 {
@@ -299,7 +300,7 @@ cv::Mat DepthSensor::sense(const CastImage& cast, std::uint64_t frameKey) const
         for (int u = 0; u < camera_.width; ++u)
         {
             const float value = q[static_cast<std::size_t>(u)];
-            out[u] = value > 0 ? 1.0F / value : std::numeric_limits<float>::quiet_NaN();
+            out[u] = value > 0 ? depthScale_ / value : std::numeric_limits<float>::quiet_NaN();
         }
         addLengths(noise, v, out);
     }

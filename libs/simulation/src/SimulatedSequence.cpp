@@ -23,7 +23,7 @@ struct SimulatedSequence::Impl
                   : std::make_shared<const Scene>(withoutMovers(*aScene))),
           params(aParams),
           seed(aSeed),
-          camera(params.camera()),
+          camera(params.trueCamera(seed)),
           path(scene->motion, params.motionScale, seed),
           depthSensor(params, *scene, seed),
           colourSensor(params, seed)
@@ -176,7 +176,7 @@ RgbdFrame SimulatedSequence::frame(int frame, cv::Mat* colour) const
 
     RgbdFrame out;
     out.stamp = stamp(frame);
-    out.camera = s.camera;
+    out.camera = s.params.camera();
     out.shutter = s.params.shutter();
     out.depth = s.depthSensor.sense(cast, key);
     cv::Mat bgr = s.colourSensor.sense(exposures, t, key);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/core/choice.h>
 #include <pointplane/core/range.h>
+#include <pointplane/simulation/Random.h>
 #include <pointplane/simulation/SimulationParams.h>
 
 namespace pointplane
@@ -11,6 +12,7 @@ SimulationParams SimulationParams::ideal()
     p.readoutColour = p.readoutDepth = p.depthDelay = p.exposure = 0;
     p.lensBlurPx = p.imageNoise = p.vignetting = p.exposureSwing = 0;
     p.sigmaInverseDepth = p.disparityStepPx = p.lateralSigmaPx = p.calibrationSigma = 0;
+    p.focalLengthError = p.principalPointError = p.depthScaleError = 0;
     p.sigmaDepth = p.sigmaRelative = 0;
     p.edgeLossPx = p.shadowBaseline = 0;
     p.maxIncidenceDeg = 90;
@@ -21,6 +23,9 @@ SimulationParams SimulationParams::ideal()
 
 namespace
 {
+/** Streams of random numbers. */
+constexpr std::uint64_t kCalibrationPurpose = 0xca11b, kDepthScalePurpose = 0x5ca1e;
+
 /** Active stereo, 848x480, f = 424 px at that width, b = 50 mm; 0.08 px rms of disparity in 1/32 px
  * (Keselman et al. 2017; Intel's data sheet 337029). The infrared cameras have a global shutter. */
 void makeD435(SimulationParams& p)
@@ -100,6 +105,9 @@ void SimulationParams::check() const
     checkRange("width", width, 16, 4096);
     checkRange("height", height, 16, 4096);
     checkRange("focalLengthPx", focalLengthPx, 50, 1e4);
+    checkRange("focalLengthError", focalLengthError, 0, 0.1);
+    checkRange("principalPointError", principalPointError, 0, 50);
+    checkRange("depthScaleError", depthScaleError, 0, 0.1);
     checkRange("fps", fps, 0.1, 1000);
     checkRange("duration", duration, 0, 36000);
     checkRange("startStamp", startStamp, 0, 1e10);
@@ -143,6 +151,23 @@ PinholeCamera SimulationParams::camera() const
     out.cx = 0.5 * (width - 1);
     out.cy = 0.5 * (height - 1);
     return out;
+}
+
+PinholeCamera SimulationParams::trueCamera(std::uint64_t seed) const
+{
+    PinholeCamera out = camera();
+    Random random({seed, kCalibrationPurpose});
+    const double focal = 1 + focalLengthError * random.gaussian();
+    out.fx *= focal;
+    out.fy *= focal;
+    out.cx += principalPointError * width / 640.0 * random.gaussian();
+    out.cy += principalPointError * width / 640.0 * random.gaussian();
+    return out;
+}
+
+double SimulationParams::depthScale(std::uint64_t seed) const
+{
+    return 1 + depthScaleError * Random({seed, kDepthScalePurpose}).gaussian();
 }
 
 ShutterModel SimulationParams::shutter() const { return {readoutColour, readoutDepth, depthDelay}; }

@@ -21,7 +21,7 @@ namespace pointplane
 class DepthSensor
 {
  public:
-    /** \param cameraKey seed of this camera's calibration error */
+    /** \param cameraKey seed of what is wrong with this camera's calibration */
     DepthSensor(const SimulationParams& params, const Scene& scene, std::uint64_t cameraKey = 0);
 
     /** \param cast true picture \param frameKey seed of this frame's noise
@@ -50,7 +50,8 @@ class DepthSensor
     void dropEdges(const cv::Mat& inverseDepth, int v, uchar* readable) const;
 
     SimulationParams params_;
-    PinholeCamera camera_;
+    PinholeCamera camera_;        //!< the true one
+    float depthScale_;            //!< what depths are multiplied by
     double pixelScale_;           //!< image width / 640
     double step_;                 //!< of the inverse depth [1/m], 0 = continuous
     double matchingSigma_{0};     //!< noise before rounding [1/m]

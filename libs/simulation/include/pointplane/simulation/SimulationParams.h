@@ -5,6 +5,7 @@
 #include <pointplane/sensor/PinholeCamera.h>
 #include <pointplane/sensor/RgbdFrame.h>
 
+#include <cstdint>
 #include <string>
 
 namespace pointplane
@@ -16,6 +17,9 @@ struct SimulationParams
     int width{640};
     int height{480};
     double focalLengthPx{525};
+    double focalLengthError{0};
+    double principalPointError{0};
+    double depthScaleError{0};
     double fps{30};
     double duration{18};
     double startStamp{1500000000};
@@ -67,6 +71,19 @@ struct SimulationParams
         v("width", width, "px", "width of the images");
         v("height", height, "px", "height of the images");
         v("focalLengthPx", focalLengthPx, "px", "focal length of an image 640 px wide");
+        v("focalLengthError",
+          focalLengthError,
+          "-",
+          "the stated focal length is off by this fraction (standard deviation over seeds)");
+        v("principalPointError",
+          principalPointError,
+          "px",
+          "the stated principal point is off by this, along each axis (standard deviation over "
+          "seeds)");
+        v("depthScaleError",
+          depthScaleError,
+          "-",
+          "all depths are off by the same fraction (standard deviation over seeds)");
         v("fps", fps, "1/s", "frames a second");
         v("duration", duration, "s", "length of the sequence");
         v("startStamp", startStamp, "s", "time of the first frame, UTC");
@@ -154,7 +171,15 @@ struct SimulationParams
     /** \throws std::invalid_argument naming the key */
     void check() const;
 
+    /** As the recording states it. */
     [[nodiscard]] PinholeCamera camera() const;
+
+    /** Its calibration is off by what the seed draws. */
+    [[nodiscard]] PinholeCamera trueCamera(std::uint64_t seed) const;
+
+    /** Factor on all depths, drawn by the seed. */
+    [[nodiscard]] double depthScale(std::uint64_t seed) const;
+
     [[nodiscard]] ShutterModel shutter() const;
 };
 }  // namespace pointplane
