@@ -128,6 +128,18 @@ TEST(se3, leftPerturbationOfAPoint)
     EXPECT_THAT(J, IsMatrixNear(expected, 1e-9));
 }
 
+TEST(se3, nearestRotationTurnsVectorsOntoOthers)
+{
+    const Eigen::Matrix3d R = so3Exp({0.5, -1.2, 2});
+    Eigen::Matrix<double, 3, 4> b;
+    b << 1, 0.2, -3, 1, 0, 2, 0.5, 1, 0.3, 0.1, 1, -2;
+    EXPECT_TRUE(nearestRotation(R * b * b.transpose()).isApprox(R, 1e-12));
+    // Of points in a plane, too, and never a mirror image.
+    b.row(2).setZero();
+    EXPECT_TRUE(nearestRotation(R * b * b.transpose()).isApprox(R, 1e-12));
+    EXPECT_NEAR(nearestRotation(-Eigen::Matrix3d::Identity()).determinant(), 1, 1e-12);
+}
+
 TEST(se3, orthonormalisedRepairsDrift)
 {
     GaussianSampler random(6);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <limits>
+#include <string>
 
 #include "hell_frames.h"
 #include <gmock/gmock.h>
@@ -103,6 +104,53 @@ TEST(OdometryEnvelopeOfBlankWalls, fewPointsAfterAGapDoNotDecide)
     }
     const OdometryResult back = odometry.process(walls.frame(94));
     EXPECT_LT(test::normalisedError(walls.trueMotion(43, 94), back.increment), 3);
+}
+
+/** Planes alone, and nothing to see for two and a half seconds. */
+class OdometryEnvelopeOfPlanes : public testing::Test
+{
+ protected:
+    static OdometryResult back(const SimulatedSequence& sequence)
+    {
+        OdometryParams params;
+        params.pipeline.usePoints = false;
+        test::CheckedOdometry odometry(params);
+        for (int i = 0; i <= kLast; ++i)
+        {
+            (void)odometry.process(sequence.frame(i));
+        }
+        return odometry.process(sequence.frame(kBack));
+    }
+
+    static SimulatedSequence sequence(const std::string& scene)
+    {
+        SimulationParams params;
+        params.duration = 4;
+        return {scene, params, 5};
+    }
+
+    static constexpr int kLast = 30, kBack = 110;
+};
+
+/** The camera has gone 0.9 m around a cabinet, and turned by 31 deg. */
+TEST_F(OdometryEnvelopeOfPlanes, planesAreFoundAgainWithoutAPrediction)
+{
+    const SimulatedSequence cabinet = sequence("cabinet");
+    const OdometryResult result = back(cabinet);
+    const Eigen::Isometry3d truth = cabinet.trueMotion(kLast, kBack);
+    EXPECT_GT(truth.translation().norm(), 0.5);
+    EXPECT_EQ(result.status, TrackingStatus::Tracked) << result.reason;
+    EXPECT_THAT(result.increment.mean, test::IsNearPose(truth, 0.01, 0.04));
+    EXPECT_LT(test::normalisedError(truth, result.increment), 3);
+}
+
+/** Three turns lay the walls of a corner over each other. */
+TEST_F(OdometryEnvelopeOfPlanes, whatFitsInSeveralWaysIsNotChosen)
+{
+    const SimulatedSequence corner = sequence("corner");
+    const OdometryResult result = back(corner);
+    EXPECT_EQ(result.status, TrackingStatus::Predicted);
+    EXPECT_LT(test::normalisedError(corner.trueMotion(kLast, kBack), result.increment), 3);
 }
 
 TEST_F(OdometryEnvelope, blindForASecondAndBackInAKnownPlace)

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/core/se3.h>
 
+#include <Eigen/LU>
+#include <Eigen/SVD>
+
 #include <cmath>
 
 namespace pointplane
@@ -88,5 +91,13 @@ Eigen::Isometry3d orthonormalised(const Eigen::Isometry3d& T)
     Eigen::Isometry3d out = T;
     out.linear() = Eigen::Quaterniond(T.linear()).normalized().toRotationMatrix();
     return out;
+}
+
+Eigen::Matrix3d nearestRotation(const Eigen::Matrix3d& S)
+{
+    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(S, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    const bool isReflection = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0;
+    const Eigen::Vector3d signs(1, 1, isReflection ? -1 : 1);
+    return svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
 }
 }  // namespace pointplane

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/se3.h>
 #include <pointplane/evaluation/association.h>
 #include <pointplane/evaluation/ate.h>
-
-#include <Eigen/LU>
-#include <Eigen/SVD>
 
 #include <cstdio>
 #include <stdexcept>
@@ -16,14 +14,8 @@ Eigen::Isometry3d alignPoints(const Eigen::Matrix3Xd& points_a, const Eigen::Mat
     const Eigen::Vector3d mean_b = points_b.rowwise().mean();
     const Eigen::Matrix3d W =
         (points_a.colwise() - mean_a) * (points_b.colwise() - mean_b).transpose();
-    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(W, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    Eigen::Vector3d signs(1, 1, 1);
-    if (svd.matrixU().determinant() * svd.matrixV().determinant() < 0)
-    {
-        signs.z() = -1;  // a reflection would fit better, but cameras do not do that
-    }
     Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-    T.linear() = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
+    T.linear() = nearestRotation(W);
     T.translation() = mean_a - T.linear() * mean_b;
     return T;
 }

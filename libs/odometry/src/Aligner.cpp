@@ -231,27 +231,69 @@ void Aligner::distrustPoints(const Scene& scene, Alignment& alignment) const
     }
 }
 
-/** Motions that the images alone tell, until one is convincing. */
+/** Motions that the images alone tell, until one is convincing: by their points, and where these
+ * tell none, by their planes. */
 void Aligner::searchImages(const Scene& scene, Alignment& best) const
 {
-    const Eigen::Isometry3d T_prev_world = scene.track.previous().T_world_cam.inverse();
-    for (const Reference* reference : scene.track.references())
+    for (const auto& motionOf : {&Aligner::motionOfPoints, &Aligner::motionOfPlanes})
     {
-        const auto motion = scene.frontEnd.alignImages(*reference, scene.current);
-        if (!motion)
+        bool isFound = false;
+        for (const Reference* reference : scene.track.references())
         {
-            continue;
+            const auto T_prev_cur = motionOf(scene, *reference);
+            if (!T_prev_cur)
+            {
+                continue;
+            }
+            isFound = true;
+            const Motion start{*T_prev_cur, scene.predicted.motion.mean.velocity};
+            Judge::keepBetter(best, attempt(scene, start, Search::Wide), scene.errors.usual());
+            if (Judge::isConvincing(best, scene.errors.usual()))
+            {
+                return;
+            }
         }
-        const Eigen::Isometry3d T_prev_cur =
-            T_prev_world * reference->T_world_cam * motion->T_cur_ref.inverse();
-        Alignment other =
-            attempt(scene, {T_prev_cur, scene.predicted.motion.mean.velocity}, Search::Wide);
-        Judge::keepBetter(best, std::move(other), scene.errors.usual());
-        if (Judge::isConvincing(best, scene.errors.usual()))
+        if (isFound)
         {
             return;
         }
     }
+}
+
+std::optional<Eigen::Isometry3d> Aligner::motionOfPoints(
+    const Scene& scene, const Reference& reference)
+{
+    const auto motion = scene.frontEnd.alignImages(reference, scene.current);
+    return motion ? std::optional(toCurrent(scene, reference, motion->T_cur_ref)) : std::nullopt;
+}
+
+/** Where planes lie alike in several places, only one may be near the prediction. */
+std::optional<Eigen::Isometry3d> Aligner::motionOfPlanes(
+    const Scene& scene, const Reference& reference)
+{
+    std::optional<Eigen::Isometry3d> out;
+    for (const Eigen::Isometry3d& T_cur_ref : scene.frontEnd.alignPlanes(reference, scene.current))
+    {
+        const Eigen::Isometry3d T_prev_cur = toCurrent(scene, reference, T_cur_ref);
+        if (Judge::isSurprising(T_prev_cur, scene.predicted.pose))
+        {
+            continue;
+        }
+        if (out)
+        {
+            return {};
+        }
+        out = T_prev_cur;
+    }
+    return out;
+}
+
+/** T_prev_cur of a motion from a reference. */
+Eigen::Isometry3d Aligner::toCurrent(
+    const Scene& scene, const Reference& reference, const Eigen::Isometry3d& T_cur_ref)
+{
+    return scene.track.previous().T_world_cam.inverse() * reference.T_world_cam *
+           T_cur_ref.inverse();
 }
 
 std::optional<int> Aligner::recognise(

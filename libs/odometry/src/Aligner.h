@@ -71,6 +71,12 @@ class Aligner
     void settleRivals(const Scene& scene, Alignment& alignment) const;
     void distrustPoints(const Scene& scene, Alignment& alignment) const;
     void searchImages(const Scene& scene, Alignment& best) const;
+    [[nodiscard]] static std::optional<Eigen::Isometry3d> motionOfPoints(
+        const Scene& scene, const Reference& reference);
+    [[nodiscard]] static std::optional<Eigen::Isometry3d> motionOfPlanes(
+        const Scene& scene, const Reference& reference);
+    [[nodiscard]] static Eigen::Isometry3d toCurrent(
+        const Scene& scene, const Reference& reference, const Eigen::Isometry3d& T_cur_ref);
     [[nodiscard]] static Eigen::Isometry3d fromWorld(
         const Scene& scene, const Eigen::Isometry3d& T_prev_cur);
     [[nodiscard]] static std::vector<Association> associate(

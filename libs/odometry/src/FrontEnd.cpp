@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FrontEnd.h"
 
+#include <algorithm>
 #include <functional>
 #include <future>
 
+#include "Judge.h"
 #include "Stopwatch.h"
 #include "frame_checks.h"
 
@@ -21,7 +23,8 @@ FrontEnd::FrontEnd(const OdometryParams& params)
           params.pointMatcher,
           params.pointLifter,
           params.depthNoise),
-      imageAligner_(params.pointLifter, params.depthNoise)
+      imageAligner_(params.pointLifter, params.depthNoise),
+      planeAligner_(params.planeMatcher)
 {
 }
 
@@ -97,8 +100,7 @@ Agreement FrontEnd::compare(
                             : Agreement();
 }
 
-std::optional<ImageMotion> FrontEnd::alignImages(
-    const Reference& reference, const Features& current) const
+MatchedPoints FrontEnd::matchImages(const Reference& reference, const Features& current) const
 {
     if (!params_.usePoints || !reference.images)
     {
@@ -112,10 +114,30 @@ std::optional<ImageMotion> FrontEnd::alignImages(
         }
         return std::cref(*points);
     };
-    return imageAligner_.align(
+    return imageAligner_.match(
         described(reference.images->described, reference.images->frame),
-        described(current.described, current.frame),
-        current.frame.camera);
+        described(current.described, current.frame));
+}
+
+std::optional<ImageMotion> FrontEnd::alignImages(
+    const Reference& reference, const Features& current) const
+{
+    return imageAligner_.align(matchImages(reference, current), current.frame.camera);
+}
+
+std::vector<Eigen::Isometry3d> FrontEnd::alignPlanes(
+    const Reference& reference, const Features& current) const
+{
+    if (!params_.usePlanes || !reference.images)
+    {
+        return {};
+    }
+    std::vector<Eigen::Isometry3d> out =
+        planeAligner_.motions(reference.planes, current.planes, matchImages(reference, current));
+    const auto isContradicted = [&](const Eigen::Isometry3d& T_cur_ref)
+    { return !Judge::areConvincing(compare(reference, current, T_cur_ref, 0)); };
+    out.erase(std::remove_if(out.begin(), out.end(), isContradicted), out.end());
+    return out;
 }
 
 Association FrontEnd::associate(

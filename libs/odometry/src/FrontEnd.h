@@ -5,6 +5,7 @@
 #include <pointplane/odometry/MovingRegions.h>
 #include <pointplane/odometry/OdometryParams.h>
 #include <pointplane/odometry/OdometryResult.h>
+#include <pointplane/odometry/PlaneAligner.h>
 #include <pointplane/odometry/Reference.h>
 #include <pointplane/sensor/DepthNoiseLearner.h>
 
@@ -46,6 +47,11 @@ class FrontEnd
     [[nodiscard]] std::optional<ImageMotion> alignImages(
         const Reference& reference, const Features& current) const;
 
+    /** Motions T_cur_ref without a prediction (PlaneAligner) with which the surfaces agree. Where
+     * surfaces look alike there are several, of which one is right at most. */
+    [[nodiscard]] std::vector<Eigen::Isometry3d> alignPlanes(
+        const Reference& reference, const Features& current) const;
+
     /** Finds points and planes of a reference again.
      * \param T_cur_ref where to look \param radiusFactor above 1 looks farther, less thoroughly */
     [[nodiscard]] Association associate(
@@ -61,6 +67,9 @@ class FrontEnd
     }
 
  private:
+    [[nodiscard]] MatchedPoints matchImages(
+        const Reference& reference, const Features& current) const;
+
     PipelineParams params_;
     std::optional<PinholeCamera> camera_;  //!< of the frame before
     DepthNoiseLearner depthNoise_;
@@ -68,5 +77,6 @@ class FrontEnd
     PlaneMatcher planeMatcher_;
     PointStage pointStage_;
     ImageAligner imageAligner_;
+    PlaneAligner planeAligner_;
 };
 }  // namespace pointplane

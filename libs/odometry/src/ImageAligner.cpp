@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/se3.h>
 #include <pointplane/odometry/ImageAligner.h>
 
 #include <Eigen/Geometry>
@@ -39,17 +40,12 @@ PointMatcher::TParams matcherParams()
     return out;
 }
 
-/** Pairs of points, the second where the first is now. */
-struct Pairs
-{
-    std::vector<Eigen::Vector3d> ref, cur;
-};
-
 /** Whether pairs agree with a motion. */
 class ReprojectionTest
 {
  public:
-    ReprojectionTest(const Pairs& pairs, const PinholeCamera& camera, const DepthNoise& noise)
+    ReprojectionTest(
+        const MatchedPoints& pairs, const PinholeCamera& camera, const DepthNoise& noise)
         : pairs_(pairs), camera_(camera), noise_(noise)
     {
     }
@@ -119,17 +115,14 @@ class ReprojectionTest
         {
             S += weight(i) * (pairs_.cur[i] - meanCur) * (pairs_.ref[i] - meanRef).transpose();
         }
-        const Eigen::JacobiSVD<Eigen::Matrix3d> svd(S, Eigen::ComputeFullU | Eigen::ComputeFullV);
-        Eigen::Vector3d sign(1, 1, 1);
-        sign.z() = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
         Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-        T.linear() = svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose();
+        T.linear() = nearestRotation(S);
         T.translation() = meanCur - T.linear() * meanRef;
         return T;
     }
 
  private:
-    const Pairs& pairs_;
+    const MatchedPoints& pairs_;
     const PinholeCamera& camera_;
     const DepthNoise& noise_;
 };
@@ -153,14 +146,13 @@ DescribedPoints ImageAligner::describe(const RgbdFrame& frame) const
     return out;
 }
 
-std::optional<ImageMotion> ImageAligner::align(
-    const DescribedPoints& reference,
-    const DescribedPoints& current,
-    const PinholeCamera& camera) const
+MatchedPoints ImageAligner::match(
+    const DescribedPoints& reference, const DescribedPoints& current) const
 {
-    if (reference.points.size() < kFewPoints || current.points.size() < kFewPoints)
+    MatchedPoints out;
+    if (reference.points.empty() || current.points.empty())
     {
-        return {};
+        return out;
     }
     std::vector<Eigen::Vector2d> ref_px, cur_px;
     for (const PointFeature& p : reference.points)
@@ -171,13 +163,18 @@ std::optional<ImageMotion> ImageAligner::align(
     {
         cur_px.push_back(p.uv_px);
     }
-    Pairs pairs;
     for (const PointMatch& match :
          matcher_.match(ref_px, reference.descriptors, cur_px, current.descriptors))
     {
-        pairs.ref.push_back(reference.points[static_cast<size_t>(match.ref)].p_cam.mean);
-        pairs.cur.push_back(current.points[static_cast<size_t>(match.cur)].p_cam.mean);
+        out.ref.push_back(reference.points[static_cast<size_t>(match.ref)].p_cam.mean);
+        out.cur.push_back(current.points[static_cast<size_t>(match.cur)].p_cam.mean);
     }
+    return out;
+}
+
+std::optional<ImageMotion> ImageAligner::align(
+    const MatchedPoints& pairs, const PinholeCamera& camera) const
+{
     const size_t n = pairs.ref.size();
     if (n < kFewPoints)
     {

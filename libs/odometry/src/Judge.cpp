@@ -46,9 +46,9 @@ int observableDirections(const Matrix6d& information, const Matrix6d& priorCovar
 }
 
 /** Root mean square deviation from the predicted pose, in its standard deviations. */
-double surprise(const PoseEstimate& estimate, const PoseGaussian& predicted)
+double surprise(const Eigen::Isometry3d& T_prev_cur, const PoseGaussian& predicted)
 {
-    const Vector6d e = leftError(estimate.motion.mean.T_prev_cur, predicted.mean);
+    const Vector6d e = leftError(T_prev_cur, predicted.mean);
     return std::sqrt(e.dot(predicted.cov.ldlt().solve(e)) / 6);
 }
 
@@ -143,6 +143,16 @@ bool Judge::isConvincing(const Alignment& a, const NoiseFactors& usual)
            a.estimate.planeChi2PerDof < kConvincingRise * usual.planes;
 }
 
+bool Judge::areConvincing(const Agreement& surfaces)
+{
+    return surfaces.seen() >= kEnoughSurfaces && surfaces.fraction() > kConvincingSurfaces;
+}
+
+bool Judge::isSurprising(const Eigen::Isometry3d& T_prev_cur, const PoseGaussian& predicted)
+{
+    return surprise(T_prev_cur, predicted) > kMostSurprise;
+}
+
 std::string Judge::whyUnsettled(const Rivalry& rivalry, const Prediction& predicted)
 {
     if (!rivalry.isClear())
@@ -212,7 +222,7 @@ void Judge::contradict(Alignment& alignment, const NoiseFactors& usual) const
     }
     std::ostringstream reason;
     const double agreement = alignment.agreement.fraction();
-    const double farOff = surprise(alignment.estimate, alignment.predicted.pose);
+    const Eigen::Isometry3d& T_prev_cur = alignment.estimate.motion.mean.T_prev_cur;
     if (!alignment.unsettled.empty())
     {
         reason << alignment.unsettled;
@@ -223,9 +233,9 @@ void Judge::contradict(Alignment& alignment, const NoiseFactors& usual) const
                << " % of the surfaces where the motion of " << alignment.numMatches()
                << " points and planes puts them";
     }
-    else if (farOff > kMostSurprise && !isConvincing(alignment, usual))
+    else if (isSurprising(T_prev_cur, alignment.predicted.pose) && !isConvincing(alignment, usual))
     {
-        reason << "the motion is " << std::lround(farOff)
+        reason << "the motion is " << std::lround(surprise(T_prev_cur, alignment.predicted.pose))
                << " standard deviations from the predicted one, and too little confirms it";
     }
     else if (isOfDoubtfulPlanes(alignment))

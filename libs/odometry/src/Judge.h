@@ -37,6 +37,14 @@ class Judge
     /** Whether it needs no comparison with others, and is believed even far from the prediction. */
     [[nodiscard]] static bool isConvincing(const Alignment& alignment, const NoiseFactors& usual);
 
+    /** Whether enough surfaces are compared, and agree as they do with a right motion. */
+    [[nodiscard]] static bool areConvincing(const Agreement& surfaces);
+
+    /** Whether a motion from the previous frame is too far from the predicted one to be believed
+     * for its own sake. */
+    [[nodiscard]] static bool isSurprising(
+        const Eigen::Isometry3d& T_prev_cur, const PoseGaussian& predicted);
+
     /** Why the winner of two motions is not believed to be the camera's, or empty: its surface is
      * not clearly larger, or the estimate went with the other one. That one may have been followed
      * in the frames before, too; so it takes two frames to turn to the winner. */

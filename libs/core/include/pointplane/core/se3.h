@@ -30,5 +30,9 @@ namespace pointplane
 
 /** Re-orthonormalises the rotation, for poses that are composed over hours. */
 [[nodiscard]] Eigen::Isometry3d orthonormalised(const Eigen::Isometry3d& T);
+
+/** The rotation R with the largest trace of R^T S: with S = sum of a b^T, that by which the b come
+ * closest to the a in the least-squares sense, never a reflection (Kabsch 1976, 1978). */
+[[nodiscard]] Eigen::Matrix3d nearestRotation(const Eigen::Matrix3d& S);
 /** @} */
 }  // namespace pointplane

@@ -20,6 +20,13 @@ struct DescribedPoints
     cv::Mat descriptors;  //!< a row a point
 };
 
+/** Points of one frame, and which points of another they are by their descriptors. Some are wrong.
+ */
+struct MatchedPoints
+{
+    std::vector<Eigen::Vector3d> ref, cur;  //!< each in its own camera's frame [m]
+};
+
 /** A motion that was found without a prediction. */
 struct ImageMotion
 {
@@ -42,11 +49,13 @@ class ImageAligner
     /** Key points of a frame that have depth. */
     [[nodiscard]] DescribedPoints describe(const RgbdFrame& frame) const;
 
+    /** By descriptor, over the whole image. */
+    [[nodiscard]] MatchedPoints match(
+        const DescribedPoints& reference, const DescribedPoints& current) const;
+
     /** \param camera of both frames \return nothing if too few matches agree about a motion */
     [[nodiscard]] std::optional<ImageMotion> align(
-        const DescribedPoints& reference,
-        const DescribedPoints& current,
-        const PinholeCamera& camera) const;
+        const MatchedPoints& matches, const PinholeCamera& camera) const;
 
  private:
     PointDetector detector_;
