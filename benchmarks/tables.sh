@@ -24,6 +24,17 @@ quietly() {
     }
 }
 
+# calibration_errors: options of pointplane-simulate for a camera that is calibrated as well as config.ini
+# says.
+calibration_errors() {
+    awk '$1 == "[Covariance]" {inside = 1; next}
+         /^\[/ {inside = 0}
+         inside && $1 ~ /^(focalLength|principalPoint|depthScale)$/ {
+             print "--set"
+             print $1 "Error=" $3
+         }' config.ini
+}
+
 # replace PAGE NAME FILE: the lines between <!-- NAME:begin --> and <!-- NAME:end -->.
 replace() {
     if [[ $(grep -cE "<!-- $2:(begin|end) -->" "$1") != 2 ]]; then

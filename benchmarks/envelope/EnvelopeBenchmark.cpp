@@ -12,6 +12,7 @@
 #include <ostream>
 #include <regex>
 
+#include "envelope_overview.h"
 #include "envelope_tables.h"
 #include "frame_changes.h"
 #include "markdown_section.h"
@@ -363,7 +364,7 @@ void EnvelopeBenchmark::run(std::ostream& out, std::ostream& err) const
     }
     if (!markdownFile_.empty())
     {
-        const std::string text = "\n" + envelopeSummary(all) + "\n" + envelopeTables(all) + "\n";
+        const std::string text = "\n" + envelopeSummary(all) + envelopeOverview(all) + "\n";
         replaceMarkdownSection(markdownFile_, section_, text);
     }
 }

@@ -3,89 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 #include <fstream>
 #include <functional>
 #include <iterator>
 #include <sstream>
 
+#include "envelope_cells.h"
+
 namespace pointplane
 {
 namespace
 {
-[[nodiscard]] double mm(double metres) { return 1e3 * metres; }
-[[nodiscard]] double degrees(double radians) { return radians * 180 / M_PI; }
-
-[[nodiscard]] __attribute__((format(printf, 1, 2))) std::string text(const char* format, ...)
-{
-    char out[256];
-    va_list args;
-    va_start(args, format);
-    std::vsnprintf(out, sizeof out, format, args);
-    va_end(args);
-    return out;
-}
-
-/** Millimetres and degrees with as many digits as tell something. */
-[[nodiscard]] std::string errorText(double metres, double radians)
-{
-    return text("%.*f / %.2f", mm(metres) < 9.95 ? 1 : 0, mm(metres), degrees(radians));
-}
-
-[[nodiscard]] std::string rpeText(const EnvelopeScore& s)
-{
-    if (!s.failure.empty())
-    {
-        return "gave up";
-    }
-    return s.numPairs > 0 ? errorText(s.rpeTranslation, s.rpeRotation) : "-";
-}
-
-[[nodiscard]] std::string shareText(const EnvelopeScore& s)
-{
-    const auto all = static_cast<double>(std::max<std::size_t>(s.numSteps, 1));
-    return text("%.0f", std::floor(100 * static_cast<double>(s.numTracked) / all));
-}
-
-/** All methods under one condition on one sequence; ours first. */
-struct Cell
-{
-    const EnvelopeScore* own{nullptr};
-    std::vector<const EnvelopeScore*> others;  //!< ours
-    std::vector<const EnvelopeScore*> peers;
-};
-
-[[nodiscard]] std::vector<Cell> cellsOf(const std::vector<EnvelopeScore>& scores)
-{
-    std::vector<Cell> out;
-    for (const EnvelopeScore& s : scores)
-    {
-        if (out.empty() || out.back().own->sequence != s.sequence ||
-            out.back().own->condition != s.condition)
-        {
-            out.push_back({&s, {}, {}});
-            continue;
-        }
-        (s.isPeer ? out.back().peers : out.back().others).push_back(&s);
-    }
-    return out;
-}
-
-/** The peer with the smallest RPE, or nullptr. */
-[[nodiscard]] const EnvelopeScore* bestPeer(const Cell& cell, double EnvelopeScore::*value)
-{
-    const EnvelopeScore* best = nullptr;
-    for (const EnvelopeScore* s : cell.peers)
-    {
-        if (s->failure.empty() && s->numPairs > 0 && (best == nullptr || s->*value < best->*value))
-        {
-            best = s;
-        }
-    }
-    return best;
-}
-
 [[nodiscard]] std::string header(const Cell& cell)
 {
     const bool hasTruth = cell.own->truth != Truth::None;

@@ -7,6 +7,8 @@
 #include <fstream>
 
 #include "TempDir.h"
+#include "envelope_cells.h"
+#include "envelope_overview.h"
 #include "envelope_tables.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -214,4 +216,34 @@ TEST(EnvelopeTables, CellsBehindAPeerAreNamed)
     peer.rpeTranslation = 1;
     peer.rpeRotation = 1;
     EXPECT_THAT(envelopeSummary({own, peer}), HasSubstr("Behind the best peer in 0 of 1 cells."));
+}
+
+TEST(EnvelopeTables, OverviewHasAColumnPerSequence)
+{
+    const BenchmarkSequence sequence = straight(31);
+    std::vector<MethodStep> steps = perfect(sequence);
+    EnvelopeScore peer = scoreOf(sequence, steps);
+    peer.method = "peer";
+    peer.isPeer = true;
+    peer.rpeTranslation = 0.0123;
+    steps[12].T_prev_cur.translation().x() = 0.06;
+    const EnvelopeScore own = scoreOf(sequence, steps);
+    // Under a single condition, a sequence has a line of its own.
+    EXPECT_THAT(
+        envelopeOverview({own, peer}),
+        HasSubstr(
+            "| " + own.sequence + " | 100 | **" + lengthText(own.rpeTranslation) + "** (12) |"));
+    EnvelopeScore slow = own, other = own;
+    slow.condition = "3 Hz";
+    slow.beyond.clear();
+    slow.rpeTranslation = 0.0045;
+    other.sequence = "other";
+    EnvelopeScore otherSlow = other;
+    otherSlow.condition = "6 Hz";
+    const std::string all = envelopeOverview({own, peer, slow, other, otherSlow});
+    EXPECT_THAT(all, HasSubstr("| condition | " + own.sequence + " | other |"));
+    EXPECT_THAT(all, HasSubstr("| 3 Hz | 4.5 | |"));
+    EXPECT_THAT(all, Not(HasSubstr("At 30 Hz only")));
+    slow.truth = Truth::None;
+    EXPECT_THAT(envelopeOverview({slow}), HasSubstr("| 3 Hz | 100 %, 60 |"));
 }
