@@ -95,12 +95,12 @@ TEST(Surfaces, whatMovesIsCountedAgainstThem)
 }
 
 /** Two people who move in front of a camera that is held still: 10 mm over a second if the surfaces
- * on them count fully. */
+ * on them count fully, 8 mm if points within five times the limit count at the start. */
 TEST(Surfaces, peopleWhoTalkDoNotMoveTheCamera)
 {
-    test::CachedSequence seated("seated");
+    test::CachedSequence seated("seated", 640, 480);
     Odometry odometry{OdometryParams()};
-    const int second = 30, numFrames = 90;
+    const int second = 30, numFrames = 75;
     std::vector<Eigen::Isometry3d> T_world_cam;
     double squares = 0;
     for (int i = 0; i < numFrames; ++i)
@@ -114,6 +114,6 @@ TEST(Surfaces, peopleWhoTalkDoNotMoveTheCamera)
             squares += (motion.translation() - truth.translation()).squaredNorm();
         }
     }
-    EXPECT_LT(std::sqrt(squares / (numFrames - second)), 0.006);
+    EXPECT_LT(std::sqrt(squares / (numFrames - second)), 0.003);
 }
 }  // namespace pointplane

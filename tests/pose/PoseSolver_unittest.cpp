@@ -337,9 +337,12 @@ TEST(PoseSolver, fewPointsThatTellADirectionAreBelieved)
             Eigen::Vector3d(0.002, alongEdge, 0.01).cwiseAbs2().asDiagonal();
     }
     points[8].cur.mean.y() += 0.02;
-    const PoseEstimate estimate = solve({}, points, {}, loosePrior());
+    const PoseProblem problem = test::atRest(points, {}, kStart, loosePrior());
+    const PoseEstimate estimate = PoseSolver({}).solve(problem, {}, 5);
     EXPECT_THAT(estimate.pose().mean, test::IsNearPose(world.T_prev_cur, 1e-3, 1e-3));
     EXPECT_EQ(estimate.numPointInliers, 59);
+    // If none of them is far off for the start, all are left out.
+    EXPECT_EQ(PoseSolver({}).solve(problem, {}).numPointInliers, 52);
 }
 
 TEST(PoseSolver, studentTBearsAWrongPlane)

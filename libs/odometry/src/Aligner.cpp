@@ -16,7 +16,8 @@ namespace pointplane
 {
 namespace
 {
-/** Search radius when too little is found again around the prediction, over the usual one. */
+/** When too little is found again around the prediction: radius in which points are searched for,
+ * and residual up to which they count at the start, over the usual ones. */
 constexpr double kWideSearch = 5;
 
 /** The camera's motion while it waited for the depth image. */
@@ -144,14 +145,15 @@ Alignment Aligner::attempt(const Scene& scene, const Motion& start, Search searc
     out.predicted = scene.predicted;
     Motion sought = start;                       // where features are searched for
     Motion first = scene.predicted.motion.mean;  // where the solver starts
+    const double reach = search == Search::Wide ? kWideSearch : 1;
     if (search == Search::Wide)
     {
-        out.associations = associate(scene, start.T_prev_cur, kWideSearch);
-        estimate(scene, start, out);
+        out.associations = associate(scene, start.T_prev_cur, reach);
+        estimate(scene, start, out, reach);
         sought = first = out.estimate.motion.mean;
     }
     out.associations = associate(scene, sought.T_prev_cur, 1);
-    estimate(scene, first, out);
+    estimate(scene, first, out, reach);
     searchAgain(scene, sought.T_prev_cur, first, out);
     judge_.judge(out);
     settleRivals(scene, out);
@@ -335,7 +337,8 @@ std::vector<Association> Aligner::associate(
 }
 
 /** From the associations; the prediction where there is too little to estimate from. */
-void Aligner::estimate(const Scene& scene, const Motion& start, Alignment& alignment) const
+void Aligner::estimate(
+    const Scene& scene, const Motion& start, Alignment& alignment, double startWidening) const
 {
     const Stopwatch watch;
     PoseProblem& problem = alignment.problem;
@@ -350,7 +353,7 @@ void Aligner::estimate(const Scene& scene, const Motion& start, Alignment& align
     out.motion = scene.predicted.motion;
     if (static_cast<int>(alignment.numMatches()) >= judge_.minMatches())
     {
-        out = solver_.solve(problem, start);
+        out = solver_.solve(problem, start, startWidening);
     }
     out.iterations += alignment.estimate.iterations;
     alignment.estimate = out;

@@ -81,7 +81,11 @@ class Aligner
         const Scene& scene, const Eigen::Isometry3d& T_prev_cur);
     [[nodiscard]] static std::vector<Association> associate(
         const Scene& scene, const Eigen::Isometry3d& T_prev_cur, double radiusFactor);
-    void estimate(const Scene& scene, const Motion& start, Alignment& alignment) const;
+    void estimate(
+        const Scene& scene,
+        const Motion& start,
+        Alignment& alignment,
+        double startWidening = 1) const;
     static void verify(const Scene& scene, Alignment& alignment);
 
     PipelineParams params_;

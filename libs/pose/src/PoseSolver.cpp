@@ -23,10 +23,6 @@ constexpr double kStepTolerance = 1e-5;
 /** Keeps what nothing determines finite. */
 constexpr double kDamping = 1e-9;
 
-/** Of the robust scale at the start: where a few points tell a direction and the motion was not
- * foreseen, all of them look like outliers there, and Tukey's function never takes them back. */
-constexpr double kStartWidening = 4;
-
 /** Squared Mahalanobis norm of the pose's deviation from the predicted one. */
 double deviation(const MotionPrior& prior, const Vector12d& residual)
 {
@@ -185,12 +181,13 @@ PoseSolver::PoseSolver(const TParams& params)
     params.check();
 }
 
-PoseEstimate PoseSolver::solve(const PoseProblem& problem, const Motion& start) const
+PoseEstimate PoseSolver::solve(
+    const PoseProblem& problem, const Motion& start, double startWidening) const
 {
     const RobustPrior prior{problem.prior, settings_.params.priorStudentDof};
     NormalEquations equations(settings_, problem);
     Descent descent(equations, prior, start, settings_.params.maxIterations);
-    descent.step(kStartWidening);
+    descent.step(startWidening);
     while (descent.step(1))
     {
     }

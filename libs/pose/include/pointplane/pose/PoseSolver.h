@@ -134,9 +134,13 @@ class PoseSolver
 
     /** Pose and velocity of the current camera, with their joint covariance.
      * \param start initial motion
+     * \param startWidening factor on Tukey's limit in the first step. With 1, what moves is left
+     * out from the start. Where the start may be far off, so may be the few points that tell a
+     * direction, and what is left out once does not come back.
      * \pre prior and pairs fix all directions; the variance of one that nothing fixes is huge but
      * finite */
-    [[nodiscard]] PoseEstimate solve(const PoseProblem& problem, const Motion& start) const;
+    [[nodiscard]] PoseEstimate solve(
+        const PoseProblem& problem, const Motion& start, double startWidening = 1) const;
 
     /** What a solution depends on, and what it leaves unexplained. \param solution of solve() */
     [[nodiscard]] PoseAnalysis analyse(
