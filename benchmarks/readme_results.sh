@@ -7,21 +7,34 @@ source benchmarks/tables.sh
 
 # One line per sequence: NAME|chosen on it (yes, other seeds, no)|ours mm|ours deg|fast mm|fast deg|peer mm|peer deg|its name|NEES 1|NEES 1 s
 awk -F ' *[|] *' '
-    function finish() {
-        if (name == "" || ours == "") return
-        if (!(name in chosen_on)) { print "error: no summary of " name >"/dev/stderr"; exit 1 }
-        printf "%s|%s|%s|%s|%s|%s|%s\n", name, chosen_on[name], ours, fast == "" ? "-|-" : fast,
-            peer == "" ? "-|-" : peer, best == "" ? "-" : best, nees
-        ours = fast = peer = best = ""
+    NF == 9 && $2 != "sequence" && $2 !~ /^-/ { names[++numNames] = $2; chosen_on[$2] = $3 }
+    /^RPE over a second, mm:/ { section = "mm" }
+    /^The same, deg:/ { section = "deg" }
+    /^NEES over/ { section = "nees" }
+    /^(Frames lost|Time per frame)/ { section = "" }
+    section != "" && $2 == "method" { for (i = 3; i < NF; ++i) sequence[i] = $i; next }
+    section != "" && NF > 3 && $2 !~ /^-/ {
+        if (section == "mm") methods[++numMethods] = $2
+        for (i = 3; i < NF; ++i) value[section, $2, sequence[i]] = $i
     }
-    name == "" && NF == 9 { chosen_on[$2] = $3 }
-    /^### / { finish(); name = $0; sub(/^### /, "", name); sub(/ \(.*/, "", name) }
-    $2 == "config.ini" && NF >= 11 { ours = $3 "|" $4; nees = $9 "|" $11 }
-    $2 == "config-fast.ini" && NF >= 11 { fast = $3 "|" $4 }
-    $2 ~ /^(OpenCV|DIFODO)/ && $3 ~ /^[0-9.]+$/ && (peer == "" || $3 + 0 < peer + 0) {
-        peer = $3 "|" $4; best = $2
+    function error(method, name) {
+        if (value["mm", method, name] !~ /^[0-9.]+$/) return "-|-"
+        return value["mm", method, name] "|" value["deg", method, name]
     }
-    /<!-- accuracy:end -->/ { finish(); name = "" }' docs/accuracy.md >"$work/lines"
+    END {
+        for (k = 1; k <= numNames; ++k) {
+            name = names[k]
+            best = "-"
+            for (j = 1; j <= numMethods; ++j)
+                if (methods[j] ~ /^(OpenCV|DIFODO)/ && value["mm", methods[j], name] ~ /^[0-9.]+$/ &&
+                    (best == "-" || value["mm", methods[j], name] + 0 < value["mm", best, name] + 0))
+                    best = methods[j]
+            nees = "-|-"
+            if (split(value["nees", "config.ini", name], n, " / ") == 3) nees = n[1] "|" n[3]
+            printf "%s|%s|%s|%s|%s|%s|%s\n", name, chosen_on[name], error("config.ini", name),
+                error("config-fast.ini", name), error(best, name), best, nees
+        }
+    }' docs/accuracy.md >"$work/lines"
 [[ -s $work/lines ]] || {
     echo "error: no sequence found in docs/accuracy.md" >&2
     exit 1

@@ -82,11 +82,7 @@ void AccuracyBenchmark::run(std::ostream& out, std::ostream& err) const
     }
     if (!markdownFile_.empty())
     {
-        std::string text = "\n" + markdownSummary(all);
-        for (const SequenceScores& scores : all)
-        {
-            text += "\n" + markdownTable(scores);
-        }
+        const std::string text = "\n" + markdownSummary(all) + markdownOverview(all);
         replaceMarkdownSection(markdownFile_, "accuracy", text + "\n");
     }
 }

@@ -6,6 +6,8 @@
 #include <regex>
 #include <sstream>
 
+#include "MarkdownGrid.h"
+
 namespace pointplane
 {
 namespace
@@ -86,6 +88,41 @@ std::string markdownTable(const SequenceScores& scores)
         out << " |\n";
     }
     return out.str();
+}
+
+std::string markdownOverview(const std::vector<SequenceScores>& all)
+{
+    MarkdownGrid translation, rotation, nees, lost, time;
+    for (const SequenceScores& scores : all)
+    {
+        for (const MethodScore& m : scores.methods)
+        {
+            const auto add = [&](MarkdownGrid& grid, const std::string& text)
+            { grid.add(m.method, scores.sequence, m.failure.empty() ? text : "failed"); };
+            add(translation, number(mm(m.rpeTranslation), 1));
+            add(rotation, number(degrees(m.rpeRotation), 2));
+            add(time, number(m.msMedian, 1) + " / " + number(m.msP99, 1));
+            if (m.numLost + m.numPredicted > 0)
+            {
+                add(lost, std::to_string(m.numLost) + " / " + std::to_string(m.numPredicted));
+            }
+            if (m.nees.front())
+            {
+                std::string text;
+                for (const auto& value : m.nees)
+                {
+                    text += (text.empty() ? "" : " / ") + (value ? number(*value, 2) : "-");
+                }
+                add(nees, text);
+            }
+        }
+    }
+    const auto section = [](const std::string& title, const MarkdownGrid& grid)
+    { return grid.isEmpty() ? "" : "\n" + title + "\n\n" + grid.markdown("method"); };
+    return section("RPE over a second, mm:", translation) + section("The same, deg:", rotation) +
+           section("NEES over 1 frame / 10 frames / 1 s:", nees) +
+           section("Frames lost / predicted, where there are any:", lost) +
+           section("Time per frame, median / 99th percentile, ms:", time);
 }
 
 std::string markdownSummary(const std::vector<SequenceScores>& all)

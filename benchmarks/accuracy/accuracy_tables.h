@@ -22,5 +22,8 @@ struct SequenceScores
 /** A line a sequence: the first method against the best peer of each column, Markdown. */
 [[nodiscard]] std::string markdownSummary(const std::vector<SequenceScores>& all);
 
+/** A table for each measure: a line a method, a column a sequence, Markdown. */
+[[nodiscard]] std::string markdownOverview(const std::vector<SequenceScores>& all);
+
 [[nodiscard]] nlohmann::ordered_json toJson(const std::vector<SequenceScores>& all);
 }  // namespace pointplane

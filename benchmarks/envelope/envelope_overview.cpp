@@ -3,62 +3,16 @@
 
 #include <algorithm>
 #include <functional>
-#include <iterator>
 #include <map>
 #include <utility>
 
+#include "MarkdownGrid.h"
 #include "envelope_cells.h"
 
 namespace pointplane
 {
 namespace
 {
-/** A Markdown table, cell by cell. */
-class Grid
-{
- public:
-    void add(const std::string& row, const std::string& column, std::string text)
-    {
-        for (auto [names, name] : {std::pair(&rows_, &row), std::pair(&columns_, &column)})
-        {
-            if (std::find(names->begin(), names->end(), *name) == names->end())
-            {
-                names->push_back(*name);
-            }
-        }
-        cells_[{row, column}] = std::move(text);
-    }
-
-    /** \param heading above the first column */
-    [[nodiscard]] std::string markdown(const std::string& heading) const
-    {
-        std::string out = "| " + heading + " |", line = "|---|";
-        for (const std::string& column : columns_)
-        {
-            out += " " + column + " |";
-            line += "---|";
-        }
-        out += "\n" + line + "\n";
-        for (const std::string& row : rows_)
-        {
-            out += "| " + row + " |";
-            for (const std::string& column : columns_)
-            {
-                const auto cell = cells_.find({row, column});
-                out += cell == cells_.end() ? " |" : " " + cell->second + " |";
-            }
-            out += "\n";
-        }
-        return out;
-    }
-
-    [[nodiscard]] bool isEmpty() const { return cells_.empty(); }
-
- private:
-    std::vector<std::string> rows_, columns_;
-    std::map<std::pair<std::string, std::string>, std::string> cells_;
-};
-
 using Value = double EnvelopeScore::*;
 using Format = std::function<std::string(double)>;
 
@@ -78,7 +32,7 @@ std::string millimetres(double metres) { return lengthText(metres); }
 std::string degreesText(double radians) { return text("%.2f", degrees(radians)); }
 
 /** What is told of a sequence under its only condition. */
-void addAlone(Grid& grid, const Cell& cell)
+void addAlone(MarkdownGrid& grid, const Cell& cell)
 {
     const EnvelopeScore& own = *cell.own;
     grid.add(own.sequence, "tracked %", shareText(own));
@@ -98,7 +52,7 @@ void addAlone(Grid& grid, const Cell& cell)
         own.neesMedian ? text("%.2f / %.1f", *own.neesMedian, *own.nees99) : "-");
 }
 
-std::string section(const Grid& grid, const std::string& title, const std::string& heading)
+std::string section(const MarkdownGrid& grid, const std::string& title, const std::string& heading)
 {
     return grid.isEmpty() ? "" : "\n" + title + "\n\n" + grid.markdown(heading);
 }
@@ -112,7 +66,7 @@ std::string envelopeOverview(const std::vector<EnvelopeScore>& scores)
     {
         ++numConditions[cell.own->sequence];
     }
-    Grid translation, rotation, steps, alone;
+    MarkdownGrid translation, rotation, steps, alone;
     for (const Cell& cell : cells)
     {
         const EnvelopeScore& own = *cell.own;
