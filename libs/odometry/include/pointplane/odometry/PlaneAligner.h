@@ -29,12 +29,13 @@ class PlaneAligner
     [[nodiscard]] std::vector<Eigen::Isometry3d> motions(
         const PlaneSet& ref, const PlaneSet& cur, const MatchedPoints& points) const;
 
-    /** \name What counts as the same. Normals are unit vectors, distances in m. \{ */
+    /** @name What counts as the same. Normals are unit vectors, distances in m.
+     * @{ */
     [[nodiscard]] bool areParallel(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const;
     [[nodiscard]] bool isAcross(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const;
     [[nodiscard]] bool areNear(double a, double b) const;
     [[nodiscard]] bool areAlike(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) const;
-    /** \} */
+    /** @} */
 
  private:
     double angle_, distance_;
