@@ -22,6 +22,10 @@ namespace
  * nothing. */
 constexpr double kLeastShare = 0.03;
 
+/** Where the pose follows planes in all but this part of their dimensions, their residuals tell
+ * nothing of their noise. Three planes that alone tell the pose have a third left. */
+constexpr double kLeastLeft = 0.25;
+
 /** Side of a part of the view, over its distance: 11 degrees. Half to three times as much tells bad
  * frames as well. */
 constexpr double kCell = 0.2;
@@ -319,7 +323,7 @@ PlaneResiduals SolutionAnalysis::planeResiduals() const
     for (auto& [reference, ofPlanes] : norms)
     {
         const double all = 3 * static_cast<double>(ofPlanes.size()), dof = all - dimensions;
-        if (dof >= 1)
+        if (dof >= kLeastLeft * all)
         {
             out.references.push_back({reference, medianVariance(ofPlanes) * all / dof, dof});
         }
