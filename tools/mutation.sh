@@ -22,8 +22,8 @@ mkdir -p "$tree"
 find "$tree" -mindepth 1 -maxdepth 1 ! -name build -exec rm -rf {} +
 # shellcheck disable=SC2046  # no name in this tree has a space
 cp -p --parents $(git ls-files) "$tree"
-# What an earlier run built last of these files may be a mutant.
-for mutant in "${mutants[@]}"; do
+# What an earlier run, of any lines, built last of a file may be a mutant.
+grep -v '^\(#\|$\)' tools/mutants.txt | while read -r mutant; do
     fields "$mutant"
     touch "$tree/$file"
 done
