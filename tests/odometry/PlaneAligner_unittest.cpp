@@ -182,6 +182,17 @@ TEST_F(PlaneAlignerTest, parallelPlanesTellNothing)
     EXPECT_TRUE(aligner_.motions(walls, walls, {}).empty());
 }
 
+/** Their normals are half a degree off, by noise: that must not be taken for a turn. */
+TEST_F(PlaneAlignerTest, wallsThatFaceEachOtherTellNoTurn)
+{
+    PlaneSet walls;
+    add(walls, {Eigen::Vector3d::UnitX(), 1}, 100);
+    add(walls, {Eigen::Vector3d(-1, 0.01, 0).normalized(), 1}, 90);
+    MatchedPoints points;
+    points.ref = points.cur = {{0.2, 0.3, 2}};
+    EXPECT_TRUE(aligner_.motions(walls, walls, points).empty());
+}
+
 /** Standard deviations of a wall at 2 m: 5 mm and half a degree. */
 TEST_F(PlaneAlignerTest, noiseMovesItALittle)
 {

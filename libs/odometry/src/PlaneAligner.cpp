@@ -88,7 +88,7 @@ class Search
  private:
     void addOfPair(const PlanePairing& a, const PlanePairing& b)
     {
-        if (alike_.areParallel(a.ref.n, b.ref.n) || alike_.areParallel(a.cur.n, b.cur.n))
+        if (tellNoTurn(a.ref.n, b.ref.n) || tellNoTurn(a.cur.n, b.cur.n))
         {
             return;
         }
@@ -128,6 +128,13 @@ class Search
         Eigen::Matrix3d normals;
         normals << a.cur.n.transpose(), b.cur.n.transpose(), third.cur.n.transpose();
         add(R, normals.inverse() * Eigen::Vector3d(a.way(), b.way(), third.way()));
+    }
+
+    /** Whether planes lie along each other, or face each other: a turn about their normals does not
+     * show. */
+    [[nodiscard]] bool tellNoTurn(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const
+    {
+        return alike_.areParallel(a, b) || alike_.areParallel(a, -b);
     }
 
     /** Whether the rotation turns the plane of the reference to where it may be now. */
