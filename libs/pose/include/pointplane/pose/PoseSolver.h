@@ -134,11 +134,10 @@ class PoseSolver
 
     /** Pose and velocity of the current camera, with their joint covariance.
      * \param start initial motion
-     * \param startWidening factor on Tukey's limit in the first step. 1: what moves is left out from
-     * the start. More: points that lie far off still count, for a start that may be far off; what
-     * the first step leaves out does not come back.
-     * \pre prior and pairs fix all directions; the variance of one that nothing fixes is huge but
-     * finite */
+     * \param startWidening factor on Tukey's limit in the first step. 1: what moves is left out
+     * from the start. More: points that lie far off still count, for a start that may be far off;
+     * what the first step leaves out does not come back. \pre prior and pairs fix all directions;
+     * the variance of one that nothing fixes is huge but finite */
     [[nodiscard]] PoseEstimate solve(
         const PoseProblem& problem, const Motion& start, double startWidening = 1) const;
 
