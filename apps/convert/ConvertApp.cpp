@@ -34,6 +34,10 @@ void addOutputOptions(CLI::App& command, RecordingOutput& output)
     command.add_flag("--quiet", output.quiet, "Show no progress");
 }
 
+constexpr const char* kEvenStampsHelp =
+    "Take stamps for those of a camera with a steady rate: without a host's jitter and rounding. "
+    "Poses then belong to these stamps";
+
 void addTumCommand(CLI::App& app, TumOptions& options, RecordingOutput& output)
 {
     CLI::App* tum =
@@ -57,6 +61,7 @@ void addTumCommand(CLI::App& app, TumOptions& options, RecordingOutput& output)
            "Longest time between colour and depth of a frame [s]")
         ->check(isNotNegative())
         ->capture_default_str();
+    tum->add_flag("--even-stamps", options.evenStamps, kEvenStampsHelp);
     addOutputOptions(*tum, output);
 }
 
@@ -97,6 +102,7 @@ CLI::App* addFolderCommand(CLI::App& app, FolderOptions& options, RecordingOutpu
             "Longest time between colour and depth of a frame [s]")
         ->check(isNotNegative())
         ->capture_default_str();
+    folder->add_flag("--even-stamps", options.evenStamps, kEvenStampsHelp);
     addOutputOptions(*folder, output);
     return folder;
 }

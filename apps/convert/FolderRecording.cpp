@@ -14,6 +14,8 @@
 #include <map>
 #include <sstream>
 
+#include "even_stamps.h"
+
 namespace pointplane
 {
 namespace
@@ -32,6 +34,16 @@ constexpr std::uint16_t kNoReading = 65535;  //!< 7-Scenes; farther than any cam
     {
         throw BadFrame(e.what());
     }
+}
+
+[[nodiscard]] std::vector<double> stampsOf(const std::vector<ImageRef>& images)
+{
+    std::vector<double> out;
+    for (const ImageRef& image : images)
+    {
+        out.push_back(*image.stamp);
+    }
+    return out;
 }
 
 [[nodiscard]] std::string sizeText(const cv::Mat& image)
@@ -98,7 +110,15 @@ FolderRecording::FolderRecording(const FolderOptions& options)
     if (hasStamps_)
     {
         checkStamps();
+        if (options.evenStamps)
+        {
+            evenOut();
+        }
         pairByStamp(options.maxDifference);
+    }
+    else if (options.evenStamps)
+    {
+        throw InputError(folder_ + ": has no stamps that --even-stamps could even out");
     }
     else
     {
@@ -169,17 +189,29 @@ void FolderRecording::checkStamps() const
     }
 }
 
+void FolderRecording::evenOut()
+{
+    for (auto* images : {&layout_.depth, &layout_.colour})
+    {
+        try
+        {
+            const std::vector<double> before = stampsOf(*images), even = evenStamps(before);
+            evening_ = describeEvening(before, even);
+            for (std::size_t i = 0; i < images->size(); ++i)
+            {
+                (*images)[i].stamp = even[i];
+            }
+        }
+        catch (const InputError& e)
+        {
+            throw InputError(
+                folder_ + ": " + (images == &layout_.colour ? "colour: " : "depth: ") + e.what());
+        }
+    }
+}
+
 void FolderRecording::pairByStamp(double maxDifference)
 {
-    const auto stampsOf = [](const std::vector<ImageRef>& images)
-    {
-        std::vector<double> out;
-        for (const ImageRef& image : images)
-        {
-            out.push_back(*image.stamp);
-        }
-        return out;
-    };
     for (const auto& [c, d] :
          associate(stampsOf(layout_.colour), stampsOf(layout_.depth), 0.0, maxDifference))
     {
@@ -323,6 +355,10 @@ std::vector<std::string> FolderRecording::notes() const
     layout << "read as " << layout_.name << ", " << unitsPerMetre_ << " depth units per metre, "
            << (hasStamps_ ? "stamps of the recording" : rate.str());
     std::vector<std::string> out{layout.str()};
+    if (!evening_.empty())
+    {
+        out.push_back(evening_);
+    }
     if (!hasStamps_)
     {
         out.emplace_back(

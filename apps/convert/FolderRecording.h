@@ -18,6 +18,7 @@ struct FolderOptions
     double depthScale{0};        //!< units per metre; 0: the camera's or layout's
     double fps{0};               //!< 0: the layout's
     double maxDifference{0.02};  //!< between the stamps of colour and depth [s]
+    bool evenStamps{false};      //!< evenStamps()
 };
 
 /** A folder of numbered or stamped images. Depth of another size than colour is taken as seen by a
@@ -36,6 +37,7 @@ class FolderRecording : public Recording
  private:
     void checkNumbers(bool isRateAsked) const;
     void checkStamps() const;
+    void evenOut();
     void pairByStamp(double maxDifference);
     void pairByNumber();
     [[nodiscard]] double stampOf(const ImageRef& image) const;
@@ -49,6 +51,7 @@ class FolderRecording : public Recording
     FolderLayout layout_;
     double unitsPerMetre_{1000}, fps_{30};
     bool hasStamps_{false};
+    std::string evening_;  //!< what was done to the stamps, or empty
     std::vector<std::pair<std::size_t, std::size_t>> pairs_;
     std::size_t next_{0};
     std::unique_ptr<Video> video_;

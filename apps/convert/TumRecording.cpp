@@ -3,6 +3,7 @@
 
 #include <pointplane/evaluation/association.h>
 #include <pointplane/mrpt_io/image_file.h>
+#include <pointplane/mrpt_io/mrpt_poses.h>
 
 #include <opencv2/imgcodecs.hpp>
 
@@ -14,6 +15,9 @@
 #include <fstream>
 #include <iterator>
 #include <sstream>
+
+#include "even_stamps.h"
+#include "quantile.h"
 
 namespace pointplane
 {
@@ -32,11 +36,23 @@ namespace fs = std::filesystem;
     return out;
 }
 
-[[nodiscard]] double median(std::vector<double> values)
+/** \return what was done, for people */
+[[nodiscard]] std::string evenOut(std::vector<TumImage>& images, const std::string& listing)
 {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
+    try
+    {
+        const std::vector<double> before = secondsOf(images), even = evenStamps(before);
+        for (std::size_t i = 0; i < images.size(); ++i)
+        {
+            images[i].seconds = even[i];
+            images[i].stamp = fromSeconds(even[i]);
+        }
+        return describeEvening(before, even);
+    }
+    catch (const InputError& e)
+    {
+        throw InputError(listing + ": " + e.what());
+    }
 }
 
 /** An image of the camera's size. */
@@ -84,6 +100,11 @@ TumRecording::TumRecording(const TumOptions& options) : options_(options)
     }
     colour_ = readTumListing(options.folder, "rgb.txt");
     depth_ = readTumListing(options.folder, "depth.txt");
+    if (options.evenStamps)
+    {
+        (void)evenOut(depth_, options.folder + "/depth.txt");
+        evening_ = evenOut(colour_, options.folder + "/rgb.txt");
+    }
     camera_ = loadTumCamera(options.camera, options.folder);
     if (options.depthScale > 0)
     {
@@ -150,6 +171,10 @@ std::vector<std::string> TumRecording::notes() const
     {
         out.push_back(
             "camera: " + camera_.guessed + ", by the folder's name; --camera takes another");
+    }
+    if (!evening_.empty())
+    {
+        out.push_back(evening_);
     }
     std::vector<double> delays;
     for (const auto& [c, d] : pairs_)

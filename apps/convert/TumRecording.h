@@ -18,6 +18,7 @@ struct TumOptions
     std::string camera;          //!< preset or file; empty: camera.txt or the folder's name
     double depthScale{0};        //!< units per metre; 0: the camera's
     double maxDifference{0.02};  //!< between the stamps of colour and depth [s]
+    bool evenStamps{false};      //!< evenStamps()
 };
 
 /** A folder of the TUM RGB-D benchmark: pairs of images, stamped with the colour image's time,
@@ -43,6 +44,7 @@ class TumRecording : public Recording
     TumCamera camera_;
     std::vector<std::pair<std::size_t, std::size_t>> pairs_;
     std::string groundTruth_;
+    std::string evening_;  //!< what was done to the stamps, or empty
     std::size_t next_{0};
 };
 }  // namespace pointplane

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "quantile.h"
+
 namespace pointplane
 {
 namespace
@@ -15,14 +17,6 @@ constexpr double kTolerated = 0.1;
 /** Steps that stamps are rounded to [s]. */
 constexpr double kRoundings[] = {1, 0.1, 0.01};
 constexpr double kEpsilon = 1e-5;
-
-[[nodiscard]] double quantile(std::vector<double> values, double share)
-{
-    const auto at = values.begin() +
-                    static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), at, values.end());
-    return *at;
-}
 
 [[nodiscard]] bool areMultiples(const std::vector<double>& stamps, double step)
 {
@@ -60,7 +54,9 @@ std::string problemOfStamps(const std::vector<double>& stamps)
         if (step > kTolerated * median && !isEven && areMultiples(stamps, step))
         {
             out << "rounded to " << step << " s, " << std::lround(100 * step / median)
-                << " % of the time between frames; velocities from them err as much";
+                << " % of the time between frames; velocities from them err as much (tum and "
+                   "folder "
+                   "have --even-stamps)";
             return out.str();
         }
     }
@@ -75,7 +71,9 @@ std::string problemOfStamps(const std::vector<double>& stamps)
     if (jitter > kTolerated * median)
     {
         out << "they jitter by " << std::lround(1e3 * jitter) << " ms about a frame every "
-            << std::lround(1e3 * median) << " ms, like a host's; velocities from them err as much";
+            << std::lround(1e3 * median)
+            << " ms, like a host's; velocities from them err as much (tum and folder have "
+               "--even-stamps)";
     }
     return out.str();
 }

@@ -75,7 +75,10 @@ void addCameraOptions(CLI::App& app, GrabberOptions& o, Words& words)
         ->check(isPositive())
         ->capture_default_str()
         ->group(group);
-    app.add_option("--calibration", o.calibration, "Calibration file: ini of rawlog-grabber")
+    app.add_option(
+           "--calibration",
+           o.calibration,
+           "Calibration file: yml of camera-calib, ini of rawlog-grabber")
         ->group(group);
     app.add_option("--section", o.section, "S of its sections S_LEFT, S_RIGHT, S_LEFT2RIGHT_POSE")
         ->capture_default_str()

@@ -79,7 +79,7 @@ void GrabberRun::calibrate()
     auto calibration =
         options_.calibration.empty()
             ? nominalCalibration(camera_->facts())
-            : calibrationFromIni(options_.calibration, options_.section, camera_->facts());
+            : calibrationFromFile(options_.calibration, options_.section, camera_->facts());
     if (!options_.label.empty())
     {
         calibration.sensorLabel = options_.label;

@@ -7,7 +7,6 @@
 #include <mrpt/obs/CActionRobotMovement3D.h>
 #include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CObservationRobotPose.h>
-#include <mrpt/obs/CSensoryFrame.h>
 
 #include <vector>
 
@@ -119,7 +118,15 @@ void RawlogSink::addFormat1(const OutputItem& item)
 {
     if (!item.frame)
     {
-        return;  // other sensors have no place between actions
+        if (!onlyPoses_)
+        {
+            sensoryFrame_.insert(item.source.observation);
+        }
+        return;
+    }
+    if (hasFrame_)
+    {
+        writeSensoryFrame();
     }
     mrpt::obs::CActionRobotMovement3D movement;
     movement.timestamp = item.source.observation->timestamp;
@@ -129,20 +136,35 @@ void RawlogSink::addFormat1(const OutputItem& item)
     actions.insert(movement);
     writer_.write(actions);
 
-    mrpt::obs::CSensoryFrame frame;
+    hasFrame_ = true;
     if (!onlyPoses_)
     {
-        frame.insert(observationOf(item));
+        sensoryFrame_.insert(observationOf(item));
     }
     for (const auto& observation : poseObservations(item, since_))
     {
-        frame.insert(observation);
+        sensoryFrame_.insert(observation);
     }
     if (!isTracked(item.frame->motion))
     {
-        frame.insert(statusComment(item));
+        sensoryFrame_.insert(statusComment(item));
     }
-    writer_.write(frame);
+}
+
+void RawlogSink::writeSensoryFrame()
+{
+    writer_.write(sensoryFrame_);
+    sensoryFrame_.clear();
+    hasFrame_ = false;
+}
+
+void RawlogSink::close()
+{
+    if (hasFrame_)
+    {
+        writeSensoryFrame();
+    }
+    writer_.close();
 }
 
 std::string RawlogSink::description() const

@@ -106,7 +106,7 @@ void addOptions(CLI::App& app, Arguments& args)
 SimulationParams paramsOf(const Arguments& args)
 {
     SimulationParams params =
-        args.ideal ? SimulationParams::ideal() : SimulationParams::of(args.camera);
+        args.ideal ? SimulationParams::ideal(args.camera) : SimulationParams::of(args.camera);
     params.duration = args.duration.value_or(params.duration);
     params.fps = args.fps.value_or(params.fps);
     if (!args.size.empty())

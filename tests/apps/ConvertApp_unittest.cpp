@@ -29,6 +29,7 @@ using test::readAll;
 using test::TempDir;
 using test::writeBytes;
 using testing::HasSubstr;
+using testing::Not;
 
 /** A folder with three colour and four depth images, of which two pairs match. */
 class ConvertApp : public testing::Test
@@ -94,6 +95,40 @@ class ConvertApp : public testing::Test
     std::string text_;
 };
 
+TEST_F(ConvertApp, stampsAreEvenedOutIfAsked)
+{
+    std::string colour, depth;
+    for (int i = 0; i < 40; ++i)
+    {
+        const std::string file = "/" + std::to_string(i % 3) + ".png\n";
+        const double t = 1305031102 + i / 30.0;
+        colour += std::to_string(std::round(100 * t) / 100) + " rgb" + file;
+        depth += std::to_string(std::round(100 * (t - 0.008)) / 100) + " depth" + file;
+    }
+    writeBytes(dir_ / "in/rgb.txt", colour);
+    writeBytes(dir_ / "in/depth.txt", depth);
+    ASSERT_EQ(run({in_, "-o", out_}), kExitOk);
+    EXPECT_THAT(text_, HasSubstr("rounded to 0.01 s"));
+    EXPECT_THAT(text_, HasSubstr("--even-stamps"));
+
+    const std::string even = dir_ / "even.rawlog";
+    ASSERT_EQ(run({in_, "-o", even, "--even-stamps"}), kExitOk) << text_;
+    EXPECT_THAT(text_, Not(HasSubstr("rounded")));
+    EXPECT_THAT(text_, HasSubstr("stamps: evened out, moved by 2.7 ms (rms), 3."));
+    EXPECT_THAT(text_, HasSubstr("depth after colour: -6.8 ms"));
+    const auto scans = scansOf(even);
+    ASSERT_EQ(scans.size(), 40U);
+    for (size_t i = 1; i < scans.size(); ++i)
+    {
+        const double interval = mrpt::Clock::toDouble(scans[i]->timestamp) -
+                                mrpt::Clock::toDouble(scans[i - 1]->timestamp);
+        EXPECT_NEAR(interval, 1 / 30.0, 1e-3);
+    }
+    writeBytes(dir_ / "in/rgb.txt", "1 rgb/0.png\n1 rgb/1.png\n2 rgb/2.png\n");
+    EXPECT_EQ(run({in_, "-o", dir_ / "none.rawlog", "--even-stamps"}), kExitBadInput);
+    EXPECT_THAT(text_, HasSubstr("in/rgb.txt: the stamps do not ascend"));
+}
+
 TEST_F(ConvertApp, pairsAreThoseOfAssociateAndNothingIsLost)
 {
     ASSERT_EQ(run({in_, "-o", out_}), kExitOk) << text_;
@@ -142,7 +177,6 @@ TEST_F(ConvertApp, cameraAndDelayReachEachFrame)
         ASSERT_EQ(converted.problem, "");
         EXPECT_DOUBLE_EQ(converted.frame.camera.fy, -26.1);
         EXPECT_DOUBLE_EQ(converted.frame.camera.distortion[0], 0.1);
-        EXPECT_TRUE(converted.frame.camera.depthAtUndistortedPixel);
         delays.push_back(converted.frame.shutter.depthDelay);
     }
     ASSERT_EQ(delays.size(), 2U);

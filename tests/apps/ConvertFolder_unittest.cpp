@@ -2,8 +2,10 @@
 #include <opencv2/videoio.hpp>
 
 #include <cmath>
+#include <random>
 
 #include "converted_recordings.h"
+#include "even_stamps.h"
 #include "stamp_check.h"
 
 namespace pointplane
@@ -369,5 +371,74 @@ TEST(ProblemOfStamps, saysWhatIsWrong)
     EXPECT_THAT(problemOfStamps(rounded), HasSubstr("rounded to 0.01 s"));
     EXPECT_THAT(problemOfStamps(jittering), HasSubstr("jitter"));
     EXPECT_THAT(problemOfStamps(back), HasSubstr("not after"));
+}
+
+/** Standard deviation of the stamps' errors. */
+static double scatter(const std::vector<double>& stamps, const std::vector<double>& truth)
+{
+    double sum = 0, sumOfSquares = 0;
+    for (size_t i = 0; i < stamps.size(); ++i)
+    {
+        sum += stamps[i] - truth[i];
+        sumOfSquares += (stamps[i] - truth[i]) * (stamps[i] - truth[i]);
+    }
+    const auto n = static_cast<double>(stamps.size());
+    return std::sqrt(std::max(0.0, sumOfSquares / n - sum / n * sum / n));
+}
+
+TEST(EvenStamps, areThoseOfTheCamerasClock)
+{
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> delay(0, 0.01);
+    std::vector<double> truth, rounded, delayed;
+    for (int i = 0; i < 300; ++i)
+    {
+        if (i % 17 == 5 || (i > 200 && i < 215))
+        {
+            continue;  // lost
+        }
+        truth.push_back(1.3e9 + i * (1 / 30.0 + 1e-7 * i));
+        rounded.push_back(std::round(100 * truth.back()) / 100);
+        delayed.push_back(truth.back() + delay(random));
+    }
+    EXPECT_LT(scatter(evenStamps(truth), truth), 1e-5);
+    for (const auto& stamps : {rounded, delayed})
+    {
+        EXPECT_LT(scatter(evenStamps(stamps), truth), 0.3 * scatter(stamps, truth));
+        EXPECT_EQ(problemOfStamps(evenStamps(stamps)), "");
+    }
+}
+
+TEST(EvenStamps, followARateThatChanges)
+{
+    std::vector<double> truth{100};
+    for (int i = 0; i < 60; ++i)
+    {
+        truth.push_back(truth.back() + 0.0333 * (1 + 0.005 * i));
+    }
+    EXPECT_LT(scatter(evenStamps(truth), truth), 3e-3);
+}
+
+TEST(EvenStamps, areRefusedWithoutASteadyRate)
+{
+    EXPECT_TRUE(evenStamps({}).empty());
+    EXPECT_EQ(evenStamps({5}), std::vector<double>{5});
+    EXPECT_THROW((void)evenStamps({1, 2, 2, 3}), InputError);
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> interval(0.02, 0.2);
+    std::vector<double> stamps{100};
+    for (int i = 0; i < 100; ++i)
+    {
+        stamps.push_back(stamps.back() + interval(random));
+    }
+    EXPECT_THROW((void)evenStamps(stamps), InputError);
+}
+
+TEST_F(ConvertFolder, stampsAreEvenedOutOnlyIfThereAreAny)
+{
+    writeFrames("in/rgb/%d.jpg", "in/depth/%d.png");
+    write("in/camera.txt", kCamera);
+    EXPECT_EQ(run({"folder", in_, "--even-stamps"}), kExitBadInput);
+    EXPECT_THAT(text_, HasSubstr("has no stamps"));
 }
 }  // namespace pointplane

@@ -539,6 +539,58 @@ TEST_F(OdometryApp, readsFormat1AsFormat2)
     EXPECT_EQ(readBytes(dir_ / "1.txt"), readBytes(dir_ / "2.txt"));
 }
 
+TEST_F(OdometryApp, format1KeepsOtherSensorsAndComments)
+{
+    {
+        RawlogWriter writer(in_);
+        for (int i = 0; i < 3; ++i)
+        {
+            CObservationComment comment;
+            comment.timestamp = sampleScan(i)->timestamp;
+            comment.text = "before frame " + std::to_string(i);
+            writer.write(comment);
+            writer.write(*sampleScan(i));
+        }
+        CObservationComment comment;
+        comment.timestamp = sampleScan(3)->timestamp;
+        comment.text = "the end";
+        writer.write(comment);
+        writer.close();
+    }
+    ASSERT_EQ(run({in_, "-o", out_, "--format1"}).code, kExitOk);
+    std::vector<std::string> texts;
+    size_t numFrames = 0, numScans = 0;
+    for (const auto& object : test::readAll(out_).objects)
+    {
+        if (const auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(object))
+        {
+            ++numFrames;
+            for (const auto& observation : *frame)
+            {
+                const auto* comment = dynamic_cast<const CObservationComment*>(observation.get());
+                texts.push_back(comment ? comment->text : observation->sensorLabel);
+                numScans += texts.back() == "RGBD" ? 1 : 0;
+            }
+        }
+    }
+    EXPECT_EQ(numFrames, 3U);
+    EXPECT_EQ(numScans, 3U);
+    EXPECT_THAT(
+        texts,
+        testing::ElementsAre(
+            "before frame 0",
+            "RGBD",
+            "RGBD_pose",
+            "before frame 1",
+            "RGBD",
+            "RGBD_pose",
+            "before frame 2",
+            "RGBD",
+            "RGBD_pose",
+            "the end"));
+    EXPECT_EQ(run({out_, "--only-poses", "--format1", "-o", dir_ / "poses.rawlog"}).code, kExitOk);
+}
+
 TEST_F(OdometryApp, externalFilesStayReachableFromTheOutput)
 {
     std::filesystem::create_directories(dir_ / "in_Images");

@@ -20,7 +20,6 @@ struct FrameRecord
         DepthIsFloat = 2,  //!< any bits of a float [m]; otherwise 16 bit in steps of kDepthStep
         GrayOfAnotherSize = 4,
         DepthOfAnotherSize = 8,
-        DepthAtRawPixel = 16,
         HasShutter = 32
     };
     double stamp;

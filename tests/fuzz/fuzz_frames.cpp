@@ -36,7 +36,6 @@ RgbdFrame takeFrame(ByteSource& bytes)
     frame.camera.cx = record.cx;
     frame.camera.cy = record.cy;
     std::memcpy(frame.camera.distortion.data(), record.distortion, sizeof(record.distortion));
-    frame.camera.depthAtUndistortedPixel = !is(FrameRecord::DepthAtRawPixel);
     if (is(FrameRecord::HasShutter))
     {
         frame.shutter = {record.shutter[0], record.shutter[1], record.shutter[2]};

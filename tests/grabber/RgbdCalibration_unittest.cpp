@@ -42,6 +42,24 @@ dist = [5.9e-02 3.9e-02 0 0 0]
 pose_quaternion = [0.025575 -0.000609 -0.001462 1 0 0 0]
 )";
 
+/** Of camera-calib. */
+const std::string kYaml = R"(%YAML 1.2
+---
+camera_name: camera
+camera_matrix:
+  rows: 3
+  cols: 3
+  data: [521.2, 0, 322.5, 0, 521.0, 239.1, 0, 0, 1]
+distortion_coefficients:
+  rows: 1
+  cols: 5
+  data: [0.059, 0.039, 0, 0, 0]
+distortion_model: plumb_bob
+focal_length: 0
+image_height: 480
+image_width: 640
+)";
+
 CameraFacts facts(bool registered)
 {
     CameraFacts f;
@@ -68,7 +86,7 @@ class CalibrationFile : public ::testing::Test
     {
         try
         {
-            (void)calibrationFromIni(write(kIni, from, to), "OPENNI2", facts(false));
+            (void)calibrationFromFile(write(kIni, from, to), "OPENNI2", facts(false));
             FAIL() << "accepted " << to;
         }
         catch (const InputError& e)
@@ -84,7 +102,7 @@ class CalibrationFile : public ::testing::Test
 
 TEST_F(CalibrationFile, unregisteredDepthHasItsOwnCamera)
 {
-    const auto c = calibrationFromIni(write(kIni), "OPENNI2", facts(false));
+    const auto c = calibrationFromFile(write(kIni), "OPENNI2", facts(false));
     EXPECT_EQ(c.depth.fx(), 572.9);
     EXPECT_EQ(c.depth.nrows, 480U);
     EXPECT_EQ(c.colour.fx(), 521.2);
@@ -99,17 +117,60 @@ TEST_F(CalibrationFile, unregisteredDepthHasItsOwnCamera)
 
 TEST_F(CalibrationFile, registeredDepthLiesInTheColourCamera)
 {
-    const auto c = calibrationFromIni(write(kIni), "OPENNI2", facts(true));
+    const auto c = calibrationFromFile(write(kIni), "OPENNI2", facts(true));
     EXPECT_EQ(c.depth.fx(), 521.2);
     EXPECT_EQ(c.depth.dist[0], 0.0);  // at undistorted pixels
     EXPECT_EQ(c.colourWrtDepth.norm(), 0.0);
+}
+
+TEST_F(CalibrationFile, registeredDepthNeedsTheColourCameraAlone)
+{
+    const size_t begin = kIni.find("[OPENNI2_RIGHT]"), end = kIni.find("[OPENNI2_LEFT2RIGHT_POSE]");
+    writeBytes(path_, kIni.substr(begin, end - begin));
+    const auto c = calibrationFromFile(path_, "OPENNI2", facts(true));
+    EXPECT_EQ(c.depth.fx(), 521.2);
+    EXPECT_NEAR(c.colour.dist[0], 0.059, 1e-12);
+    EXPECT_THAT(c.source, ::testing::HasSubstr("section [OPENNI2_RIGHT]"));
+    EXPECT_THROW((void)calibrationFromFile(path_, "OPENNI2", facts(false)), InputError);
+}
+
+TEST_F(CalibrationFile, yamlOfCameraCalibTellsTheColourCamera)
+{
+    path_ = dir_ / "calibration.yml";
+    auto f = facts(true);
+    f.mode = {320, 240, 30, ""};
+    const auto c = calibrationFromFile(write(kYaml), "OPENNI2", f);
+    EXPECT_NEAR(c.colour.fx(), 260.6, 1e-9);
+    EXPECT_NEAR(c.colour.dist[1], 0.039, 1e-12);
+    EXPECT_EQ(c.depth.fx(), c.colour.fx());
+    EXPECT_EQ(c.depth.dist[0], 0.0);
+    EXPECT_FALSE(c.isNominal);
+
+    EXPECT_THROW((void)calibrationFromFile(path_, "OPENNI2", facts(false)), InputError);
+    for (const auto& [from, to] :
+         {std::pair("521.2", "abc"),
+          std::pair("521.2", "-5"),
+          std::pair("camera_matrix:", "K:"),
+          std::pair("image_height: 480", "image_height: 400")})
+    {
+        try
+        {
+            (void)calibrationFromFile(write(kYaml, from, to), "OPENNI2", f);
+            ADD_FAILURE() << "accepted " << to;
+        }
+        catch (const InputError& e)
+        {
+            EXPECT_THAT(e.what(), ::testing::StartsWith(path_));
+            EXPECT_THAT(e.what(), ::testing::Not(::testing::HasSubstr("\n")));
+        }
+    }
 }
 
 TEST_F(CalibrationFile, scalesToTheMode)
 {
     auto f = facts(false);
     f.mode = {320, 240, 30, ""};
-    const auto c = calibrationFromIni(
+    const auto c = calibrationFromFile(
         write(kIni, "resolution = [640 488]", "resolution = [640 480]"), "OPENNI2", f);
     EXPECT_NEAR(c.colour.fx(), 260.6, 1e-9);
     EXPECT_EQ(c.colour.ncols, 320U);
@@ -124,7 +185,7 @@ TEST_F(CalibrationFile, errorsNameFileSectionAndKey)
     expectRejected("pose_quaternion", "pose", "has no key 'pose_quaternion'");
     expectRejected("fx = 572.9", "fx = $eval{572.9", "Expected closing `}`");
     EXPECT_THROW(
-        (void)calibrationFromIni(dir_ / "missing.ini", "OPENNI2", facts(true)), InputError);
+        (void)calibrationFromFile(dir_ / "missing.ini", "OPENNI2", facts(true)), InputError);
 }
 
 TEST(NominalCalibration, comesFromTheFieldOfViewAndSaysSo)

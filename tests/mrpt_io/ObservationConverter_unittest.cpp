@@ -121,15 +121,62 @@ TEST(ObservationConverter, distortionAndWhereDepthLies)
     intensity.dist[4] = -0.3;
     const PinholeCamera ideal = ObservationConverter().convert(*scan).frame.camera;
     EXPECT_EQ(ideal.distortion, (std::array<double, 5>{{0.1, 0, 0, 0, -0.3}}));
-    EXPECT_TRUE(ideal.depthAtUndistortedPixel);
+    // Depth at raw pixels, too: it moves to those of an ideal pinhole.
     scan->cameraParams = intensity;
     const ConvertedFrame raw = ObservationConverter().convert(*scan);
-    EXPECT_FALSE(raw.frame.camera.depthAtUndistortedPixel);
-    EXPECT_FLOAT_EQ(raw.frame.depth.at<float>(0, 0), 1.5F);
+    EXPECT_EQ(raw.frame.camera.distortion, ideal.distortion);
     // MRPT: without a model the coefficients mean nothing.
     intensity.distortion = mrpt::img::DistortionModel::none;
     scan->cameraParams = intensity;
     EXPECT_FALSE(ObservationConverter().convert(*scan).frame.camera.isDistorted());
+}
+
+/** A slanted wall, as an infrared camera with a distorted image sees it. */
+TEST(ObservationConverter, distortedDepthMovesToIdealPixels)
+{
+    for (const double k1 : {-0.2, 0.1})
+    {
+        const auto scan = sampleScan(0, 320, 240);
+        scan->hasIntensityImage = false;
+        auto& camera = scan->cameraParams;
+        camera.setIntrinsicParamsFromValues(260, 260, 159.5, 119.5);
+        camera.distortion = mrpt::img::DistortionModel::plumb_bob;
+        camera.dist.fill(0);
+        camera.dist[0] = k1;
+        PinholeCamera lens;
+        lens.width = 320;
+        lens.height = 240;
+        lens.fx = lens.fy = 260;
+        lens.cx = 159.5;
+        lens.cy = 119.5;
+        lens.distortion[0] = k1;
+        // 1/Z = a + b x: linear in the ideal pixel, bent in the raw one.
+        const auto depthAt = [](const Eigen::Vector2d& xy) { return 1 / (0.5 + 0.2 * xy.x()); };
+        for (int v = 0; v < 240; ++v)
+        {
+            for (int u = 0; u < 320; ++u)
+            {
+                scan->rangeImage(v, u) = static_cast<std::uint16_t>(
+                    std::lround(depthAt(lens.normalised({u, v})) / scan->rangeUnits));
+            }
+        }
+        const ConvertedFrame converted = ObservationConverter().convert(*scan);
+        ASSERT_EQ(converted.problem, "");
+        int numNone = 0;
+        double worst = 0;
+        for (int v = 20; v < 220; ++v)
+        {
+            for (int u = 30; u < 290; ++u)
+            {
+                const float z = converted.frame.depth.at<float>(v, u);
+                numNone += z > 0 ? 0 : 1;
+                const double truth = depthAt(lens.normalisedOfDepth({u, v}));
+                worst = std::max(worst, z > 0 ? std::abs(z / truth - 1) : 0);
+            }
+        }
+        EXPECT_EQ(numNone, 0) << k1;
+        EXPECT_LT(worst, 2e-3) << k1;
+    }
 }
 
 TEST(ObservationConverter, negativeFocalLengthIsLegal)

@@ -54,6 +54,24 @@ TEST(VisualOdometry, aBadFrameIsLostWithItsReasonAndTheNextGoesOn)
     EXPECT_NE(vo.process(*sampleScan(2, 64, 48)).status, TrackingStatus::Lost);
 }
 
+TEST(VisualOdometry, badFramesBeforeTheFirstGoodOneDoNotMoveTheRobot)
+{
+    for (const int numBad : {0, 1, 3})
+    {
+        VisualOdometry vo;
+        vo.setMinLoggingLevel(mrpt::system::LVL_ERROR);
+        for (int i = 0; i < numBad + 1; ++i)
+        {
+            const auto scan = sampleScan(i, 64, 48);
+            scan->sensorPose = mrpt::poses::CPose3D::FromXYZYawPitchRoll(1, 0, 2, 0.2, 0, 0);
+            scan->hasRangeImage = i >= numBad;
+            const RobotMotion motion = vo.process(*scan);
+            EXPECT_LT(motion.pose.mean.norm(), 1e-9) << "frame " << i << " after " << numBad;
+            EXPECT_LT(motion.increment.mean.norm(), 1e-9);
+        }
+    }
+}
+
 TEST(VisualOdometry, loadsItsConfiguration)
 {
     const test::TempDir dir;

@@ -405,26 +405,6 @@ TEST(OdometryFailures, anotherCamerasDepthNoiseIsLearntAnew)
     EXPECT_EQ(real, "structuredLight");
 }
 
-TEST(OdometryFailures, depthMovesToTheRawPixelsInTheMiddle)
-{
-    for (const double k1 : {0.0, 0.01})
-    {
-        CheckedOdometry odometry;
-        const auto process = [&](int i, bool depthAtUndistortedPixel)
-        {
-            RgbdFrame frame = good(i);
-            frame.camera.distortion[0] = k1;
-            frame.camera.depthAtUndistortedPixel = depthAtUndistortedPixel;
-            return odometry.process(frame).status;
-        };
-        (void)process(0, true);
-        EXPECT_EQ(process(1, true), TrackingStatus::Tracked);
-        // Without distortion it makes no difference.
-        EXPECT_EQ(process(2, false), k1 == 0 ? TrackingStatus::Tracked : TrackingStatus::Predicted);
-        EXPECT_EQ(process(3, false), TrackingStatus::Tracked);
-    }
-}
-
 TEST(OdometryFailures, imagesOfAnySize)
 {
     const std::vector<cv::Size> sizes{

@@ -188,12 +188,6 @@ TEST(PointLifter, readsDepthWhereTheRayGoes)
     ASSERT_TRUE(point);
     EXPECT_NEAR(point->p_cam.mean.z(), 1 + 0.001 * std::round(undistorted.x()), 1e-6);
     EXPECT_THAT(frame.camera.project(point->p_cam.mean), IsMatrixNear(raw, 1e-6));
-
-    frame.camera.depthAtUndistortedPixel = false;
-    const auto rawDepth = PointLifter(nearest(), DepthNoise{}).lift(frame, raw);
-    ASSERT_TRUE(rawDepth);
-    EXPECT_NEAR(rawDepth->p_cam.mean.z(), 1.040, 1e-6);
-    EXPECT_THAT(frame.camera.project(rawDepth->p_cam.mean), IsMatrixNear(raw, 1e-6));
 }
 
 TEST(PointLifter, listKeepsTrackOfRows)

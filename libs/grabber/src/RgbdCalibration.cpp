@@ -2,16 +2,22 @@
 #include <pointplane/grabber/RgbdCalibration.h>
 #include <pointplane/mrpt_io/ini_file.h>
 
+#include <mrpt/containers/yaml.h>
 #include <mrpt/core/bits_math.h>
 #include <mrpt/img/TStereoCamera.h>
 #include <mrpt/poses/CPose3DQuat.h>
 
 #include <cmath>
+#include <filesystem>
+#include <vector>
 
 namespace pointplane
 {
 namespace
 {
+/** Keys of a section that tells one camera. */
+const std::vector<std::string> kCameraKeys{"resolution", "fx", "fy", "cx", "cy", "dist"};
+
 // Of a Kinect or Xtion, when a driver does not state its field of view.
 constexpr double kTypicalFocalPerWidth = 525.0 / 640.0;
 
@@ -101,6 +107,105 @@ void fitToMode(mrpt::img::TCamera& camera, const VideoMode& mode, const std::str
     }
     camera.scaleToResolution(width, height);
 }
+/** Colour camera alone: what there is to know if the driver registers depth to it. */
+mrpt::img::TCamera colourFromIni(
+    const mrpt::config::CConfigFile& file, const std::string& path, const std::string& section)
+{
+    mrpt::img::TCamera camera;
+    camera.loadFromConfigFile(section, file);
+    readOldDistortion(file, path, section, camera);
+    return camera;
+}
+
+/** Of both cameras, and where they are to each other. */
+void readBoth(
+    RgbdCalibration& calibration,
+    const mrpt::config::CConfigFile& file,
+    const std::string& path,
+    const std::string& section)
+{
+    requireKeys(file, path, section + "_LEFT", kCameraKeys);
+    requireKeys(file, path, section + "_LEFT2RIGHT_POSE", {"pose_quaternion"});
+    mrpt::img::TStereoCamera stereo;
+    stereo.loadFromConfigFile(section, file);
+    readOldDistortion(file, path, section + "_LEFT", stereo.leftCamera);
+    calibration.depth = stereo.leftCamera;
+    calibration.colourWrtDepth =
+        opticalAxes() + mrpt::poses::CPose3D(mrpt::poses::CPose3DQuat(stereo.rightCameraPose));
+}
+
+RgbdCalibration fromIni(
+    const std::string& path, const std::string& section, const CameraFacts& facts)
+{
+    const auto ini = openIniFile(path);
+    const mrpt::config::CConfigFile& file = *ini;
+    requireKeys(file, path, section + "_RIGHT", kCameraKeys);
+
+    RgbdCalibration calibration;
+    calibration.source = "'" + path + "', section [" + section + "_RIGHT]";
+    try
+    {
+        calibration.colour = colourFromIni(file, path, section + "_RIGHT");
+        if (!facts.registered)
+        {
+            readBoth(calibration, file, path, section);
+            calibration.source = "'" + path + "', sections [" + section + "_LEFT], [" + section +
+                                 "_RIGHT], [" + section + "_LEFT2RIGHT_POSE]";
+        }
+    }
+    catch (const InputError&)
+    {
+        throw;
+    }
+    catch (const std::exception& e)
+    {
+        throw InputError(path + ": calibration [" + section + "_...]: " + oneLine(e));
+    }
+    fitToMode(calibration.colour, facts.mode, path + ": section [" + section + "_RIGHT]");
+    if (facts.registered)
+    {
+        makeRegistered(calibration);
+    }
+    else
+    {
+        fitToMode(calibration.depth, facts.mode, path + ": section [" + section + "_LEFT]");
+    }
+    const auto number = [&](const char* key) { return file.read_double(section, key, 0.0); };
+    calibration.sensorPose = mrpt::poses::CPose3D(
+        number("pose_x"),
+        number("pose_y"),
+        number("pose_z"),
+        mrpt::DEG2RAD(number("pose_yaw")),
+        mrpt::DEG2RAD(number("pose_pitch")),
+        mrpt::DEG2RAD(number("pose_roll")));
+    calibration.sensorLabel = file.read_string(section, "sensorLabel", calibration.sensorLabel);
+    return calibration;
+}
+
+/** What camera-calib writes: one camera. */
+RgbdCalibration fromYaml(const std::string& path, const CameraFacts& facts)
+{
+    if (!facts.registered && facts.hasColour)
+    {
+        throw InputError(
+            path +
+            ": tells one camera, but depth is not registered to colour, so both must be known; use "
+            "--registration on, or calibrate with kinect-stereo-calib (ini)");
+    }
+    RgbdCalibration calibration;
+    try
+    {
+        calibration.colour = mrpt::img::TCamera::FromYAML(mrpt::containers::yaml::FromFile(path));
+    }
+    catch (const std::exception& e)
+    {
+        throw InputError(path + ": is not a calibration of camera-calib: " + oneLine(e));
+    }
+    fitToMode(calibration.colour, facts.mode, path);
+    makeRegistered(calibration);
+    calibration.source = "'" + path + "'";
+    return calibration;
+}
 }  // namespace
 
 RgbdCalibration nominalCalibration(const CameraFacts& facts)
@@ -126,51 +231,11 @@ RgbdCalibration nominalCalibration(const CameraFacts& facts)
     return calibration;
 }
 
-RgbdCalibration calibrationFromIni(
+RgbdCalibration calibrationFromFile(
     const std::string& path, const std::string& section, const CameraFacts& facts)
 {
-    const auto ini = openIniFile(path);
-    const mrpt::config::CConfigFile& file = *ini;
-    for (const char* side : {"_LEFT", "_RIGHT"})
-    {
-        requireKeys(file, path, section + side, {"resolution", "fx", "fy", "cx", "cy", "dist"});
-    }
-    requireKeys(file, path, section + "_LEFT2RIGHT_POSE", {"pose_quaternion"});
-
-    mrpt::img::TStereoCamera stereo;
-    try
-    {
-        stereo.loadFromConfigFile(section, file);
-    }
-    catch (const std::exception& e)
-    {
-        throw InputError(path + ": calibration [" + section + "_...]: " + oneLine(e));
-    }
-    readOldDistortion(file, path, section + "_LEFT", stereo.leftCamera);
-    readOldDistortion(file, path, section + "_RIGHT", stereo.rightCamera);
-    fitToMode(stereo.leftCamera, facts.mode, path + ": section [" + section + "_LEFT]");
-    fitToMode(stereo.rightCamera, facts.mode, path + ": section [" + section + "_RIGHT]");
-
-    RgbdCalibration calibration;
-    calibration.depth = stereo.leftCamera;
-    calibration.colour = stereo.rightCamera;
-    calibration.colourWrtDepth =
-        opticalAxes() + mrpt::poses::CPose3D(mrpt::poses::CPose3DQuat(stereo.rightCameraPose));
-    if (facts.registered)
-    {
-        makeRegistered(calibration);
-    }
-    const auto number = [&](const char* key) { return file.read_double(section, key, 0.0); };
-    calibration.sensorPose = mrpt::poses::CPose3D(
-        number("pose_x"),
-        number("pose_y"),
-        number("pose_z"),
-        mrpt::DEG2RAD(number("pose_yaw")),
-        mrpt::DEG2RAD(number("pose_pitch")),
-        mrpt::DEG2RAD(number("pose_roll")));
-    calibration.sensorLabel = file.read_string(section, "sensorLabel", calibration.sensorLabel);
-    calibration.source = "'" + path + "', sections [" + section + "_LEFT], [" + section +
-                         "_RIGHT], [" + section + "_LEFT2RIGHT_POSE]";
-    return calibration;
+    const std::string extension = std::filesystem::path(path).extension();
+    return extension == ".yml" || extension == ".yaml" ? fromYaml(path, facts)
+                                                       : fromIni(path, section, facts);
 }
 }  // namespace pointplane

@@ -37,16 +37,32 @@ DepthRegistration::DepthRegistration(
     const Eigen::Isometry3d& T_target_source)
     : source_(source), target_(target), translation_(T_target_source.translation())
 {
-    source_.depthAtUndistortedPixel = false;
     rays_.reserve(static_cast<std::size_t>(source.width) * static_cast<std::size_t>(source.height));
     for (int v = 0; v < source.height; ++v)
     {
         for (int u = 0; u < source.width; ++u)
         {
-            const Eigen::Vector3d ray = source_.normalisedOfDepth({u, v}).homogeneous();
+            const Eigen::Vector3d ray = source_.normalised({u, v}).homogeneous();
             rays_.push_back((T_target_source.linear() * ray).cast<float>());
         }
     }
+}
+
+Eigen::Vector2d DepthRegistration::pixelStep(int u, int v) const
+{
+    const auto ray = [&](int column, int row)
+    {
+        return rays_
+            [static_cast<std::size_t>(row) * static_cast<std::size_t>(source_.width) +
+             static_cast<std::size_t>(column)];
+    };
+    const int left = std::max(u - 1, 0), right = std::min(u + 1, source_.width - 1);
+    const int above = std::max(v - 1, 0), below = std::min(v + 1, source_.height - 1);
+    const double perColumn = static_cast<double>(ray(right, v).x() - ray(left, v).x());
+    const double perRow = static_cast<double>(ray(u, below).y() - ray(u, above).y());
+    return {
+        right > left ? target_.fx * perColumn / (right - left) : target_.fx / source_.fx,
+        below > above ? target_.fy * perRow / (below - above) : target_.fy / source_.fy};
 }
 
 void DepthRegistration::splat(const cv::Mat& depth, int u, int v, cv::Mat& out) const
@@ -65,8 +81,8 @@ void DepthRegistration::splat(const cv::Mat& depth, int u, int v, cv::Mat& out) 
     const double centreV = target_.fy * p.y() * inverse + target_.cy;
     // Size of one source pixel in the target, a little more against rounding at shared borders.
     const double zoom = static_cast<double>(z) * inverse;
-    const double sizeU = 1.01 * std::abs(target_.fx / source_.fx) * zoom;
-    const double sizeV = 1.01 * std::abs(target_.fy / source_.fy) * zoom;
+    const Eigen::Vector2d step = zoom * pixelStep(u, v);
+    const double sizeU = 1.01 * std::abs(step.x()), sizeV = 1.01 * std::abs(step.y());
     const int firstU = indexWithin(0, out.cols, std::ceil(centreU - sizeU / 2));
     const int lastU = indexWithin(-1, out.cols - 1, std::floor(centreU + sizeU / 2));
     const int firstV = indexWithin(0, out.rows, std::ceil(centreV - sizeV / 2));
@@ -81,8 +97,7 @@ void DepthRegistration::splat(const cv::Mat& depth, int u, int v, cv::Mat& out) 
         inside ? gradient(depth.at<float>(v, u - 1), depth.at<float>(v, u + 1)) : 0.0F;
     const float slopeV =
         inside ? gradient(depth.at<float>(v - 1, u), depth.at<float>(v + 1, u)) : 0.0F;
-    const double perU = slopeU * source_.fx / (target_.fx * zoom);
-    const double perV = slopeV * source_.fy / (target_.fy * zoom);
+    const double perU = slopeU / step.x(), perV = slopeV / step.y();
     for (int row = firstV; row <= lastV; ++row)
     {
         auto* line = out.ptr<float>(row);

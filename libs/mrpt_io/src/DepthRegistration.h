@@ -18,7 +18,7 @@ namespace pointplane
 class DepthRegistration
 {
  public:
-    /** \param source its depth lies at raw pixels if it is distorted
+    /** \param source its depth lies at raw (distorted) pixels
      * \param target depth is rendered at its ideal (undistorted) pixels
      * \param T_target_source optical frames */
     DepthRegistration(
@@ -31,6 +31,8 @@ class DepthRegistration
     [[nodiscard]] cv::Mat render(const cv::Mat& depth) const;
 
  private:
+    /** From one source pixel to the next, in the target [px], for a surface as far from both. */
+    [[nodiscard]] Eigen::Vector2d pixelStep(int u, int v) const;
     void splat(const cv::Mat& depth, int u, int v, cv::Mat& out) const;
 
     PinholeCamera source_;

@@ -129,13 +129,11 @@ void requirePose(const Eigen::Isometry3d& T, const std::string& name)
 /** Distances along the rays to distances along the optical axis. */
 void rangesToDepths(const PinholeCamera& camera, cv::Mat& depth)
 {
-    PinholeCamera raw = camera;
-    raw.depthAtUndistortedPixel = false;
     for (int v = 0; v < depth.rows; ++v)
     {
         for (int u = 0; u < depth.cols; ++u)
         {
-            const double length = raw.normalisedOfDepth({u, v}).homogeneous().norm();
+            const double length = camera.normalised({u, v}).homogeneous().norm();
             depth.at<float>(v, u) /= static_cast<float>(length);
         }
     }
@@ -236,13 +234,16 @@ void ObservationConverter::Impl::fill(
     const cv::Mat depth = depthOf(scan, depthCamera);
     if (!scan.hasIntensityImage)
     {
-        out.frame.depth = depth;
         out.frame.camera = depthCamera;
-        out.frame.camera.depthAtUndistortedPixel = false;
+        out.frame.depth =
+            depthCamera.isDistorted()
+                ? registration(depthCamera, depthCamera, Eigen::Isometry3d::Identity())
+                      .render(depth)
+                : depth;
         out.T_robot_cam = T_robot_body * opticalInBody();
         return;
     }
-    PinholeCamera camera = cameraOf(scan.cameraParamsIntensity, "cameraParamsIntensity");
+    const PinholeCamera camera = cameraOf(scan.cameraParamsIntensity, "cameraParamsIntensity");
     const cv::Mat gray = intensityOf(scan);
     requireUsable(
         gray.cols == camera.width && gray.rows == camera.height,
@@ -251,11 +252,8 @@ void ObservationConverter::Impl::fill(
     const Eigen::Isometry3d T_body_cam = fromMrpt(scan.relativePoseIntensityWRTDepth);
     requirePose(T_body_cam, "relativePoseIntensityWRTDepth");
     const Eigen::Isometry3d T_cam_depth = T_body_cam.inverse() * opticalInBody();
-    const bool registered =
-        T_cam_depth.isApprox(Eigen::Isometry3d::Identity(), 1e-6) &&
-        sameProjection(depthCamera, camera) &&
-        (!depthCamera.isDistorted() || depthCamera.distortion == camera.distortion);
-    camera.depthAtUndistortedPixel = !(registered && depthCamera.isDistorted());
+    const bool registered = T_cam_depth.isApprox(Eigen::Isometry3d::Identity(), 1e-6) &&
+                            sameProjection(depthCamera, camera) && !depthCamera.isDistorted();
     out.frame.depth =
         registered ? depth : registration(depthCamera, camera, T_cam_depth).render(depth);
     out.frame.gray = gray;

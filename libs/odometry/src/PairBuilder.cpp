@@ -105,7 +105,7 @@ void PairBuilder::build(
             pair.inReference = track.ref;
             pair.feature = cellOf(cur.uv_px);
             pair.hasDepth = cur.hasDepth;
-            pair.surface = surfaceAt(cur.uv_px, current_.planes);
+            pair.surface = surfaceAt(camera.depthPixel(cur.uv_px), current_.planes);
             if (current_.bend > 0)
             {
                 pair.refPatch = patchOf(ref.uv_px, camera);

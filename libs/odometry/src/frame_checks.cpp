@@ -11,8 +11,7 @@ namespace pointplane
 bool sameCamera(const PinholeCamera& a, const PinholeCamera& b)
 {
     return a.width == b.width && a.height == b.height && a.fx == b.fx && a.fy == b.fy &&
-           a.cx == b.cx && a.cy == b.cy && a.distortion == b.distortion &&
-           (!a.isDistorted() || a.depthAtUndistortedPixel == b.depthAtUndistortedPixel);
+           a.cx == b.cx && a.cy == b.cy && a.distortion == b.distortion;
 }
 
 std::string problemOf(const RgbdFrame& frame)

@@ -13,10 +13,11 @@ namespace
 constexpr double kMemory = 2;
 }  // namespace
 
-int surfaceAt(const Eigen::Vector2d& uv_px, const PlaneSet& planes)
+int surfaceAt(const Eigen::Vector2d& depthUv_px, const PlaneSet& planes)
 {
     const cv::Point pixel(
-        static_cast<int>(std::lround(uv_px.x())), static_cast<int>(std::lround(uv_px.y())));
+        static_cast<int>(std::lround(depthUv_px.x())),
+        static_cast<int>(std::lround(depthUv_px.y())));
     const bool isInside = cv::Rect({}, planes.labels.size()).contains(pixel);
     return isInside ? planes.labels.at<std::uint8_t>(pixel) - 1 : -1;
 }
@@ -57,7 +58,8 @@ void countMoving(
     {
         for (const PointTrack& track : association.movingPoints)
         {
-            const auto surface = static_cast<size_t>(surfaceAt(track.cur.uv_px, current.planes));
+            const Eigen::Vector2d pixel = current.frame.camera.depthPixel(track.cur.uv_px);
+            const auto surface = static_cast<size_t>(surfaceAt(pixel, current.planes));
             if (surface < surfaces.size())
             {
                 ++surfaces[surface].points;

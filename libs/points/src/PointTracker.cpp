@@ -175,9 +175,9 @@ std::optional<PointTrack> PointTracker::trackOf(
     const Eigen::Vector2d uv_px = Eigen::Vector2f(position.x, position.y).cast<double>();
     auto feature = search.hasDepth ? lifter_.lift(frame, uv_px)
                                    : lifter_.onRay(frame, uv_px, (T_cur_ref * ref.p_cam.mean).z());
-    if (!feature)
+    if (!feature || !feature->p_cam.mean.allFinite())
     {
-        return {};
+        return {};  // no depth, or no ray reaches the pixel
     }
     // Along an edge, a track slides on the surface.
     const Eigen::Matrix<double, 3, 2> J = T_cur_ref.linear() * surfaceJacobian(frame.camera, ref);

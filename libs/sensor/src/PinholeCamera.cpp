@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace pointplane
@@ -12,6 +13,11 @@ namespace
 {
 /** In image sizes: no lens looks that far aside, not even one whose image has been cropped. */
 constexpr double kFarPrincipalPoint = 10;
+
+// Of the inversion of the lens' polynomial.
+constexpr int kMostSteps = 20;
+constexpr double kExact = 1e-12;      // normalised
+constexpr double kReached_px = 1e-3;  // a ray that far from its pixel is another one
 
 /** Brown's model as in OpenCV: normalised undistorted -> normalised distorted. */
 Eigen::Vector2d distorted(const std::array<double, 5>& k, const Eigen::Vector2d& p)
@@ -22,6 +28,9 @@ Eigen::Vector2d distorted(const std::array<double, 5>& k, const Eigen::Vector2d&
         x * radial + 2 * k[2] * x * y + k[3] * (r2 + 2 * x * x),
         y * radial + k[2] * (r2 + 2 * y * y) + 2 * k[3] * x * y};
 }
+
+/** Nearly (a pixel is 20 times as large as without distortion), or turned round. */
+bool isFolded(const Eigen::Matrix2d& J) { return J.determinant() < 0.05 || J.trace() < 0; }
 
 /** 2x2 Jacobian of distorted() with respect to p. */
 Eigen::Matrix2d distortionJacobian(const std::array<double, 5>& k, const Eigen::Vector2d& p)
@@ -86,17 +95,25 @@ Eigen::Vector2d PinholeCamera::normalised(const Eigen::Vector2d& uv_px, Eigen::M
     Eigen::Matrix2d distortedOverIdeal = Eigen::Matrix2d::Identity();
     if (isDistorted())
     {
-        // Newton from the raw position; two or three steps within a Kinect's image. The polynomial
-        // may fold over outside of the calibrated area: there, stop before the Jacobian does.
-        for (int i = 0; i < 10; ++i)
+        // Newton from the centre, the first step to the raw position; three or four steps within a
+        // Kinect's image.
+        p.setZero();
+        Eigen::Vector2d error = distorted(distortion, p) - raw;
+        distortedOverIdeal = distortionJacobian(distortion, p);
+        for (int i = 0; i < kMostSteps && error.norm() > kExact; ++i)
         {
-            distortedOverIdeal = distortionJacobian(distortion, p);
-            const Eigen::Vector2d error = distorted(distortion, p) - raw;
-            if (error.squaredNorm() < 1e-24 || distortedOverIdeal.determinant() < 0.05)
+            Eigen::Vector2d step = distortedOverIdeal.inverse() * error;
+            while (isFolded(distortionJacobian(distortion, p - step)) && step.norm() > kExact)
             {
-                break;
+                step *= 0.5;
             }
-            p -= distortedOverIdeal.inverse() * error;
+            p -= step;
+            error = distorted(distortion, p) - raw;
+            distortedOverIdeal = distortionJacobian(distortion, p);
+        }
+        if (!(error.norm() * std::abs(fx) < kReached_px) || isFolded(distortedOverIdeal))
+        {
+            p.setConstant(std::numeric_limits<double>::quiet_NaN());
         }
     }
     if (J != nullptr)
@@ -108,7 +125,7 @@ Eigen::Vector2d PinholeCamera::normalised(const Eigen::Vector2d& uv_px, Eigen::M
 
 Eigen::Vector2d PinholeCamera::depthPixel(const Eigen::Vector2d& uv_px) const
 {
-    if (!depthAtUndistortedPixel || !isDistorted())
+    if (!isDistorted())
     {
         return uv_px;
     }
@@ -118,10 +135,6 @@ Eigen::Vector2d PinholeCamera::depthPixel(const Eigen::Vector2d& uv_px) const
 
 Eigen::Vector2d PinholeCamera::normalisedOfDepth(const Eigen::Vector2d& depthUv_px) const
 {
-    if (!depthAtUndistortedPixel && isDistorted())
-    {
-        return normalised(depthUv_px);
-    }
     return {(depthUv_px.x() - cx) / fx, (depthUv_px.y() - cy) / fy};
 }
 

@@ -6,14 +6,15 @@
 
 namespace pointplane
 {
-SimulationParams SimulationParams::ideal()
+SimulationParams SimulationParams::ideal(const std::string& camera)
 {
-    SimulationParams p;
+    SimulationParams p = of(camera);
     p.readoutColour = p.readoutDepth = p.depthDelay = p.exposure = 0;
     p.lensBlurPx = p.imageNoise = p.vignetting = p.exposureSwing = 0;
     p.sigmaInverseDepth = p.disparityStepPx = p.lateralSigmaPx = p.calibrationSigma = 0;
     p.focalLengthError = p.principalPointError = p.depthScaleError = 0;
     p.sigmaDepth = p.sigmaRelative = 0;
+    p.upsampling = 1;
     p.edgeLossPx = p.shadowBaseline = 0;
     p.maxIncidenceDeg = 90;
     p.minDepth = 0.05;

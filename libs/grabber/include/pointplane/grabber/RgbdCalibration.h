@@ -24,10 +24,15 @@ struct RgbdCalibration
 /** From what the driver says: square pixels, principal point in the centre, no distortion. */
 [[nodiscard]] RgbdCalibration nominalCalibration(const CameraFacts& facts);
 
-/** From a rawlog-grabber ini file: sections `<section>_LEFT` (depth camera), `<section>_RIGHT`
- * (colour) and `<section>_LEFT2RIGHT_POSE`; from `<section>` itself, if there is one, `sensorLabel`
- * and `pose_x` ... `pose_roll` (metres, degrees). For registered depth only the colour camera
- * counts. \throws InputError that names file, section and key */
-[[nodiscard]] RgbdCalibration calibrationFromIni(
+/** From a file of a calibration program:
+ *
+ * - ini of rawlog-grabber or kinect-stereo-calib: sections `<section>_RIGHT` (colour camera),
+ *   `<section>_LEFT` (depth camera) and `<section>_LEFT2RIGHT_POSE`; from `<section>` itself, if
+ *   there is one, `sensorLabel` and `pose_x` ... `pose_roll` (metres, degrees). For registered
+ * depth only the colour camera is read;
+ * - yml of camera-calib: the colour camera. Depth must be registered to it.
+ *
+ * \throws InputError that names file, section and key */
+[[nodiscard]] RgbdCalibration calibrationFromFile(
     const std::string& path, const std::string& section, const CameraFacts& facts);
 }  // namespace pointplane

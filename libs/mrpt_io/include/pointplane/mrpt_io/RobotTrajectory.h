@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pointplane/mrpt_io/mrpt_poses.h>
 #include <pointplane/odometry/OdometryResult.h>
 
 #include <mrpt/poses/CPose3DPDFGaussian.h>
@@ -33,13 +34,18 @@ class RobotTrajectory
     [[nodiscard]] RobotMotion add(
         const OdometryResult& result, const Eigen::Isometry3d& T_robot_cam);
 
-    /** As add() for a frame whose camera pose is not known: that of the previous one is used. */
+    /** As add() for a frame whose camera pose is not known: that of the previous one is used.
+     * Before any is known, the camera looks ahead from the robot's origin. */
     [[nodiscard]] RobotMotion add(const OdometryResult& result);
 
     void reset() { *this = RobotTrajectory(); }
 
  private:
-    Eigen::Isometry3d T_robot_cam_first_{Eigen::Isometry3d::Identity()};
+    [[nodiscard]] RobotMotion place(
+        const OdometryResult& result, const Eigen::Isometry3d& T_robot_cam);
+
+    bool isKnown_{false};  //!< a frame has told where the camera is on the robot
+    Eigen::Isometry3d T_robot_cam_first_{opticalInBody()};
     std::deque<Eigen::Isometry3d> T_robot_cam_;  //!< of the frames so far, latest first
 };
 }  // namespace pointplane

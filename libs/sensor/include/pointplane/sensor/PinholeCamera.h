@@ -14,19 +14,14 @@ namespace pointplane
  *
  * Pixel (0, 0) is the centre of the top-left pixel. Optical axes: x right, y down, z forward. A
  * negative fy is legal (image y axis up, as in ICL-NUIM). The colour image and the depth image that
- * is registered to it share fx, fy, cx, cy. Lens distortion is in the colour image; in the depth
- * image only if depthAtUndistortedPixel is false.
+ * is registered to it share fx, fy, cx, cy. Lens distortion is in the colour image alone: the depth
+ * image is an ideal pinhole's, as a Kinect's registration makes it (measured on TUM fr1).
  */
 struct PinholeCamera
 {
     int width{640}, height{480};                        //!< [px]
     double fx{525}, fy{525}, cx{319.5}, cy{239.5};      //!< [px]
     std::array<double, 5> distortion{{0, 0, 0, 0, 0}};  //!< k1 k2 p1 p2 k3
-
-    /** True: the depth image is an ideal pinhole's, as a Kinect's registration makes it (measured
-     * on TUM fr1). False: depth was rendered into the raw, distorted colour image. No effect
-     * without distortion. */
-    bool depthAtUndistortedPixel{true};
 
     /** Nobody calibrated this camera: its intrinsics are those of its model, or a guess. */
     bool isNominal{false};
@@ -37,8 +32,9 @@ struct PinholeCamera
 
     [[nodiscard]] bool isDistorted() const;
 
-    /** Undistorted normalised coordinates (x, y) of the ray (x, y, 1) through a raw pixel.
-     * \param J if given: 2x2 Jacobian of (x, y) with respect to the raw pixel [1/px] */
+    /** Undistorted normalised coordinates (x, y) of the ray (x, y, 1) through a raw pixel. NaN if
+     * no ray reaches it: far outside of the calibrated area, the polynomial may fold over. \param J
+     * if given: 2x2 Jacobian of (x, y) with respect to the raw pixel [1/px] */
     [[nodiscard]] Eigen::Vector2d normalised(
         const Eigen::Vector2d& uv_px, Eigen::Matrix2d* J = nullptr) const;
 

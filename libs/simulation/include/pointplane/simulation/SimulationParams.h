@@ -58,12 +58,12 @@ struct SimulationParams
     double minDepth{0.4};
     double maxDepth{8};
 
-    /** A camera without noise, blur, gaps or shutter: ground truth in pictures. */
-    [[nodiscard]] static SimulationParams ideal();
-
     /** A camera that people own: kinect, d435, azure, phone. Resolution, field of view, rate, depth
      * noise of its kind, shutters. \throws std::invalid_argument naming the cameras */
     [[nodiscard]] static SimulationParams of(const std::string& camera);
+
+    /** The same without noise, blur, gaps or shutter: ground truth in pictures. */
+    [[nodiscard]] static SimulationParams ideal(const std::string& camera = "kinect");
 
     template <class V>
     void visit(V&& v)

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace pointplane
+{
+/** The value that `share` of the values are below. \param values at least one */
+[[nodiscard]] inline double quantile(std::vector<double> values, double share)
+{
+    const auto below = static_cast<std::size_t>(share * static_cast<double>(values.size()));
+    const auto at =
+        values.begin() + static_cast<std::ptrdiff_t>(std::min(below, values.size() - 1));
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
+}
+
+[[nodiscard]] inline double median(std::vector<double> values)
+{
+    return quantile(std::move(values), 0.5);
+}
+}  // namespace pointplane
