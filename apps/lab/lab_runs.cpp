@@ -15,7 +15,7 @@
 #include <thread>
 
 #include "OutputGuard.h"
-#include "nothing_measured.h"
+#include "mostly_predicted.h"
 #include "result_output.h"
 #include "run_processes.h"
 
@@ -31,10 +31,10 @@ LabScore scoreOf(
     const RpeOptions& rpe)
 {
     // Exit code 1 is a damaged rawlog: the trajectory is there up to the damage, but a score of it
-    // beside those of whole sequences would mislead. A run of predicted frames alone is whole, and
-    // its score says so.
+    // beside those of whole sequences would mislead. A run of predicted frames is whole, and its
+    // score says so.
     const std::string said = exitCode == kExitOk ? "" : lastLine(log);
-    if (exitCode != kExitOk && said != kNothingMeasured)
+    if (exitCode != kExitOk && said.rfind(kMostlyPredicted, 0) != 0)
     {
         return {{}, "pointplane-odometry: exit code " + std::to_string(exitCode) + ", " + said};
     }

@@ -42,11 +42,6 @@ namespace
     return out;
 }
 
-[[nodiscard]] bool isTracked(const RobotMotion& motion)
-{
-    return motion.status == TrackingStatus::First || motion.status == TrackingStatus::Tracked;
-}
-
 /** CObservationComment keeps no label of its own, so the text names it. */
 [[nodiscard]] mrpt::obs::CObservationComment::Ptr statusComment(const OutputItem& item)
 {
@@ -107,7 +102,7 @@ void RawlogSink::addFormat2(const OutputItem& item)
         {
             writer_.write(*observation);
         }
-        if (!isTracked(item.frame->motion))
+        if (!isMeasured(item.frame->motion.status))
         {
             writer_.write(*statusComment(item));
         }
@@ -145,7 +140,7 @@ void RawlogSink::addFormat1(const OutputItem& item)
     {
         sensoryFrame_.insert(observation);
     }
-    if (!isTracked(item.frame->motion))
+    if (!isMeasured(item.frame->motion.status))
     {
         sensoryFrame_.insert(statusComment(item));
     }

@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <ostream>
 
-#include "nothing_measured.h"
+#include "mostly_predicted.h"
 
 namespace pointplane
 {
@@ -59,6 +59,21 @@ void RunSummary::addUntracked(const OutputItem& item)
     }
 }
 
+void RunSummary::addInPart(const OutputItem& item)
+{
+    const RobotMotion& motion = item.frame->motion;
+    if (motion.reason.empty())
+    {
+        return;
+    }
+    if (numInPart++ == 0)
+    {
+        const std::size_t index = item.source.frameIndex;
+        firstInPart = {
+            index, index, item.source.observation->timestamp, motion.status, motion.reason};
+    }
+}
+
 void RunSummary::add(const OutputItem& item)
 {
     const RobotMotion& motion = item.frame->motion;
@@ -69,6 +84,7 @@ void RunSummary::add(const OutputItem& item)
         case TrackingStatus::First:
         case TrackingStatus::Tracked:
             ++numTracked;
+            addInPart(item);
             break;
         case TrackingStatus::Predicted:
             ++numPredicted;
@@ -86,7 +102,7 @@ void RunSummary::add(const OutputItem& item)
     sum.msMatching += d.msMatching;
     sum.msPose += d.msPose;
     sum.msTotal += d.msTotal;
-    if (motion.status == TrackingStatus::First || motion.status == TrackingStatus::Tracked)
+    if (isMeasured(motion.status))
     {
         sum.depthNoise = d.depthNoise;
         sum.lens = d.lens;
@@ -121,6 +137,11 @@ void RunSummary::print(std::ostream& out, bool profile) const
         out << "  and " << numUntrackedMore
             << " frames after these (--diagnostics FILE has them all)\n";
     }
+    if (numInPart > 0)
+    {
+        out << "  " << numInPart << " of the tracked frames in part, first " << lineOf(firstInPart)
+            << "\n";
+    }
     for (const std::string& note : notes)
     {
         out << note << "\n";
@@ -129,7 +150,7 @@ void RunSummary::print(std::ostream& out, bool profile) const
     {
         out << "depth noise: " << describe(sum.depthNoise) << "\n";
     }
-    if (const std::string lens = describe(sum.lens); !lens.empty())
+    if (const std::string lens = describe(sum.lens); hasMotion && !lens.empty())
     {
         out << "lens, learnt from the motion: " << lens << "\n";
     }
@@ -164,9 +185,10 @@ void RunSummary::printProblems(std::ostream& err) const
             << " frames could not be used"
             << (lost == untracked.end() ? std::string() : ", first " + lineOf(*lost)) << "\n";
     }
-    if (isOnlyPredicted())
+    if (isMostlyUnmeasured() && numPredicted > 0)
     {
-        err << kNothingMeasured << "\n";
+        err << kMostlyPredicted << numTracked << " of " << numFrames
+            << " frames were tracked; the summary says why the others were not\n";
     }
     if (!damage.empty())
     {
@@ -176,8 +198,11 @@ void RunSummary::printProblems(std::ostream& err) const
 
 int RunSummary::exitCode() const
 {
-    return damage.empty() && numLost == 0 && !isOnlyPredicted() ? kExitOk : kExitIncomplete;
+    return damage.empty() && numLost == 0 && !isMostlyUnmeasured() ? kExitOk : kExitIncomplete;
 }
 
-bool RunSummary::isOnlyPredicted() const { return numPredicted > 0 && !hasMotion; }
+bool RunSummary::isMostlyUnmeasured() const
+{
+    return (numPredicted > 0 && !hasMotion) || 2 * numTracked < numFrames;
+}
 }  // namespace pointplane

@@ -28,13 +28,15 @@ struct RunSummary
     std::size_t numFrames{0}, numTracked{0}, numPredicted{0}, numLost{0};
     std::vector<UntrackedFrames> untracked;  //!< the first few
     std::size_t numUntrackedMore{0};         //!< frames of the others
-    bool hasMotion{false};                   //!< one at least was measured
-    double pathLength{0};                    //!< of the robot [m]
-    double seconds{0};                       //!< wall time
-    FrameDiagnostics sum;                    //!< of the times per stage; the latest depthNoise
-    std::vector<std::string> notes;          //!< lines about the input
-    std::string damage;                      //!< where the input ended early, or empty
-    std::vector<std::string> outputs;        //!< descriptions
+    std::size_t numInPart{0};                //!< tracked ones that have a reason
+    UntrackedFrames firstInPart;
+    bool hasMotion{false};             //!< one at least was measured
+    double pathLength{0};              //!< of the robot [m]
+    double seconds{0};                 //!< wall time
+    FrameDiagnostics sum;              //!< of the times per stage; the latest depthNoise
+    std::vector<std::string> notes;    //!< lines about the input
+    std::string damage;                //!< where the input ended early, or empty
+    std::vector<std::string> outputs;  //!< descriptions
 
     void add(const OutputItem& item);
 
@@ -48,7 +50,8 @@ struct RunSummary
     [[nodiscard]] int exitCode() const;
 
  private:
-    [[nodiscard]] bool isOnlyPredicted() const;
+    [[nodiscard]] bool isMostlyUnmeasured() const;
     void addUntracked(const OutputItem& item);
+    void addInPart(const OutputItem& item);
 };
 }  // namespace pointplane

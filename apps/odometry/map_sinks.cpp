@@ -58,8 +58,7 @@ SimplemapSink::SimplemapSink(const std::string& path, double distance, double an
 
 void SimplemapSink::add(const OutputItem& item)
 {
-    if (!item.frame || !item.source.converted->problem.empty() ||
-        item.frame->motion.status == TrackingStatus::Lost)
+    if (!item.frame || !isMeasured(item.frame->motion.status))
     {
         return;
     }

@@ -24,6 +24,14 @@ constexpr double kFrame = 1.0 / 30;
 
 const Eigen::Isometry3d kAtRest = Eigen::Isometry3d::Identity();
 
+/** A motion that errs for itself. */
+JointCovariance::Prediction independent(double variance)
+{
+    JointCovariance::Prediction out;
+    out.motion = variance * Matrix6d::Identity();
+    return out;
+}
+
 /** Of the pose alone. */
 Matrix12d ofPose(const Matrix6d& cov)
 {
@@ -288,11 +296,45 @@ TEST(JointCovariance, errorsOfAnotherCameraAreIndependent)
     EXPECT_THAT(joint.relative(2, kAtRest), isTimesIdentity(9 + 4)) << "alike, they would cancel";
 }
 
+/** An unknown velocity moves frame after frame by the same: the path grows with the time, not with
+ * its root. */
+TEST(JointCovariance, predictedFramesShareTheErrorOfTheVelocity)
+{
+    JointCovariance joint = started();
+    JointCovariance::Prediction step;
+    step.dt = 0.1;
+    step.velocity = 4 * Matrix6d::Identity();
+    step.motion = 0.01 * Matrix6d::Identity();
+    for (int frame = 2; frame <= 11; ++frame)
+    {
+        joint.predict(frame, kAtRest, step);
+    }
+    EXPECT_THAT(joint.relative(1, kAtRest), isTimesIdentity(1 * 4 + 10 * 0.01));
+    EXPECT_THAT(joint.relative(10, kAtRest), isTimesIdentity(0.01 * 4 + 0.01));
+
+    // After a measured frame, or after a gap, the velocity is another one.
+    JointCovariance measured = joint;
+    measured.measure(12, kAtRest, kFrame, against(1));
+    measured.predict(13, kAtRest, step);
+    EXPECT_THAT(measured.relative(12, kAtRest), isTimesIdentity(0.01 * 4 + 0.01));
+    step.isVelocityNew = true;
+    joint.predict(12, kAtRest, step);
+    EXPECT_THAT(joint.relative(1, kAtRest), isTimesIdentity(4 + 0.04 + 11 * 0.01));
+
+    // What the velocity gains on the way moves later frames only.
+    JointCovariance gaining = started();
+    step.velocityGain.setConstant(1);
+    gaining.predict(2, kAtRest, step);
+    step.isVelocityNew = false;
+    gaining.predict(3, kAtRest, step);
+    EXPECT_THAT(gaining.relative(2, kAtRest), isTimesIdentity(0.01 * (4 + 1) + 0.01));
+}
+
 TEST(JointCovariance, predictedFramesAndANewWindow)
 {
     JointCovariance joint = started();
     joint.measure(2, kAtRest, kFrame, against(1));
-    joint.predict(3, kAtRest, 5 * Matrix6d::Identity());
+    joint.predict(3, kAtRest, independent(5));
     EXPECT_THAT(joint.latest(), isTimesIdentity(6));
     EXPECT_THAT(joint.relative(2, kAtRest), isTimesIdentity(5));
 
@@ -374,9 +416,9 @@ TEST(JointCovariance, keepsWhatIsStillNeeded)
     EXPECT_TRUE(joint.knows(6) && joint.knows(5) && joint.knows(4));
     EXPECT_TRUE(joint.knows(3));
     EXPECT_FALSE(joint.knows(2));
-    joint.predict(7, kAtRest, Matrix6d::Identity());
-    joint.predict(8, kAtRest, Matrix6d::Identity());
-    joint.predict(9, kAtRest, Matrix6d::Identity());
+    joint.predict(7, kAtRest, independent(1));
+    joint.predict(8, kAtRest, independent(1));
+    joint.predict(9, kAtRest, independent(1));
     joint.keep({1});
     EXPECT_TRUE(joint.knows(6)) << "the previous one, though beyond the history";
     EXPECT_FALSE(joint.knows(5));

@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/se3.h>
+
+#include <Eigen/Cholesky>
+
 #include <limits>
 #include <utility>
 #include <vector>
@@ -103,13 +107,70 @@ TEST(OdometryFailures, sequenceThatBeginsWithoutDepth)
     {
         RgbdFrame frame = good(i);
         frame.depth.setTo(kNaN);
-        EXPECT_EQ(
-            odometry.process(frame).status,
-            i == 0 ? TrackingStatus::First : TrackingStatus::Predicted);
+        const OdometryResult result = odometry.process(frame);
+        EXPECT_EQ(result.status, TrackingStatus::Lost);
+        EXPECT_THAT(result.reason, testing::HasSubstr("no depth yet"));
+        EXPECT_GT(result.pose.cov(0, 0), 1e-5) << "nobody knows where that was";
     }
-    (void)odometry.process(good(3));  // nothing to compare with yet
+    // The path begins here. How the camera came here is not known.
+    const OdometryResult first = odometry.process(good(3));
+    EXPECT_EQ(first.status, TrackingStatus::First);
+    EXPECT_LT(first.pose.cov.diagonal().maxCoeff(), 1e-10);
+    EXPECT_GT(first.increment.cov(0, 0), 1e-5);
     EXPECT_EQ(odometry.process(good(4)).status, TrackingStatus::Tracked);
     EXPECT_EQ(odometry.process(good(5)).status, TrackingStatus::Tracked);
+}
+
+/** One of two streams hangs, at one image or at two in turns. */
+TEST(OdometryFailures, aStreamThatHangsCountsAsMissing)
+{
+    for (const bool colourHangs : {true, false})
+    {
+        for (const int numImages : {1, 2})
+        {
+            SCOPED_TRACE(testing::Message() << colourHangs << " " << numImages);
+            CheckedOdometry odometry;
+            for (int i = 0; i < 12; ++i)
+            {
+                RgbdFrame frame = good(i);
+                const bool hangs = i > 4;
+                const RgbdFrame old = good(hangs ? 4 - i % numImages : i);
+                (colourHangs ? frame.gray : frame.depth) = colourHangs ? old.gray : old.depth;
+                const OdometryResult result = odometry.process(frame);
+                EXPECT_EQ(
+                    result.reason.find("image is that of an earlier frame") != std::string::npos,
+                    hangs)
+                    << i << ": " << result.reason;
+                const Eigen::Isometry3d truth =
+                    CachedSequence::corner().sequence().trueMotion(0, i);
+                const Vector6d error = se3Log(truth.inverse() * result.pose.mean);
+                EXPECT_LT(error.dot(result.pose.cov.ldlt().solve(error)), 40) << "frame " << i;
+            }
+        }
+    }
+}
+
+/** Two exposures cannot be a microsecond apart, whatever the stamps say. */
+TEST(OdometryFailures, aStampHardlyLaterThanTheOneBeforeTellsNoSpeed)
+{
+    double sigma[2] = {0, 0};
+    for (const bool isClose : {false, true})
+    {
+        CheckedOdometry odometry;
+        for (int i = 0; i < 12; ++i)
+        {
+            RgbdFrame frame = good(i);
+            if (isClose && i == 6)
+            {
+                frame = good(5);
+                frame.depth.at<float>(0, 0) = 1.5F;  // not frozen
+                frame.gray.at<std::uint8_t>(0, 0) ^= 1;
+                frame.stamp += 1e-6;
+            }
+            sigma[isClose] = odometry.process(frame).diagnostics.maxSigmaTranslation;
+        }
+    }
+    EXPECT_LT(sigma[1], 2 * sigma[0]);
 }
 
 TEST(OdometryFailures, everythingOnePlane)

@@ -354,7 +354,8 @@ TEST(PointTracker, pointsThatAreMissingAreLookedForNowAndThen)
 
     PointTrack found;
     found.ref = 1;
-    reference.note({found});
+    const std::vector<PointTrack> tracks{found};
+    reference.note({&tracks});
     EXPECT_TRUE(reference.isDue(1));
     EXPECT_EQ(reference.misses[1], 0);
     EXPECT_GT(reference.misses[0], 3);

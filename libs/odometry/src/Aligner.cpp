@@ -222,10 +222,12 @@ void Aligner::distrustPoints(const Scene& scene, Alignment& alignment) const
     const std::string fewAgree = Judge::fewPointsAgree(alignment);
     for (Association& association : alignment.associations)
     {
+        association.doubtedPoints = std::move(association.points);
         association.points.clear();
     }
     estimate(scene, motion, alignment);
     alignment.estimate.motion.mean = motion;
+    alignment.isOfDoubtedPoints = true;
     judge_.judge(alignment);
     if (!alignment.holds)
     {

@@ -26,6 +26,8 @@ struct Alignment
     int numSought{0};             //!< points of the references that should be in view
     /** PoseSolver::pointSupport() of a motion that is unforeseen or shown by no surface. */
     double pointSupport{std::numeric_limits<double>::infinity()};
+    /** The motion is that of points that the covariance does not count: no minimum of `problem`. */
+    bool isOfDoubtedPoints{false};
     std::string unsettled;  //!< why another motion may be the camera's (RivalMotions), or empty
     bool holds{false};      //!< the estimate is to be believed
     double msPose{0};       //!< time that solving took [ms]

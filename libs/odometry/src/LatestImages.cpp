@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstring>
+#include <limits>
 
 namespace pointplane
 {
@@ -35,18 +36,51 @@ void copy(const cv::Mat& from, cv::Mat& to)
     }
     from.copyTo(to);
 }
+
+void keepReadings(const cv::Mat& depth, float least, float most, cv::Mat& out)
+{
+    constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+    out.create(depth.size(), depth.type());
+    for (int v = 0; v < depth.rows; ++v)
+    {
+        const auto* in = depth.ptr<float>(v);
+        auto* row = out.ptr<float>(v);
+        for (int u = 0; u < depth.cols; ++u)
+        {
+            row[u] = in[u] >= least && in[u] <= most ? in[u] : kNone;  // NaN is outside
+        }
+    }
+}
 }  // namespace
 
-bool LatestImages::renew(RgbdFrame& frame)
+LatestImages::LatestImages(double minDepth, double maxDepth)
+    : minDepth_(static_cast<float>(minDepth)), maxDepth_(static_cast<float>(maxDepth))
 {
-    const bool isNew = !isSame(depth_, frame.depth) || !isSame(gray_, frame.gray);
-    if (isNew)
+}
+
+bool LatestImages::Stream::renew(cv::Mat& image)
+{
+    for (const cv::Mat& before : images_)
     {
-        copy(frame.depth, depth_);
-        copy(frame.gray, gray_);
+        if (isSame(before, image))
+        {
+            image = before;
+            return false;
+        }
     }
-    frame.depth = depth_;
-    frame.gray = gray_;
-    return isNew;
+    copy(image, images_[older_]);
+    image = images_[older_];
+    older_ = 1 - older_;
+    return true;
+}
+
+LatestImages::Novelty LatestImages::renew(RgbdFrame& frame)
+{
+    keepReadings(frame.depth, minDepth_, maxDepth_, readings_);
+    frame.depth = readings_;
+    Novelty out;
+    out.depth = depth_.renew(frame.depth);
+    out.gray = frame.gray.empty() || gray_.renew(frame.gray);
+    return out;
 }
 }  // namespace pointplane

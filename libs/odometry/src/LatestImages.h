@@ -3,19 +3,43 @@
 
 #include <pointplane/sensor/RgbdFrame.h>
 
+#include <array>
+#include <cstddef>
+
 namespace pointplane
 {
-/** Keeps copies of the latest frame's images, so that the caller may reuse its buffers. Key frames
- * share these copies. It also tells whether images came twice: noise makes any two others differ.
- */
+/** Keeps copies of the latest images, so that the caller may reuse its buffers. Key frames share
+ * these copies. It also tells which images came before: noise makes any two others differ. */
 class LatestImages
 {
  public:
-    /** Puts copies in the place of the frame's images.
-     * \return whether they differ from those of the frame before, be it by a byte */
-    [[nodiscard]] bool renew(RgbdFrame& frame);
+    /** \param minDepth, maxDepth readings outside of these [m] are none */
+    LatestImages(double minDepth, double maxDepth);
+
+    /** Which images of a frame differ, be it by a byte, from those of the two frames before. */
+    struct Novelty
+    {
+        bool depth{true}, gray{true};
+    };
+
+    /** Puts copies in the place of the frame's images. Depth that is no reading becomes NaN. */
+    [[nodiscard]] Novelty renew(RgbdFrame& frame);
 
  private:
-    cv::Mat depth_, gray_;
+    /** The latest two of a stream: some buffers that hang give the same two in turns. */
+    class Stream
+    {
+     public:
+        /** \return whether the image is new; it becomes a copy */
+        bool renew(cv::Mat& image);
+
+     private:
+        std::array<cv::Mat, 2> images_;
+        std::size_t older_{0};
+    };
+
+    float minDepth_, maxDepth_;
+    cv::Mat readings_;
+    Stream depth_, gray_;
 };
 }  // namespace pointplane

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/odometry/Odometry.h>
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -19,7 +20,13 @@ namespace pointplane
 {
 struct Odometry::Impl
 {
-    explicit Impl(const OdometryParams& p) : params(p), frontEnd(p), aligner(p), errors(p), track(p)
+    explicit Impl(const OdometryParams& p)
+        : params(p),
+          frontEnd(p),
+          aligner(p),
+          errors(p),
+          track(p),
+          images(p.pointLifter.minDepth, p.pointLifter.maxDepth)
     {
     }
 
@@ -41,6 +48,11 @@ struct Odometry::Impl
 
 namespace
 {
+void addReason(const std::string& reason, OdometryResult& result)
+{
+    result.reason += (result.reason.empty() || reason.empty() ? "" : "; ") + reason;
+}
+
 void count(const FrameFeatures& features, FrameDiagnostics& diagnostics)
 {
     diagnostics.numPoints = static_cast<int>(features.points.size());
@@ -60,7 +72,8 @@ OdometryResult Odometry::Impl::process(const RgbdFrame& frame)
     result.stamp = frame.stamp;
     shown = {};
     place(frame, result);
-    result.pose = track.pose();
+    // Nobody knows how the camera came to where its path begins.
+    result.pose = track.isEmpty() ? result.increment : track.pose();
     result.since = track.since();
     if (result.status == TrackingStatus::Tracked)
     {
@@ -78,6 +91,30 @@ OdometryResult Odometry::Impl::process(const RgbdFrame& frame)
     return result;
 }
 
+namespace
+{
+/** A stream that hangs shows what was, not what is.
+ * \return which images are missing for that reason, or empty */
+std::string leaveOutRepeated(const LatestImages::Novelty& isNew, RgbdFrame& frame)
+{
+    const bool repeatsDepth = !isNew.depth && hasDepth(frame);
+    if (!isNew.depth)
+    {
+        frame.depth = cv::Mat(
+            frame.depth.size(), frame.depth.type(), std::numeric_limits<float>::quiet_NaN());
+    }
+    if (!isNew.gray)
+    {
+        frame.gray.release();
+    }
+    const bool showsNothing = !isNew.depth && frame.gray.empty();
+    return showsNothing   ? "its images are those of an earlier frame, byte for byte"
+           : repeatsDepth ? "its depth image is that of an earlier frame, byte for byte"
+           : !isNew.gray  ? "its colour image is that of an earlier frame, byte for byte"
+                          : "";
+}
+}  // namespace
+
 /** The paper's Fig. 1: extraction, matching, pose estimation, validation. */
 void Odometry::Impl::place(const RgbdFrame& frame, OdometryResult& result)
 {
@@ -91,11 +128,12 @@ void Odometry::Impl::place(const RgbdFrame& frame, OdometryResult& result)
     }
     RgbdFrame own = frame;
     own.camera.isNominal = own.camera.isNominal || params.lens.nominal;
-    if (!images.renew(own) && !track.isEmpty())
+    const std::string repeated = leaveOutRepeated(images.renew(own), own);
+    result.reason = repeated;
+    if (!track.isEmpty() && own.gray.empty() && !repeated.empty() && !hasDepth(own))
     {
         // Nothing was measured: the camera, or what carries its images, has stopped.
         result.status = TrackingStatus::Predicted;
-        result.reason = "its images are those of the frame before, byte for byte";
         result.increment = track.predict(frame.stamp);
         return;
     }
@@ -103,6 +141,10 @@ void Odometry::Impl::place(const RgbdFrame& frame, OdometryResult& result)
     shown = shownPlanes(current);
     const std::string interruption =
         track.isEmpty() ? "" : track.interruption(frame.stamp, frame.camera);
+    if (track.isEmpty() && !current.hasDepth)
+    {
+        return lose(frame.stamp, "no depth yet: there is nothing to begin with", result);
+    }
     if (track.isEmpty() || !interruption.empty())
     {
         return restart(current, interruption, result);
@@ -153,7 +195,7 @@ void Odometry::Impl::restart(
     const Features& current, const std::string& reason, OdometryResult& result)
 {
     result.status = track.isEmpty() ? TrackingStatus::First : TrackingStatus::Predicted;
-    result.reason = reason;
+    addReason(reason, result);
     Reference reference = referenceOf(current);
     reference.points = frontEnd.pointReference(current);
     reference.images = frontEnd.keyframeImages(current);
@@ -171,7 +213,7 @@ void Odometry::Impl::restart(
 void Odometry::Impl::measure(const Features& current, Alignment& alignment, OdometryResult& result)
 {
     result.status = TrackingStatus::Tracked;
-    result.reason = alignment.reason;
+    addReason(alignment.reason, result);
     const double dt = alignment.predicted.dt;
     const MotionGaussian& motion = alignment.estimate.motion;
     PairBuilder(track.previous(), current, errors.camera())
@@ -190,7 +232,8 @@ void Odometry::Impl::measure(const Features& current, Alignment& alignment, Odom
          track.motionNoise(dt),
          track.acceleration2(),
          errors.camera().complete(current.frame.shutter),
-         current.bend});
+         current.bend,
+         !alignment.isOfDoubtedPoints});
     showPairs(alignment.associations, &analysis, shown);
     shown.moving = Aligner::findMoving(frontEnd, current, track, errors, alignment);
     // Without depth, it shows nothing that others could be compared with.
@@ -219,7 +262,7 @@ void Odometry::Impl::predict(
     const Features& current, const std::string& reason, OdometryResult& result)
 {
     result.status = TrackingStatus::Predicted;
-    result.reason = reason;
+    addReason(reason, result);
     std::optional<Reference> unmatched = referenceOf(current);
     unmatched->points = frontEnd.pointReference(current);
     unmatched->images = frontEnd.keyframeImages(current);

@@ -17,7 +17,7 @@ namespace pointplane
 {
 namespace
 {
-/** Corners of several references that are found so close to each other are the same one. */
+/** Corners of several references that are found in the same cell of this side count as one. */
 constexpr double kSameCorner = 6;  // [px]
 
 /** Number of the cell of the image that the pixel is in. */
@@ -84,7 +84,6 @@ void PairBuilder::build(
             correct(pair.cur.theta_m, planeByCamera);
             pair.dCur_dV = current.planeJacobian(cur);
             pair.reference = reference.id;
-            pair.inReference = match.ref;
             pair.feature = match.cur;
             planes.push_back(pair);
         }
@@ -102,7 +101,6 @@ void PairBuilder::build(
             correct(pair.cur.mean, pointByCamera);
             pair.dCur_dV = current.pointJacobian(cur);
             pair.reference = reference.id;
-            pair.inReference = track.ref;
             pair.feature = cellOf(cur.uv_px);
             pair.hasDepth = cur.hasDepth;
             pair.surface = surfaceAt(camera.depthPixel(cur.uv_px), current_.planes);

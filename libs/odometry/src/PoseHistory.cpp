@@ -15,8 +15,16 @@ PoseHistory::PoseHistory(const JointCovariance::TParams& params)
 
 void PoseHistory::predict(const PoseGaussian& increment)
 {
-    joint_.predict(++latestFrame_, poses_.front(), increment.cov);
-    poses_.push_front(poses_.front() * increment.mean);
+    JointCovariance::Prediction errors;
+    errors.motion = increment.cov;
+    predict(increment.mean, errors);
+}
+
+void PoseHistory::predict(
+    const Eigen::Isometry3d& T_latest_cur, const JointCovariance::Prediction& errors)
+{
+    joint_.predict(++latestFrame_, poses_.front(), errors);
+    poses_.push_front(poses_.front() * T_latest_cur);
 }
 
 void PoseHistory::measure(

@@ -20,7 +20,10 @@ class PoseHistory
      * call */
     void changeCamera(const CameraMatrix& cov) { joint_.changeCamera(cov); }
 
-    /** Adds a frame that was not measured: its pose is where the increment leads to. */
+    /** Adds a frame that was not measured: its pose is where the motion leads to. */
+    void predict(const Eigen::Isometry3d& T_latest_cur, const JointCovariance::Prediction& errors);
+
+    /** Likewise, by a motion that errs independently of any other. */
     void predict(const PoseGaussian& increment);
 
     /** Adds a measured frame.

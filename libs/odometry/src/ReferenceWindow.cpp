@@ -68,8 +68,7 @@ double ReferenceWindow::overlap(const std::vector<Association>& associations) co
         if (isNewest(*a.reference))
         {
             out = std::min(
-                fraction(
-                    a.points.size() + a.movingPoints.size(), a.reference->points.points.size()),
+                fraction(a.numPointsFound(), a.reference->points.points.size()),
                 fraction(
                     a.planes.size() + a.movingPlanes.size(), a.reference->planes.planes.size()));
         }
@@ -104,7 +103,8 @@ void ReferenceWindow::notePoints(const Association& association)
     {
         if (keyframe.id == association.reference->id)
         {
-            keyframe.points.note(association.points, association.movingPoints);
+            keyframe.points.note(
+                {&association.points, &association.movingPoints, &association.doubtedPoints});
         }
     }
 }

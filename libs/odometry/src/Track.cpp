@@ -13,6 +13,12 @@
 
 namespace pointplane
 {
+namespace
+{
+/** Two exposures are not sooner after each other [s], whatever their stamps say. */
+constexpr double kShortestStep = 1e-3;
+}  // namespace
+
 Track::Track(const OdometryParams& params)
     : maxGap_(params.pipeline.maxGap),
       fuses_(params.pipeline.fuses()),
@@ -57,7 +63,7 @@ bool Track::isLate(double stamp)
 Prediction Track::prediction(double stamp)
 {
     Prediction out;
-    out.dt = stamp - previous().stamp;
+    out.dt = std::max(stamp - previous().stamp, kShortestStep);
     out.followsMeasured = latestStamp_ <= previous().stamp;
     if (out.dt > maxGap_)
     {
@@ -92,14 +98,20 @@ void Track::changeCamera(const PinholeCamera& camera, const CameraMatrix& cov)
 PoseGaussian Track::restart(Reference frame)
 {
     PoseGaussian increment;
-    increment.cov = Matrix6d::Identity() * (kExactSigma * kExactSigma);
-    if (started_)
+    if (started_ || wasLost_)
     {
         increment = predict(frame.stamp);
     }
     else
     {
-        history_.predict(increment);
+        increment.cov = Matrix6d::Identity() * (kExactSigma * kExactSigma);
+    }
+    if (!started_)
+    {
+        // The world begins here.
+        PoseGaussian none;
+        none.cov = Matrix6d::Identity() * (kExactSigma * kExactSigma);
+        history_.predict(none);
     }
     history_.restart(history_.latestFrame());
     window_.clear();
@@ -147,16 +159,26 @@ PoseGaussian Track::predict(double stamp, std::optional<Reference> unmatched)
 {
     const double step = stamp - latestStamp_;
     const bool known = started_ && step >= 0 && std::isfinite(step);
-    const double dt = known ? std::max(step, 1e-3) : MotionModel::kUsualStep;
-    if (dt > maxGap_)
+    const double dt = known ? std::max(step, kShortestStep) : MotionModel::kUsualStep;
+    JointCovariance::Prediction errors;
+    errors.dt = dt;
+    errors.isVelocityNew = dt > maxGap_;
+    if (errors.isVelocityNew)
     {
         motion_.reset();
     }
     PoseGaussian increment = motion_.predict(dt).pose();
+    errors.motion = motion_.unforeseen(dt);
+    errors.velocity = motion_.velocityCov();
     increment.cov = strictlyPositive(Matrix6d(increment.cov + motion_.jerk(dt)));
-    motion_.coast(dt);
-    history_.predict(increment);
-    if (started_ && std::isfinite(stamp))
+    errors.velocityGain = motion_.coast(dt);
+    if (!started_)
+    {
+        wasLost_ = true;
+        return increment;
+    }
+    history_.predict(increment.mean, errors);
+    if (std::isfinite(stamp))
     {
         latestStamp_ = std::max(latestStamp_, stamp);
     }

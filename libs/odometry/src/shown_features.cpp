@@ -107,6 +107,10 @@ void showPairs(
         {
             shown.points.push_back({track.cur.uv_px, FeatureUse::Rejected});
         }
+        for (const PointTrack& track : association.doubtedPoints)
+        {
+            shown.points.push_back({track.cur.uv_px, FeatureUse::Doubted});
+        }
     }
     keepEachOnce(shown.points);
 }

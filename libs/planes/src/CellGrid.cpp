@@ -31,8 +31,7 @@ class CellRow
     [[nodiscard]] cv::v_float32x4 inverseDepth(int i) const
     {
         const cv::v_float32x4 z(cells_[0][i], cells_[1][i], cells_[2][i], cells_[3][i]);
-        const cv::v_float32x4 isReading =
-            (z > cv::v_setall_f32(0.05F)) & (z < cv::v_setall_f32(100.F));
+        const cv::v_float32x4 isReading = z > cv::v_setzero_f32();
         return (cv::v_setall_f32(1) / z) & isReading;
     }
 

@@ -10,6 +10,20 @@ namespace pointplane
 {
 namespace
 {
+/** Largest first. */
+void sortBySize(std::vector<CellCluster>& clusters)
+{
+    std::sort(
+        clusters.begin(),
+        clusters.end(),
+        [](const CellCluster& a, const CellCluster& b)
+        {
+            return a.moments.numPixels != b.moments.numPixels
+                       ? a.moments.numPixels > b.moments.numPixels
+                       : a.cells < b.cells;
+        });
+}
+
 constexpr size_t kUsualNeighbours = 8;
 
 struct Node
@@ -300,15 +314,7 @@ std::vector<CellCluster> Graph::cluster(double minPixels)
             out.push_back({node.moments, node.fit, cellsOf(node)});
         }
     }
-    std::sort(
-        out.begin(),
-        out.end(),
-        [](const CellCluster& a, const CellCluster& b)
-        {
-            return a.moments.numPixels != b.moments.numPixels
-                       ? a.moments.numPixels > b.moments.numPixels
-                       : a.cells < b.cells;
-        });
+    sortBySize(out);
     return out;
 }
 }  // namespace
@@ -340,5 +346,6 @@ void mergeCoplanar(std::vector<CellCluster>& clusters, const PlanarityTest& test
             j = i + 1;  // the plane has changed: try all others again
         }
     }
+    sortBySize(clusters);
 }
 }  // namespace pointplane

@@ -11,7 +11,7 @@
 namespace pointplane
 {
 /** Paints whole cells with their cluster's label, then, pixel by pixel, the cells at the clusters'
- * borders, which straddle two surfaces: each pixel goes to the nearest adjacent plane it fits.
+ * borders, which straddle two surfaces: each pixel goes to the largest adjacent plane it fits.
  *
  * \param depth CV_32FC1 [m] \return CV_8UC1, its size: i + 1 = cluster i, 0 = none */
 [[nodiscard]] cv::Mat paintLabels(

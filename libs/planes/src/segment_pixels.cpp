@@ -14,7 +14,7 @@ std::vector<SegmentPixels> pixelsOfSegments(
         for (int u = 0; u < labels.cols; ++u)
         {
             const double z = static_cast<double>(row[u]);
-            if (label[u] > 0 && z > 0.05 && z < 100)  // false for NaN
+            if (label[u] > 0 && z > 0)  // false for NaN
             {
                 SegmentPixels& segment = out[static_cast<size_t>(label[u] - 1)];
                 segment.points.emplace_back(

@@ -3,17 +3,16 @@
 
 namespace pointplane
 {
-void PointReference::note(
-    const std::vector<PointTrack>& tracks, const std::vector<PointTrack>& others)
+void PointReference::note(std::initializer_list<const std::vector<PointTrack>*> found)
 {
     misses.resize(points.size(), 0);
     for (int& count : misses)
     {
         ++count;
     }
-    for (const std::vector<PointTrack>* found : {&tracks, &others})
+    for (const std::vector<PointTrack>* tracks : found)
     {
-        for (const PointTrack& track : *found)
+        for (const PointTrack& track : *tracks)
         {
             misses[static_cast<size_t>(track.ref)] = 0;
         }

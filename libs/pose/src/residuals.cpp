@@ -98,7 +98,6 @@ Residual planeResidualClosestPoint(const PlanePair& pair, const Motion& motion)
     out.J = -byReference * jacobianOfTransform(pair.ref.theta_m);
     out.J_V = -cur.J * pair.dCur_dV;
     out.ofCamera = byReference * pair.dRef_dCamera - cur.J * pair.dCur_dCamera;
-    out.R_prev_r = motion.T_prev_cur.linear();
     return out;
 }
 }  // namespace pointplane

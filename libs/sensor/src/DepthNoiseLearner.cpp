@@ -17,6 +17,9 @@ constexpr int kEveryCell = 3;                              //!< in each directio
 constexpr double kLeastValid = 0.95;                       //!< of a cell
 constexpr double kLeastDepth = 0.125, kLeastSigma = 1e-6;  // [m]
 
+/** No reading counts as farther [m]. */
+constexpr double kFarthest = 1e6;
+
 /** At first every image counts; then, one in so many. */
 constexpr long kFirstImages = 5, kEveryImage = 10;
 
@@ -134,7 +137,7 @@ void DepthNoiseLearner::addCell(const cv::Mat& depth, int u0, int v0)
     }
     addSteps(depth.ptr<float>(v0 + kCellPx / 2) + u0, kCellPx);
     const Eigen::Vector3d plane = A.ldlt().solve(b);
-    const double z = n / b(0);
+    const double z = std::min(n / b(0), kFarthest);
     const double sigma = z * z * std::sqrt(std::max(0.0, qq - b.dot(plane)) / (n - 3));
     const auto bin = static_cast<int>(std::floor(2 * std::log2(z / kLeastDepth)));
     if (bin >= 0 && bin < kNumDepths)

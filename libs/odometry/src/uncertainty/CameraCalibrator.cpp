@@ -85,7 +85,7 @@ CameraVector CameraCalibrator::priorVariances(double bend) const
     }
     if (shutter_.correct && shutter_.selfCalibrate)
     {
-        out.tail<3>().setConstant(shutter_.sigmaPrior * shutter_.sigmaPrior);
+        out.tail<3>().setConstant(sigmaPrior() * sigmaPrior());
     }
     return out;
 }

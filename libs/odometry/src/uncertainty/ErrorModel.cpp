@@ -58,6 +58,7 @@ Matrix6d rootOf(const Matrix6d& S)
 
 ErrorModel::ErrorModel(const OdometryParams& params)
     : params_(params.covariance),
+      noiseParams_(params.noiseScale),
       isJoint_(params.covariance.isJoint()),
       fuses_(params.pipeline.fuses()),
       learns_(params.noiseScale.adaptive),
@@ -69,6 +70,8 @@ ErrorModel::ErrorModel(const OdometryParams& params)
 
 CameraMatrix ErrorModel::changeCamera(const PinholeCamera& camera)
 {
+    noise_ = NoiseScale(noiseParams_);
+    planes_ = PlaneErrors(noiseParams_.timeConstant);
     camera_.start(camera);
     const CameraVector learnt = camera_.cov().diagonal();
     return calibrationVariances(params_, camera).cwiseMax(learnt).asDiagonal();
@@ -82,13 +85,20 @@ JointCovariance::Measurement ErrorModel::learn(const Measured& frame)
     {
         correlation[views.frames[k]] = views.ofPlanes.rightCols<1>()[static_cast<Eigen::Index>(k)];
     }
-    noise_.update(frame.analysis, frame.dt);
-    if (learns_)
+    if (frame.isMinimum)
+    {
+        noise_.update(frame.analysis, frame.dt);
+    }
+    if (learns_ && frame.isMinimum)
     {
         planes_.update(frame.analysis.planeResiduals, correlation, frame.dt);
     }
     JointCovariance::Measurement out = errorsOf(frame);
     out.views = views;
+    if (!frame.isMinimum)
+    {
+        return out;
+    }
     const CameraCalibrator::Change change =
         camera_.update(frame.analysis, frame.bend, noise_.overCautious());
     out.cameraGain = change.gain;

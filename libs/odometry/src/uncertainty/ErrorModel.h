@@ -56,7 +56,8 @@ class ErrorModel
     /** What was learnt of the camera. */
     [[nodiscard]] const CameraCalibrator& camera() const { return camera_; }
 
-    /** From here on, frames are those of this camera. \return covariance of its errors */
+    /** From here on, frames are those of this camera: nothing is known of its noise.
+     * \return covariance of its errors */
     [[nodiscard]] CameraMatrix changeCamera(const PinholeCamera& camera);
 
     /** A measured frame. */
@@ -70,6 +71,7 @@ class ErrorModel
         Vector6d acceleration2{Vector6d::Zero()};  //!< MotionModel::acceleration2()
         ShutterModel shutter{0, 0, 0};             //!< CameraCalibrator::complete()
         double bend{0};                            //!< DepthNoise::sigmaRelative
+        bool isMinimum{true};  //!< the estimate is what its features say: they tell their noise
     };
 
     /** Learns from the frame. \return what its estimate's errors come from */
@@ -79,6 +81,7 @@ class ErrorModel
     [[nodiscard]] JointCovariance::Measurement errorsOf(const Measured& frame) const;
 
     JointCovariance::TParams params_;
+    NoiseScale::TParams noiseParams_;
     bool isJoint_, fuses_, learns_;
     NoiseScale noise_;
     PlaneErrors planes_;

@@ -57,11 +57,40 @@ void JointCovariance::changeCamera(const CameraMatrix& cov)
 }
 
 void JointCovariance::predict(
-    int frame, const Eigen::Isometry3d& T_world_latest, const Matrix6d& cov)
+    int frame, const Eigen::Isometry3d& T_world_latest, const Prediction& prediction)
 {
-    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(kSize, cov_.cols());
-    A.middleCols<kSize>(newest()).setIdentity();
-    prepend({{Kind::Pose, frame}}, A, propagate(adjoint(T_world_latest), cov));
+    const bool isCoasting = has(Kind::Coasting, 0) && !prediction.isVelocityNew;
+    if (!isCoasting)
+    {
+        dropCoasting();
+        prepend(
+            {{Kind::Coasting, 0}}, Eigen::MatrixXd::Zero(kSize, cov_.cols()), prediction.velocity);
+    }
+    const Matrix6d Ad = adjoint(T_world_latest);
+    const Eigen::Index velocity = find(Kind::Coasting, 0);
+    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * kSize, cov_.cols());
+    A.block<kSize, kSize>(0, newest()).setIdentity();
+    A.block<kSize, kSize>(0, velocity) = prediction.dt * Ad;
+    A.block<kSize, kSize>(kSize, velocity).setIdentity();
+    Eigen::MatrixXd Q = Eigen::MatrixXd::Zero(2 * kSize, 2 * kSize);
+    Q.topLeftCorner<kSize, kSize>() = propagate(Ad, prediction.motion);
+    Q.bottomRightCorner<kSize, kSize>() = prediction.velocityGain.asDiagonal();
+    prepend({{Kind::Pose, frame}, {Kind::Coasting, 0}}, A, Q);
+    dropCoasting(1);
+}
+
+/** All but the first `kept` of the velocities since the latest measured frame. */
+void JointCovariance::dropCoasting(int kept)
+{
+    std::vector<std::size_t> others;
+    for (std::size_t k = 0; k < blocks_.size(); ++k)
+    {
+        if (blocks_[k].kind != Kind::Coasting || kept-- > 0)
+        {
+            others.push_back(k);
+        }
+    }
+    select(others);
 }
 
 void JointCovariance::restart(int frame, const std::vector<int>& poses)
@@ -157,6 +186,7 @@ void JointCovariance::measure(
     }
     select(kept);
     previous_ = frame;
+    dropCoasting();
 }
 
 /** Of a new frame, and of places that were recalled. */

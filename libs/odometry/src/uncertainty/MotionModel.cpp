@@ -55,7 +55,7 @@ MotionModel::MotionModel(const TParams& params) : params_(params)
 MotionGaussian MotionModel::predict(double dt) const
 {
     Matrix12d ofVelocity = Matrix12d::Zero();
-    ofVelocity.bottomRightCorner<6, 6>() = cov_.bottomRightCorner<6, 6>();
+    ofVelocity.bottomRightCorner<6, 6>() = velocityCov();
     return predictFrom(ofVelocity, std::min(dt, kLongestStep));
 }
 
@@ -80,6 +80,11 @@ MotionGaussian MotionModel::predictFrom(const Matrix12d& cov, double t) const
     return {{se3Exp(velocity_ * t), velocity_}, propagate(transition, cov) + noise};
 }
 
+Matrix6d MotionModel::unforeseen(double dt) const
+{
+    return predictFrom(Matrix12d::Zero(), std::min(dt, kLongestStep)).pose().cov + jerk(dt);
+}
+
 Matrix6d MotionModel::jerk(double dt) const
 {
     const double t = std::min(dt, kLongestStep);
@@ -93,6 +98,7 @@ void MotionModel::follow(const Eigen::Isometry3d& T_prev_cur, double dt)
     cov_.bottomRightCorner<6, 6>() = (dt * density_).cwiseMin(1.0).asDiagonal();
     measuredCov_.setZero();
     coasting_ = 0;
+    decayed_.setZero();
 }
 
 Vector6d MotionModel::update(const MotionGaussian& measured, double dt)
@@ -124,6 +130,7 @@ Vector6d MotionModel::update(const MotionGaussian& measured, double dt)
     toEnd.topLeftCorner<6, 6>() = adjoint(measured.mean.T_prev_cur.inverse());
     cov_ = measuredCov_ = propagate(toEnd, measured.cov);
     coasting_ = 0;
+    decayed_.setZero();
     const Increment increment{
         se3Log(measured.mean.T_prev_cur) / t, t, measured.cov.diagonal().head<6>()};
     learnAcceleration(increment);
@@ -144,12 +151,18 @@ void MotionModel::learnAcceleration(const Increment& next)
     {
         return;
     }
-    const Vector6d a = 2 * (next.velocity - increment_->velocity) / (next.dt + increment_->dt);
+    const double dt = 0.5 * (next.dt + increment_->dt);
+    const Vector6d a = (next.velocity - increment_->velocity) / dt;
+    // What the noise of the poses makes of it, which is much if they are soon after each other.
+    const Vector6d noise = (next.variance / (next.dt * next.dt) +
+                            increment_->variance / (increment_->dt * increment_->dt)) /
+                           (dt * dt);
+    const Vector6d a2 = a.cwiseAbs2() - noise;
     ++numAccelerations_;
     const double rate =
         std::max(1.0 / numAccelerations_, 1 - std::exp(-next.dt / params_.timeConstant));
-    const Vector6d a2 = perAxis(a.head<3>().squaredNorm() / 3, a.tail<3>().squaredNorm() / 3);
-    acceleration2_ += rate * (a2 - acceleration2_);
+    acceleration2_ +=
+        rate * (perAxis(a2.head<3>().mean(), a2.tail<3>().mean()).cwiseMax(0) - acceleration2_);
 }
 
 void MotionModel::followIncrements()
@@ -178,7 +191,9 @@ Vector6d MotionModel::betweenIncrements(const Increment& next, const Vector6d& s
     {
         return smoothed;
     }
-    const Vector6d variances = (last.variance + next.variance) / (dt * dt);
+    const double ratio = next.dt / last.dt;
+    const Vector6d variances =
+        (ratio * ratio * last.variance + next.variance / (ratio * ratio)) / (dt * dt);
     const Vector6d wander = Vector6d::Constant(kWander * kWander);
     const Vector6d noise = perAxis(variances.head<3>().mean(), variances.tail<3>().mean());
     return smoothed + wander.cwiseQuotient(wander + noise).cwiseProduct(apart);
@@ -202,17 +217,21 @@ Vector6d MotionModel::smallestDensity() const
     return perAxis(params_.velocityRandomWalk, params_.angularVelocityRandomWalk).cwiseAbs2();
 }
 
-void MotionModel::coast(double dt)
+Vector6d MotionModel::coast(double dt)
 {
     increment_.reset();
     atIncrementsEnd_.reset();
-    // [P17, section Pose estimation]. What decays is uncertain by as much as it decays; the rest is
-    // white acceleration.
-    const Vector6d decayed = (1 - std::pow(params_.decay, dt / kUsualStep)) * velocity_;
-    velocity_ -= decayed;
+    // [P17, section Pose estimation]. What has decayed is uncertain by as much as it has decayed;
+    // the rest is white acceleration.
+    const Vector6d before = decayed_;
+    const Vector6d decaying = (1 - std::pow(params_.decay, dt / kUsualStep)) * velocity_;
+    velocity_ -= decaying;
+    decayed_ += decaying;
     const double t = std::min(dt, kLongestCoasting - coasting_);
     coasting_ += t;
-    cov_.diagonal().tail<6>() += t * density_ + decayed.cwiseAbs2();
+    const Vector6d gained = t * density_ + decayed_.cwiseAbs2() - before.cwiseAbs2();
+    cov_.diagonal().tail<6>() += gained;
+    return gained;
 }
 
 void MotionModel::startAtReference()
@@ -230,6 +249,7 @@ void MotionModel::reset()
     increment_.reset();
     atIncrementsEnd_.reset();
     coasting_ = 0;
+    decayed_.setZero();
     const Vector6d velocity = kPush * sudden();
     cov_.setZero();
     cov_.bottomRightCorner<6, 6>() = velocity.cwiseAbs2().asDiagonal();

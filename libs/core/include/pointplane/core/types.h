@@ -12,6 +12,5 @@ using Vector12d = Eigen::Matrix<double, 12, 1>;
 using Matrix12d = Eigen::Matrix<double, 12, 12>;
 using Matrix126d = Eigen::Matrix<double, 12, 6>;
 using Matrix36d = Eigen::Matrix<double, 3, 6>;
-using Matrix34d = Eigen::Matrix<double, 3, 4>;
 using Matrix43d = Eigen::Matrix<double, 4, 3>;
 }  // namespace pointplane

@@ -12,8 +12,8 @@ namespace pointplane
 /** RGB-D odometry from noisy points and planes [P17]. Give it frames in order of time; each yields
  * a result. The same frames and parameters give the same bits, whatever the number of threads.
  *
- * A frame that cannot be used (no depth, unusable intrinsics, a stamp not after the previous one)
- * is Lost and never an exception; the next good frame recovers. */
+ * A frame that cannot be used (no depth image, unusable intrinsics, a stamp not after the previous
+ * one) is Lost and never an exception; the next good frame recovers. */
 class Odometry
 {
  public:

@@ -14,7 +14,7 @@ namespace pointplane
 {
 enum class TrackingStatus
 {
-    First,      //!< start of a trajectory: increment is identity with a negligible covariance
+    First,      //!< start of a trajectory: the pose is the identity with a negligible covariance
     Tracked,    //!< measured; directions that it does not tell are predicted, as uncertain as that
     Predicted,  //!< not measurable from this frame: motion model only
     Lost        //!< the frame could not be used at all: motion model only
@@ -22,6 +22,12 @@ enum class TrackingStatus
 
 /** "first", "tracked", "predicted" or "lost". */
 [[nodiscard]] const char* toString(TrackingStatus status);
+
+/** Whether the frame shows where it is: not predicted, and not lost. */
+[[nodiscard]] inline bool isMeasured(TrackingStatus status)
+{
+    return status == TrackingStatus::First || status == TrackingStatus::Tracked;
+}
 
 /** What the camera's motion has told of a lens that nobody calibrated. */
 struct LearntLens
@@ -63,7 +69,7 @@ struct FrameDiagnostics
 struct OdometryResult
 {
     TrackingStatus status{TrackingStatus::Lost};
-    std::string reason;      //!< why not tracked, or empty; one clause without full stop
+    std::string reason;      //!< why not tracked, or not in full; or empty. No full stop
     double stamp{0};         //!< of the frame [s]
     PoseGaussian increment;  //!< T_prev_cur, camera optical frames; strictly positive definite
     PoseGaussian pose;       //!< T_world_cur, accumulated

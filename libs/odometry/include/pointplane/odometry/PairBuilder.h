@@ -39,7 +39,6 @@ class PairBuilder
         std::vector<PlanePair>& planes) const;
 
     /** Orientation of the previous frame. */
-    [[nodiscard]] Eigen::Matrix3d R_world_prev() const { return previous_.T_world_cam.linear(); }
 
  private:
     const Reference& previous_;

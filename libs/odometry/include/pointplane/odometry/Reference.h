@@ -47,5 +47,12 @@ struct Association
     /** Found again as well, but they go with what moves: the pose does not depend on them. */
     std::vector<PlaneMatch> movingPlanes;
     std::vector<PointTrack> movingPoints;
+    /** Found again, but so few that chance may have made them agree: likewise. */
+    std::vector<PointTrack> doubtedPoints;
+
+    [[nodiscard]] size_t numPointsFound() const
+    {
+        return points.size() + movingPoints.size() + doubtedPoints.size();
+    }
 };
 }  // namespace pointplane

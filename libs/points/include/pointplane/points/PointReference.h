@@ -5,6 +5,7 @@
 
 #include <opencv2/core/mat.hpp>
 
+#include <initializer_list>
 #include <memory>
 #include <vector>
 
@@ -32,7 +33,7 @@ struct PointReference
     std::vector<int> misses;  //!< tracking: frames in a row without each point
 
     /** Counts misses: which points were found again in a frame. */
-    void note(const std::vector<PointTrack>& tracks, const std::vector<PointTrack>& others = {});
+    void note(std::initializer_list<const std::vector<PointTrack>*> found);
 
     /** Whether to search for a point now. One that has been missing for some frames is searched for
      * only now and then, in turns with others, because a search in vain takes longest. */

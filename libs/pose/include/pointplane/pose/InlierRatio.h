@@ -6,7 +6,7 @@ namespace pointplane
 /** How many points of a surface agree with the camera's motion. */
 struct InlierRatio
 {
-    double points{0};   //!< found again
+    double points{0};   //!< pairs: found again, once for each reference
     double inliers{0};  //!< sum of their robust weights
 
     /** In (0, 1], as if two more points had agreed: a surface without points counts fully. */

@@ -43,7 +43,7 @@ struct PoseEstimate
     MotionGaussian motion;  //!< cov is that of `covariance`, see docs/theory.md
     [[nodiscard]] PoseGaussian pose() const { return motion.pose(); }
 
-    Matrix6d infoPoints{Matrix6d::Zero()};  //!< J^T W J of the points on the pose
+    Matrix6d infoPoints{Matrix6d::Zero()};  //!< J^T W J of the points, as weighed
     Matrix6d infoPlanes{Matrix6d::Zero()};  //!< of the planes, alpha not included
     double pointChi2PerDof{0};  //!< mean squared Mahalanobis norm / 3 of points, Tukey-weighted
     double planeChi2PerDof{0};  //!< mean squared Mahalanobis norm / 3 of planes
@@ -130,7 +130,6 @@ class PoseSolver
     explicit PoseSolver(const TParams& params);
 
     /** Whether residuals are in units of their covariances (else in m and 1/m). */
-    [[nodiscard]] bool isWeighted() const { return settings_.weighting != Weighting::None; }
 
     /** Pose and velocity of the current camera, with their joint covariance.
      * \param start initial motion

@@ -42,7 +42,6 @@ struct PointPair
     ByCamera dRef_dCamera{ByCamera::Zero()};  //!< error of ref with those of the camera [m]
     ByCamera dCur_dCamera{ByCamera::Zero()};  //!< of cur, likewise
     int reference{0};                         //!< which of the frames that cur is compared with
-    int inReference{-1};                      //!< which of that frame's points ref is
     int feature{-1};                          //!< pairs of equal ones err together; -1: of its own
     int surface{-1};                          //!< PlanePair::feature of the plane it is on; or -1
     int refPatch{-1}, curPatch{-1};           //!< of their images; -1: depth has no smooth error
@@ -61,7 +60,6 @@ struct PlanePair
     ByCamera dRef_dCamera{ByCamera::Zero()};  //!< error of ref with those of the camera [1/m]
     ByCamera dCur_dCamera{ByCamera::Zero()};  //!< of cur, likewise
     int reference{0};                         //!< which of the frames that cur is compared with
-    int inReference{-1};                      //!< which of that frame's planes ref is
     int feature{-1};                          //!< pairs of equal ones err together; -1: of its own
 };
 }  // namespace pointplane

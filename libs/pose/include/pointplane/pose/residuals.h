@@ -17,8 +17,6 @@ struct Residual
     Matrix36d J;                          //!< dr / dxi
     Matrix36d J_V;                        //!< dr / dV
     ByCamera ofCamera{ByCamera::Zero()};  //!< change with errors of the camera
-    /** Turns r from the frame that it is in to the previous one. */
-    Eigen::Matrix3d R_prev_r{Eigen::Matrix3d::Identity()};
 };
 
 /** r = P' - (R P + t) [P17 Eq. 8]: P' in the previous frame, P in the current camera [m]. */

@@ -42,7 +42,7 @@ class DepthNoiseLearner
 
  private:
     static constexpr int kNumDepths = 14;  //!< half octaves from 0.125 m
-    static constexpr int kNumLevels = 64;  //!< quarter octaves of the residuals from 1 um
+    static constexpr int kNumLevels = 96;  //!< quarter octaves of the residuals, 1 um to 16 m
     using Histogram = std::array<double, kNumLevels>;
 
     void addCell(const cv::Mat& depth, int u0, int v0);

@@ -127,9 +127,20 @@ class JointCovariance
      * first call */
     void changeCamera(const CameraMatrix& cov);
 
-    /** Adds a frame that was not measured. \param T_world_latest pose of the frame before
-     * \param cov of the motion from there (left perturbation in its frame) */
-    void predict(int frame, const Eigen::Isometry3d& T_world_latest, const Matrix6d& cov);
+    /** The motion of a frame that was not measured. */
+    struct Prediction
+    {
+        double dt{0};                             //!< [s] since the frame before
+        Matrix6d motion{Matrix6d::Zero()};        //!< its covariance if the velocity is known
+        Matrix6d velocity{Matrix6d::Zero()};      //!< that of the velocity
+        Vector6d velocityGain{Vector6d::Zero()};  //!< what its variance gains on the way
+        bool isVelocityNew{false};  //!< it has nothing to do with that of the frame before
+    };
+
+    /** Adds a frame that was not measured. The error of the velocity stays that of the frame
+     * before, if that was not measured either. \param T_world_latest pose of the frame before (the
+     * motion and the velocity are left perturbations in its frame) */
+    void predict(int frame, const Eigen::Isometry3d& T_world_latest, const Prediction& prediction);
 
     /** Makes a known frame the previous one and the only reference.
      * \param poses frames whose poses stay known, too */
@@ -163,6 +174,7 @@ class JointCovariance
     {
         Pose,
         Velocity,
+        Coasting,  //!< velocity since the latest measured frame
         Camera,
         Bend,      //!< of a reference: scale of depth in each patch of its image
         View,      //!< of a reference: error by its view, in units of Measurement::viewSigma
@@ -178,6 +190,7 @@ class JointCovariance
         }
     };
 
+    void dropCoasting(int kept = 0);
     [[nodiscard]] Eigen::Index newest() const;
     [[nodiscard]] bool has(Kind kind, int frame) const;
     [[nodiscard]] Eigen::Index find(Kind kind, int frame) const;

@@ -59,17 +59,25 @@ class MotionModel
     /** \throws std::invalid_argument naming the key */
     explicit MotionModel(const TParams& params);
 
-    /** Predicted motion over `dt` [s] from the latest measured frame: T_prev_cur and the velocity
-     * at its end. \pre dt > 0 */
+    /** Predicted motion over `dt` [s] from the latest frame, measured or not: T_prev_cur and the
+     * velocity at its end. \pre dt > 0 */
     [[nodiscard]] MotionGaussian predict(double dt) const;
 
-    /** The same motion as it will be measured: from where the estimate has put that frame. The
-     * error of the frame's pose adds to it, and is a part of the error of the velocity. */
+    /** Covariance of velocity() [m/s, rad/s]. */
+    [[nodiscard]] Matrix6d velocityCov() const { return cov_.bottomRightCorner<6, 6>(); }
+
+    /** Motion over `dt` [s] from the latest measured frame, as it will be measured: from where the
+     * estimate has put that frame, T_prev_cur and the velocity at its end. The error of the frame's
+     * pose adds to it, and is a part of the error of the velocity. \pre dt > 0 */
     [[nodiscard]] MotionGaussian predictFromEstimate(double dt) const;
 
-    /** Covariance of predict() without the part that the measured motion's own covariance makes.
-     */
+    /** Covariance of predictFromEstimate() without the part that the measured motion's own
+     * covariance makes. */
     [[nodiscard]] Matrix12d processNoise(double dt) const;
+
+    /** Covariance of the pose after `dt` [s] if the velocity is known: by white acceleration and by
+     * a jerk. */
+    [[nodiscard]] Matrix6d unforeseen(double dt) const;
 
     /** Covariance of the pose by a jerk that was not foreseen, over `dt` [s]. */
     [[nodiscard]] Matrix6d jerk(double dt) const;
@@ -93,8 +101,9 @@ class MotionModel
     /** The next motion starts at a frame to which others are compared: its pose has no error. */
     void startAtReference();
 
-    /** Passes `dt` [s] without a measurement: the velocity decays, its uncertainty grows. */
-    void coast(double dt);
+    /** Passes `dt` [s] without a measurement: the velocity decays, its uncertainty grows.
+     * \return variance that the velocity has gained */
+    Vector6d coast(double dt);
 
     /** Body velocity at the latest measured frame, decayed since [m/s, rad/s]. */
     [[nodiscard]] const Vector6d& velocity() const { return velocity_; }
@@ -131,8 +140,9 @@ class MotionModel
     Matrix12d measuredCov_{Matrix12d::Zero()};  //!< the same when it was measured
     Vector6d density_;
     Vector6d acceleration2_{Vector6d::Zero()};
-    int numAccelerations_{0};  //!< that acceleration2_ was learnt from
-    double coasting_;          //!< time since the latest measurement, counted up to a limit [s]
+    int numAccelerations_{0};             //!< that acceleration2_ was learnt from
+    Vector6d decayed_{Vector6d::Zero()};  //!< of the velocity since the latest measurement
+    double coasting_;  //!< time since the latest measurement, counted up to a limit [s]
     std::optional<Increment> increment_;       //!< the latest
     std::optional<Vector6d> atIncrementsEnd_;  //!< velocity, by the latest two of them
 };
