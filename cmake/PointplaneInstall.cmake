@@ -20,5 +20,5 @@ install(FILES config.ini config-fast.ini config-paper.ini
 install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/pointplane-doc
         COMPONENT doc)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/pointplane-doc COMPONENT doc
-        FILES_MATCHING PATTERN "*.md" PATTERN "*.jpg" PATTERN "*.png" PATTERN "*.svg")
+        FILES_MATCHING PATTERN "*.md" PATTERN "*.ini" PATTERN "*.jpg" PATTERN "*.png" PATTERN "*.svg")
 include(cmake/PointplanePackages.cmake)

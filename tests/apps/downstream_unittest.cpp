@@ -227,36 +227,7 @@ TEST_F(Downstream, rbpfSlamFollowsTheOdometry)
     {
         GTEST_SKIP() << "rbpf-slam is not installed (package mrpt-apps)";
     }
-    writeBytes(path("rbpf.ini"), R"([MappingApplication]
-rawlog_offset = 0
-logOutput_dir = rbpf_results
-LOG_FREQUENCY = 1000
-GENERATE_LOG_JOINT_H = false
-GENERATE_LOG_INFO = false
-SAVE_POSE_LOG = true
-SAVE_MAP_IMAGES = false
-SAVE_3D_SCENE = false
-SHOW_PROGRESS_IN_WINDOW = false
-CAMERA_3DSCENE_FOLLOWS_ROBOT = false
-insertionLinDistance = 0.05
-insertionAngDistance_deg = 5
-localizeLinDistance = 10
-localizeAngDistance_deg = 360
-verbosity_level = INFO
-PF_algorithm = 0
-resamplingMethod = 3
-adaptiveSampleSize = 0
-sampleSize = 1
-BETA = 0.5
-pfOptimalProposal_mapSelection = 0
-ICPGlobalAlign_MinQuality = 0.7
-update_gridMapLikelihoodOptions = 0
-[MappingApplication_metricMap]
-pointsMap_count = 1
-[MappingApplication_metricMap_pointsMap_00_insertOpts]
-minDistBetweenLaserPoints = 0.05
-isPlanarMap = false
-)");
+    writeBytes(path("rbpf.ini"), readBytes(POINTPLANE_SOURCE_DIR "/docs/rbpf.ini"));
     std::string log;
     ASSERT_EQ(run("rbpf-slam rbpf.ini format1.rawlog", &log), 0) << log;
     const Eigen::Vector3d last = lastPosition("rbpf_results/log_odometry_path.txt", 1);

@@ -93,7 +93,7 @@ programs() {
     for name in a b; do
         ln -s in.rawlog $name.rawlog
     done
-    cp "$root"/config*.ini .
+    cp "$root"/config*.ini "$root/docs/rbpf.ini" .
     prepare "$here/make_recordings.py" small .
     ln -s in.groundtruth.txt GT
     ln -s in.groundtruth.txt groundtruth.txt
@@ -115,7 +115,6 @@ program() {
         pointplane-convert\ tum* | *fr1_xyz*) [[ -z ${POINTPLANE_DATA:-} ]] || run 0 "$1" ;;
         pointplane-convert\ bag*) [[ $(bash -c "$1" 2>&1) == *"built without"* ]] || run 0 "$1" ;;
         pointplane-* | for\ *) run 0 "$1" ;;
-        *rbpf-slam*) ;;  # tests/apps/downstream has its ini
         *) ! command -v graphslam-engine >/dev/null || run 0 "$1" ;;  # MRPT's own
     esac
 }

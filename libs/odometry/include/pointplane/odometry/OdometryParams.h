@@ -64,7 +64,11 @@ struct PipelineParams
           maxGap,
           "s",
           "after a longer gap between frames, the velocity counts as unknown");
-        v("numThreads", numThreads, "-", "1, or 2 = points and planes side by side");
+        v("numThreads",
+          numThreads,
+          "-",
+          "threads for one frame: 1, or 2 = points and planes side by side; --jobs of the "
+          "program is about reading and writing");
     }
     /** \throws std::invalid_argument naming the key */
     void check() const;

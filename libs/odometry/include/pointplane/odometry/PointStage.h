@@ -35,8 +35,9 @@ class PointStage
             v("method",
               method,
               "-",
-              "track (corners, searched for around the predicted position) or match (key "
-              "points, by their descriptors)");
+              "track (corners, searched for around the predicted position; [PointTracker]) or "
+              "match (key points, by their descriptors; [PointDetector] and [PointMatcher], which "
+              "have no effect otherwise)");
         }
         /** \throws std::invalid_argument naming the key */
         void check() const;

@@ -73,8 +73,8 @@ class PlaneExtractor
             v("correlatedPixels",
               correlatedPixels,
               "px",
-              "so many neighbouring pixels err as one: factor on a plane's covariance; 0: as the "
-              "plane's residuals tell");
+              "number of neighbouring pixels that err as one; a plane's covariance is multiplied "
+              "by it; 0: learnt from the plane's residuals");
         }
         /** \throws std::invalid_argument naming the key */
         void check() const;

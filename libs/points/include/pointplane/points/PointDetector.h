@@ -41,7 +41,8 @@ class PointDetector
             v("detector",
               detector,
               "-",
-              "surf, orb, akaze, sift, or fast (FAST corners with ORB descriptors)");
+              "with method = match: surf, orb, akaze, sift, or fast (FAST corners with ORB "
+              "descriptors)");
             v("maxPoints", maxPoints, "-", "most key points of an image, spread evenly");
             v("gridCellPx",
               gridCellPx,

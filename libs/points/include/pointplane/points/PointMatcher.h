@@ -37,12 +37,12 @@ class PointMatcher
             v("searchRadiusPx",
               searchRadiusPx,
               "px",
-              "radius of the circle around the expected position");
+              "with method = match: radius of the circle around the expected position");
             v("neighbours",
               neighbours,
               "-",
-              "k > 0: of a descriptor's k nearest in the whole image, those in the circle are "
-              "candidates (the paper's k-NN); 0: all in the circle are");
+              "0: every key point in the circle is a candidate; k > 0: only those that are among "
+              "the k nearest descriptors of the whole image (the paper's k-NN)");
             v("maxRatio",
               maxRatio,
               "-",

@@ -85,11 +85,11 @@ struct DepthNoise
           "1/m",
           "noise of depth where it is not learnt: sigma_Z = this * Z^2 (default: a Kinect, "
           "by Khoshelham)");
-        v("sigmaDepth", sigmaDepth, "m", "if given: noise that is the same at all depths");
+        v("sigmaDepth", sigmaDepth, "m", "with kind = given: noise that is the same at all depths");
         v("sigmaRelative",
           sigmaRelative,
           "-",
-          "if given: smooth error that bends surfaces, as a fraction of the depth");
+          "with kind = given: smooth error that bends surfaces, as a fraction of the depth");
         v("sigmaPixelPx", sigmaPixelPx, "px", "noise of a key point's position");
     }
     /** \throws std::invalid_argument naming the key */

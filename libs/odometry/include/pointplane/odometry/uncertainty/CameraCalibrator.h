@@ -59,8 +59,8 @@ class CameraCalibrator
             v("varianceFactor",
               varianceFactor,
               "-",
-              "this many frames teach as much as one, also of the lens: neighbouring frames have "
-              "the same errors");
+              "so many frames count as one when shutter and lens are learnt, because neighbouring "
+              "frames have the same errors");
         }
         /** \throws std::invalid_argument naming the key */
         void check() const;
@@ -77,7 +77,8 @@ class CameraCalibrator
             v("nominal",
               nominal,
               "-",
-              "nobody calibrated this very camera, even if the recording does not say so");
+              "true: the intrinsics are nominal (nobody calibrated this very camera), even if the "
+              "recording does not say so");
             v("selfCalibrate",
               selfCalibrate,
               "-",

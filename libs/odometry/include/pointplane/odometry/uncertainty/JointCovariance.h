@@ -46,13 +46,13 @@ class JointCovariance
             v("noise",
               noise,
               "-",
-              "noise of one frame's points: part of the variance of their residuals, which holds "
-              "the references' noise, too");
+              "which part of the variance of the points' residuals is noise of this frame; the "
+              "rest is noise of the references");
             v("viewSigma",
               viewSigma,
               "-",
-              "error that all points of a frame share, by where the camera stands: standard "
-              "deviation, as a fraction of the scene's distance");
+              "error that all points of a frame share because of where the camera stands "
+              "(standard deviation, as a fraction of the scene's distance)");
             v("motion",
               motion,
               "-",
