@@ -3,22 +3,19 @@
 
 #include <pointplane/core/PoseGaussian.h>
 #include <pointplane/mrpt_io/RawlogReader.h>
+#include <pointplane/mrpt_io/SimplemapReader.h>
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/mrpt_poses.h>
 
-#include <mrpt/maps/CSimpleMap.h>
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CActionRobotMovement3D.h>
 #include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <mrpt/obs/CSensoryFrame.h>
-#include <mrpt/poses/CPose3DPDF.h>
 
-#include <filesystem>
 #include <map>
 #include <optional>
 #include <string_view>
-#include <tuple>
 
 namespace pointplane
 {
@@ -230,27 +227,6 @@ Trajectory PoseCollector::result(const std::string& path, const std::string& lab
     trajectory.marksFrames = isOfOdometry(found->first);
     return trajectory;
 }
-
-struct KeyFrame
-{
-    mrpt::poses::CPose3DPDF::ConstPtr pdf;
-    mrpt::obs::CSensoryFrame::ConstPtr observations;
-};
-
-/** From CSimpleMap::get() of MRPT 2.14. */
-template <class Map>
-auto keyFrameOf(const Map& map, std::size_t k) -> decltype(KeyFrame{map.get(k).pose, map.get(k).sf})
-{
-    return {map.get(k).pose, map.get(k).sf};
-}
-
-/** From that of MRPT 2.5, which gives a tuple. */
-template <class Map>
-auto keyFrameOf(const Map& map, std::size_t k)
-    -> decltype(KeyFrame{std::get<0>(map.get(k)), std::get<1>(map.get(k))})
-{
-    return {std::get<0>(map.get(k)), std::get<1>(map.get(k))};
-}
 }  // namespace
 
 Trajectory readRawlogTrajectory(const std::string& path, const std::string& sensorLabel)
@@ -278,29 +254,20 @@ Trajectory readRawlogTrajectory(const std::string& path, const std::string& sens
 
 Trajectory readSimplemapTrajectory(const std::string& path)
 {
-    mrpt::maps::CSimpleMap map;
-    if (!std::filesystem::is_regular_file(path))
-    {
-        throw InputError("cannot read trajectory '" + path + "'");
-    }
-    if (!map.loadFromFile(path))
-    {
-        throw InputError("'" + path + "' is not a complete .simplemap");
-    }
+    SimplemapReader reader(path);
     std::vector<StampedPose> poses;
-    for (std::size_t k = 0; k < map.size(); ++k)
+    while (const auto keyFrame = reader.next())
     {
-        const auto [pdf, observations] = keyFrameOf(map, k);
-        if (!pdf || !observations || observations->empty())
+        if (keyFrame->observations->empty())
         {
             throw InputError(
-                "'" + path + "': key frame " + std::to_string(k) + " has no observation, " +
-                "hence no time stamp");
+                "'" + path + "': key frame " + std::to_string(poses.size()) +
+                " has no observation, hence no time stamp");
         }
         mrpt::poses::CPose3DPDFGaussian gaussian;
-        gaussian.copyFrom(*pdf);
+        gaussian.copyFrom(*keyFrame->pose);
         poses.push_back(
-            stamped(toSeconds((*observations->begin())->timestamp), fromMrpt(gaussian)));
+            stamped(toSeconds((*keyFrame->observations->begin())->timestamp), fromMrpt(gaussian)));
     }
     if (poses.empty())
     {
