@@ -6,6 +6,7 @@
 #include <pointplane/mrpt_io/SimplemapReader.h>
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/mrpt_poses.h>
+#include <pointplane/mrpt_io/output_labels.h>
 
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CActionRobotMovement3D.h>
@@ -37,20 +38,19 @@ struct Since
 
 std::optional<Since> sinceOf(const std::string& label)
 {
-    static const std::string kSince = "_since_";
     constexpr std::size_t kMostDigits = 4;
-    const std::size_t at = label.rfind(kSince);
+    const std::size_t at = label.rfind(kSinceEnding);
     if (at == std::string::npos)
     {
         return std::nullopt;
     }
-    const std::string number = label.substr(at + kSince.size());
+    const std::string number = label.substr(at + kSinceEnding.size());
     if (number.empty() || number.size() > kMostDigits || number[0] == '0' ||
         number.find_first_not_of(kDigits) != std::string::npos)
     {
         return std::nullopt;
     }
-    return Since{label.substr(0, at) + "_pose", std::stoul(number)};
+    return Since{poseLabelOf(label.substr(0, at)), std::stoul(number)};
 }
 
 /** What a comment says about the frame of a camera that was not tracked; docs/rawlogs.md. */
@@ -62,15 +62,14 @@ struct FrameMark
 
 std::optional<FrameMark> markOf(const std::string& comment)
 {
-    static const std::string kStart = "pointplane-status label=", kFrame = " frame=";
-    if (comment.compare(0, kStart.size(), kStart) != 0)
+    if (comment.compare(0, kStatusBegins.size(), kStatusBegins) != 0)
     {
         return std::nullopt;
     }
-    for (std::size_t at = comment.find(kFrame); at != std::string::npos;
-         at = comment.find(kFrame, at + 1))
+    for (std::size_t at = comment.find(kStatusFrame); at != std::string::npos;
+         at = comment.find(kStatusFrame, at + 1))
     {
-        const std::size_t number = at + kFrame.size();
+        const std::size_t number = at + kStatusFrame.size();
         const std::size_t end =
             std::min(comment.find_first_not_of(kDigits, number), comment.size());
         const auto says = [&](std::string_view status)
@@ -82,7 +81,7 @@ std::optional<FrameMark> markOf(const std::string& comment)
         if (says(" lost") || says(" predicted"))
         {
             return FrameMark{
-                comment.substr(kStart.size(), at - kStart.size()) + "_pose",
+                poseLabelOf(comment.substr(kStatusBegins.size(), at - kStatusBegins.size())),
                 says(" lost") ? FrameStatus::Lost : FrameStatus::Predicted};
         }
     }
@@ -92,9 +91,8 @@ std::optional<FrameMark> markOf(const std::string& comment)
 /** pointplane-odometry writes a pose for every frame of the camera LABEL, labelled LABEL_pose. */
 bool isOfOdometry(const std::string& label)
 {
-    static const std::string kEnding = "_pose";
-    return label.size() > kEnding.size() &&
-           label.compare(label.size() - kEnding.size(), kEnding.size(), kEnding) == 0;
+    return label.size() > kPoseEnding.size() &&
+           label.compare(label.size() - kPoseEnding.size(), kPoseEnding.size(), kPoseEnding) == 0;
 }
 
 /** Collects poses from the objects of a rawlog. */
