@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/evaluation/consistency.h>
 #include <pointplane/evaluation/nees.h>
+#include <pointplane/evaluation/number_text.h>
 #include <pointplane/evaluation/units.h>
 
 #include <algorithm>
@@ -252,10 +253,8 @@ void NeesCommand::run(CommandContext& context) const
         const double nees = result.joint.nees;
         if ((maxNees >= 0 && nees > maxNees) || (minNees >= 0 && nees < minNees))
         {
-            context.err << format(
-                "pointplane-eval: NEES per dof %.3f at %s is outside the stated range\n",
-                nees,
-                nameOf(result.interval).c_str());
+            context.err << "pointplane-eval: NEES per dof " << numberText(nees, 3) << " at "
+                        << nameOf(result.interval) << " is outside the stated range\n";
             context.exitCode = kExitIncomplete;
         }
     }

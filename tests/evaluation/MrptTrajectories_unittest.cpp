@@ -319,6 +319,69 @@ TEST(MrptTrajectories, simplemapWithTwists)
     EXPECT_THAT(read.poses[1], test::IsNearPose(estimate().poses[1], 1e-9, 1e-9));
 }
 
+TEST(MrptTrajectories, posesThatAreNoNumbersAreLeftOutAsInText)
+{
+    test::TempDir dir;
+    const auto write = [&](const std::string& name, double x)
+    {
+        RawlogWriter writer(dir / name);
+        for (std::size_t k = 0; k < estimate().size(); ++k)
+        {
+            auto observation = observationOf(k, "VO");
+            if (k == 5)
+            {
+                observation.pose.mean.x(x);
+            }
+            writer.write(observation);
+        }
+        writer.close();
+    };
+    write("nan.rawlog", NAN);
+    const std::string warning =
+        "nan.rawlog: 1 pose(s) with NaN or infinity left out, the first at 100.500000 s";
+    for (const char* command : {"rpe", "ate", "compare", "nees"})
+    {
+        const test::AppRun r = run({command, writeTruth(dir), dir / "nan.rawlog"});
+        EXPECT_EQ(r.code, 0) << command << r.err;
+        EXPECT_THAT(r.err, HasSubstr(warning)) << command;
+    }
+    write("far.rawlog", 3e8);
+    for (const char* command : {"rpe", "ate", "compare", "nees"})
+    {
+        const test::AppRun r = run({command, writeTruth(dir), dir / "far.rawlog"});
+        EXPECT_EQ(r.code, 2) << command;
+        EXPECT_THAT(
+            r.err,
+            testing::AllOf(HasSubstr("far.rawlog"), HasSubstr("at 100.500000 s is 3e+08 m")));
+    }
+}
+
+/** In 300 digits, they would hide the rest of the table. */
+TEST(MrptTrajectories, numbersThatAreTooLongAreInScientificForm)
+{
+    test::TempDir dir;
+    {
+        RawlogWriter writer(dir / "sure.rawlog");
+        for (std::size_t k = 0; k < estimate().size(); ++k)
+        {
+            auto observation = observationOf(k, "RGBD_pose");
+            observation.pose.cov *= 1e-200;
+            writer.write(observation);
+        }
+        writer.close();
+    }
+    const test::AppRun r = run(
+        {"nees", writeTruth(dir), dir / "sure.rawlog", "--max-nees", "2", "--report", dir / "r"});
+    EXPECT_EQ(r.code, 1) << r.err;
+    const std::string digits = "[0-9]{20}";
+    EXPECT_THAT(
+        r.out, testing::AllOf(HasSubstr("e+"), testing::Not(testing::ContainsRegex(digits))));
+    EXPECT_THAT(r.err, testing::Not(testing::ContainsRegex(digits)));
+    const std::string html = test::readBytes(dir / "r/index.html");
+    EXPECT_THAT(
+        html.substr(html.find("<table")), testing::Not(testing::ContainsRegex(digits + "[.]")));
+}
+
 TEST(MrptTrajectories, interpolatorTextAsMrptWritesIt)
 {
     test::TempDir dir;
