@@ -7,10 +7,10 @@ source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 source tools/instrumented.sh
 
 seconds=${1:-}
-[[ $seconds =~ ^[1-9][0-9]*$ ]] || die "usage: tools/fuzz.sh SECONDS [rawlog|klg|folder|text|ini|frames|observations ...]"
+[[ $seconds =~ ^[1-9][0-9]*$ ]] || die "usage: tools/fuzz.sh SECONDS [rawlog|simplemap|klg|folder|text|ini|frames|observations ...]"
 shift
 fuzzers=("$@")
-((${#fuzzers[@]})) || fuzzers=(rawlog klg folder text ini frames observations)
+((${#fuzzers[@]})) || fuzzers=(rawlog simplemap klg folder text ini frames observations)
 
 install_packages "${build_packages[@]}" "${clang_packages[@]}"
 configure_instrumented "${clang_address_options[@]}"

@@ -7,6 +7,7 @@
 
 #include "OutputGuard.h"
 #include "command.h"
+#include "coverage_limit.h"
 #include "input_options.h"
 #include "number_checks.h"
 #include "result_output.h"
@@ -25,6 +26,7 @@ struct AteCommand
     ReportOptions report;
     bool verbose{false};
     double maxRmse{-1};
+    CoverageLimit coverage;
 
     void addTo(CLI::App& command);
     void run(CommandContext& context) const;
@@ -64,6 +66,7 @@ void AteCommand::addTo(CLI::App& command)
     command.add_option("--max-rmse", maxRmse, "Exit with 1 if the RMSE exceeds this [m]")
         ->check(isNotNegative())
         ->group("Limits");
+    coverage.addTo(command);
     command.add_flag("--verbose", verbose, "Print the lines of evaluate_ate.py --verbose instead")
         ->group("Output");
     input.addTo(command);
@@ -145,6 +148,7 @@ void AteCommand::run(CommandContext& context) const
         writeTrajectoryReport(run, report, context);
     }
     checkThreshold("RMSE", scored.rows[0], maxRmse, context);
+    coverage.check(estimate, result.coverage, maxRmse >= 0, context);
 }
 }  // namespace
 

@@ -8,6 +8,7 @@
 
 #include "OutputGuard.h"
 #include "command.h"
+#include "coverage_limit.h"
 #include "input_options.h"
 #include "report_file.h"
 #include "result_output.h"
@@ -23,6 +24,7 @@ struct CompareCommand
     std::vector<std::string> estimates;
     RpeCommandOptions rpe;
     BootstrapOptions bootstrap;
+    CoverageLimit coverage;
     InputOptions input;
     OutputFiles files;
     std::string report;
@@ -42,6 +44,7 @@ void CompareCommand::addTo(CLI::App& command)
         ->capture_default_str()
         ->check(CLI::Range(100, 1000000))
         ->group("Protocol");
+    coverage.addTo(command);
     input.addTo(command);
     files.addTo(command, "");
     command.add_option("--report", report, "Write DIR/index.html: one file, with charts")
@@ -81,13 +84,18 @@ std::string behindText(const std::optional<BootstrapInterval>& behind, bool best
 /** What a reader must know of runs that have different frames; empty otherwise. */
 std::string noteOf(const Comparison& c)
 {
-    return c.sameFrames ? ""
-           : c.isComparable()
+    const std::string ofAte =
+        c.bestAte ? "" : "; ATE is each run's own, so none is marked as the best in ATE";
+    if (c.sameFrames)
+    {
+        return c.bestAte ? "" : "the runs have different frames" + ofAte;
+    }
+    return c.isComparable()
                ? format(
                      "the runs have different frames: mm and deg are those of the %zu pairs that "
-                     "all "
-                     "of them have; ATE, pairs and cover are each run's own",
-                     c.numCommonPairs)
+                     "all of them have; pairs and cover are each run's own",
+                     c.numCommonPairs) +
+                     ofAte
                : "the runs have different frames and fewer than two pairs in common: their errors "
                  "cannot be compared";
 }
@@ -123,11 +131,11 @@ void printTable(const Comparison& c, const std::string& protocol, std::ostream& 
             behindText(r.rotationBehindBest, isBest(c, k, c.bestRotation), kDegreesPerRadian)
                 .c_str(),
             1000 * r.ate.translation.rmse,
-            isBest(c, k, c.bestAte) ? "*" : " ",
+            c.bestAte == k ? "*" : " ",
             r.rpe.translation.count,
             100 * r.rpe.coverage.share);
     }
-    if (!c.sameFrames)
+    if (!noteOf(c).empty())
     {
         out << "\n" << noteOf(c) << "\n";
     }
@@ -149,9 +157,10 @@ nlohmann::ordered_json toJson(const Comparison& c, const std::string& protocol)
     json["units"] = {{"translation", "m"}, {"rotation", "deg"}};
     json["bestTranslation"] = nameOfBest(c, c.bestTranslation);
     json["bestRotation"] = nameOfBest(c, c.bestRotation);
-    json["bestAte"] = nameOfBest(c, c.bestAte);
+    json["bestAte"] =
+        c.bestAte ? nlohmann::ordered_json(c.runs[*c.bestAte].name) : nlohmann::ordered_json();
     json["pairsInCommon"] = c.numCommonPairs;
-    if (!c.sameFrames)
+    if (!noteOf(c).empty())
     {
         json["note"] = noteOf(c);
     }
@@ -208,7 +217,7 @@ HtmlReport reportOf(
 {
     HtmlReport report(
         format("Comparison of %zu runs", c.runs.size()),
-        protocol + (c.sameFrames ? "" : "; " + noteOf(c)));
+        protocol + (noteOf(c).empty() ? "" : "; " + noteOf(c)));
     std::vector<std::vector<std::string>> rows;
     std::vector<DrawnPath> paths;
     std::vector<Chart> errors;
@@ -288,6 +297,10 @@ void CompareCommand::run(CommandContext& context)
     if (!report.empty())
     {
         writeReportFile(reportOf(comparison, protocol, resolved, truth, loaded), report, context);
+    }
+    for (const ComparedRun& run : comparison.runs)
+    {
+        coverage.check(run.name, run.rpe.coverage, false, context);
     }
 }
 }  // namespace

@@ -3,22 +3,20 @@
 
 #include <pointplane/core/PoseGaussian.h>
 #include <pointplane/mrpt_io/RawlogReader.h>
+#include <pointplane/mrpt_io/SimplemapReader.h>
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/mrpt_poses.h>
+#include <pointplane/mrpt_io/output_labels.h>
 
-#include <mrpt/maps/CSimpleMap.h>
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CActionRobotMovement3D.h>
 #include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <mrpt/obs/CSensoryFrame.h>
-#include <mrpt/poses/CPose3DPDF.h>
 
-#include <filesystem>
 #include <map>
 #include <optional>
 #include <string_view>
-#include <tuple>
 
 namespace pointplane
 {
@@ -40,20 +38,19 @@ struct Since
 
 std::optional<Since> sinceOf(const std::string& label)
 {
-    static const std::string kSince = "_since_";
     constexpr std::size_t kMostDigits = 4;
-    const std::size_t at = label.rfind(kSince);
+    const std::size_t at = label.rfind(kSinceEnding);
     if (at == std::string::npos)
     {
         return std::nullopt;
     }
-    const std::string number = label.substr(at + kSince.size());
+    const std::string number = label.substr(at + kSinceEnding.size());
     if (number.empty() || number.size() > kMostDigits || number[0] == '0' ||
         number.find_first_not_of(kDigits) != std::string::npos)
     {
         return std::nullopt;
     }
-    return Since{label.substr(0, at) + "_pose", std::stoul(number)};
+    return Since{poseLabelOf(label.substr(0, at)), std::stoul(number)};
 }
 
 /** What a comment says about the frame of a camera that was not tracked; docs/rawlogs.md. */
@@ -65,15 +62,14 @@ struct FrameMark
 
 std::optional<FrameMark> markOf(const std::string& comment)
 {
-    static const std::string kStart = "pointplane-status label=", kFrame = " frame=";
-    if (comment.compare(0, kStart.size(), kStart) != 0)
+    if (comment.compare(0, kStatusBegins.size(), kStatusBegins) != 0)
     {
         return std::nullopt;
     }
-    for (std::size_t at = comment.find(kFrame); at != std::string::npos;
-         at = comment.find(kFrame, at + 1))
+    for (std::size_t at = comment.find(kStatusFrame); at != std::string::npos;
+         at = comment.find(kStatusFrame, at + 1))
     {
-        const std::size_t number = at + kFrame.size();
+        const std::size_t number = at + kStatusFrame.size();
         const std::size_t end =
             std::min(comment.find_first_not_of(kDigits, number), comment.size());
         const auto says = [&](std::string_view status)
@@ -85,7 +81,7 @@ std::optional<FrameMark> markOf(const std::string& comment)
         if (says(" lost") || says(" predicted"))
         {
             return FrameMark{
-                comment.substr(kStart.size(), at - kStart.size()) + "_pose",
+                poseLabelOf(comment.substr(kStatusBegins.size(), at - kStatusBegins.size())),
                 says(" lost") ? FrameStatus::Lost : FrameStatus::Predicted};
         }
     }
@@ -95,9 +91,8 @@ std::optional<FrameMark> markOf(const std::string& comment)
 /** pointplane-odometry writes a pose for every frame of the camera LABEL, labelled LABEL_pose. */
 bool isOfOdometry(const std::string& label)
 {
-    static const std::string kEnding = "_pose";
-    return label.size() > kEnding.size() &&
-           label.compare(label.size() - kEnding.size(), kEnding.size(), kEnding) == 0;
+    return label.size() > kPoseEnding.size() &&
+           label.compare(label.size() - kPoseEnding.size(), kPoseEnding.size(), kPoseEnding) == 0;
 }
 
 /** Collects poses from the objects of a rawlog. */
@@ -230,27 +225,6 @@ Trajectory PoseCollector::result(const std::string& path, const std::string& lab
     trajectory.marksFrames = isOfOdometry(found->first);
     return trajectory;
 }
-
-struct KeyFrame
-{
-    mrpt::poses::CPose3DPDF::ConstPtr pdf;
-    mrpt::obs::CSensoryFrame::ConstPtr observations;
-};
-
-/** From CSimpleMap::get() of MRPT 2.14. */
-template <class Map>
-auto keyFrameOf(const Map& map, std::size_t k) -> decltype(KeyFrame{map.get(k).pose, map.get(k).sf})
-{
-    return {map.get(k).pose, map.get(k).sf};
-}
-
-/** From that of MRPT 2.5, which gives a tuple. */
-template <class Map>
-auto keyFrameOf(const Map& map, std::size_t k)
-    -> decltype(KeyFrame{std::get<0>(map.get(k)), std::get<1>(map.get(k))})
-{
-    return {std::get<0>(map.get(k)), std::get<1>(map.get(k))};
-}
 }  // namespace
 
 Trajectory readRawlogTrajectory(const std::string& path, const std::string& sensorLabel)
@@ -278,29 +252,20 @@ Trajectory readRawlogTrajectory(const std::string& path, const std::string& sens
 
 Trajectory readSimplemapTrajectory(const std::string& path)
 {
-    mrpt::maps::CSimpleMap map;
-    if (!std::filesystem::is_regular_file(path))
-    {
-        throw InputError("cannot read trajectory '" + path + "'");
-    }
-    if (!map.loadFromFile(path))
-    {
-        throw InputError("'" + path + "' is not a complete .simplemap");
-    }
+    SimplemapReader reader(path);
     std::vector<StampedPose> poses;
-    for (std::size_t k = 0; k < map.size(); ++k)
+    while (const auto keyFrame = reader.next())
     {
-        const auto [pdf, observations] = keyFrameOf(map, k);
-        if (!pdf || !observations || observations->empty())
+        if (keyFrame->observations->empty())
         {
             throw InputError(
-                "'" + path + "': key frame " + std::to_string(k) + " has no observation, " +
-                "hence no time stamp");
+                "'" + path + "': key frame " + std::to_string(poses.size()) +
+                " has no observation, hence no time stamp");
         }
         mrpt::poses::CPose3DPDFGaussian gaussian;
-        gaussian.copyFrom(*pdf);
+        gaussian.copyFrom(*keyFrame->pose);
         poses.push_back(
-            stamped(toSeconds((*observations->begin())->timestamp), fromMrpt(gaussian)));
+            stamped(toSeconds((*keyFrame->observations->begin())->timestamp), fromMrpt(gaussian)));
     }
     if (poses.empty())
     {

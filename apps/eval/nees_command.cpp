@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/evaluation/consistency.h>
 #include <pointplane/evaluation/nees.h>
+#include <pointplane/evaluation/number_text.h>
 #include <pointplane/evaluation/units.h>
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 
 #include "OutputGuard.h"
 #include "command.h"
+#include "coverage_limit.h"
 #include "input_options.h"
 #include "nees_output.h"
 #include "number_checks.h"
@@ -30,6 +32,7 @@ struct NeesCommand
     bool nearest{false};
     double minNees{-1};
     double maxNees{-1};
+    CoverageLimit coverage;
     OutputFiles output;
     ReportOptions html;
 
@@ -100,6 +103,7 @@ void NeesCommand::addTo(CLI::App& command)
     command.add_option("--max-nees", maxNees, "Exit with 1 if a joint NEES per dof is above this")
         ->check(isNotNegative())
         ->group("Limits");
+    coverage.addTo(command);
     input.addTo(command);
     output.addTo(command, "increment");
     html.addTo(command);
@@ -252,12 +256,15 @@ void NeesCommand::run(CommandContext& context) const
         const double nees = result.joint.nees;
         if ((maxNees >= 0 && nees > maxNees) || (minNees >= 0 && nees < minNees))
         {
-            context.err << format(
-                "pointplane-eval: NEES per dof %.3f at %s is outside the stated range\n",
-                nees,
-                nameOf(result.interval).c_str());
+            context.err << "pointplane-eval: NEES per dof " << numberText(nees, 3) << " at "
+                        << nameOf(result.interval) << " is outside the stated range\n";
             context.exitCode = kExitIncomplete;
         }
+    }
+    for (std::size_t k = 0; k < report.coverages.size(); ++k)
+    {
+        // Not judged by it: the covariances of lost frames are tested, too.
+        coverage.check(files[2 * k + 1], report.coverages[k], false, context);
     }
 }
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nees_output.h"
 
+#include <pointplane/evaluation/number_text.h>
 #include <pointplane/evaluation/units.h>
 
 #include <array>
@@ -28,8 +29,8 @@ std::string word(const ConsistencyTest& test)
 
 std::string testColumns(const ConsistencyTest& test)
 {
-    return format(
-        "%10.3f   [%.3f, %.3f]  %s\n", test.nees, test.lower, test.upper, word(test).c_str());
+    return numberText(test.nees, 3, 10) +
+           format("   [%.3f, %.3f]  %s\n", test.lower, test.upper, word(test).c_str());
 }
 
 /** The most optimistic direction in its larger components. */
@@ -74,22 +75,19 @@ void printInterval(const NeesResult& r, std::ostream& out)
     for (std::size_t k = 0; k < kAxes.size(); ++k)
     {
         const AxisConsistency& a = r.axes[k];
-        out << format(
-                   "%-14s%12.4f%12.4f%12.4f",
-                   (std::string(kAxes[k]) + (k < 3 ? " [mm]" : " [deg]")).c_str(),
-                   shown(a.meanError, k),
-                   shown(a.rmsError, k),
-                   shown(a.rmsSigma, k))
-            << testColumns(a.test);
+        out << format("%-14s", (std::string(kAxes[k]) + (k < 3 ? " [mm]" : " [deg]")).c_str());
+        for (const double value : {a.meanError, a.rmsError, a.rmsSigma})
+        {
+            out << numberText(shown(value, k), 4, 12);
+        }
+        out << testColumns(a.test);
     }
     out << format("%-50s", "translation") << testColumns(r.translation)  //
         << format("%-50s", "rotation") << testColumns(r.rotation)        //
-        << format("%-50s", "joint") << testColumns(r.joint)
-        << format(
-               "anisotropy: from %.3f to %.3f along the worst direction (%s, whitened)\n",
-               r.whitenedEigenvalues[0],
-               r.whitenedEigenvalues[5],
-               direction(r.mostOptimistic).c_str())
+        << format("%-50s", "joint") << testColumns(r.joint) << "anisotropy: from "
+        << numberText(r.whitenedEigenvalues[0], 3) << " to "
+        << numberText(r.whitenedEigenvalues[5], 3) << " along the worst direction ("
+        << direction(r.mostOptimistic) << ", whitened)\n"
         << "verdict: " << verdict(r.joint) << "\n";
 }
 }  // namespace

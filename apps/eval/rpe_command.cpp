@@ -6,6 +6,7 @@
 
 #include "OutputGuard.h"
 #include "command.h"
+#include "coverage_limit.h"
 #include "input_options.h"
 #include "number_checks.h"
 #include "result_output.h"
@@ -28,6 +29,7 @@ struct RpeCommand
     bool verbose{false};
     double maxRmse{-1};
     double maxRmseDeg{-1};
+    CoverageLimit coverage;
 
     void addTo(CLI::App& command);
     void run(CommandContext& context) const;
@@ -47,6 +49,7 @@ void RpeCommand::addTo(CLI::App& command)
             "--max-rmse-deg", maxRmseDeg, "Exit with 1 if the rotation RMSE exceeds this [deg]")
         ->check(isNotNegative())
         ->group("Limits");
+    coverage.addTo(command);
     command.add_flag("--verbose", verbose, "Print the lines of evaluate_rpe.py --verbose instead")
         ->group("Output");
     input.addTo(command);
@@ -150,6 +153,7 @@ void RpeCommand::run(CommandContext& context) const
     }
     checkThreshold("translation RMSE", scored.rows[0], maxRmse, context);
     checkThreshold("rotation RMSE", scored.rows[1], maxRmseDeg, context);
+    coverage.check(estimate, result.coverage, maxRmse >= 0 || maxRmseDeg >= 0, context);
 }
 }  // namespace
 

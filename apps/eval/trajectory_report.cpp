@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trajectory_report.h"
 
+#include <pointplane/evaluation/number_text.h>
 #include <pointplane/evaluation/trajectory_charts.h>
 #include <pointplane/evaluation/units.h>
 #include <pointplane/mrpt_io/errors.h>
@@ -151,18 +152,18 @@ std::vector<std::string> consistencyCells(const std::string& name, const NeesRes
 {
     const ConsistencyTest& t = r.joint;
     const std::string judgement =
-        t.isOptimistic() ? format("optimistic, sigmas x %.2f too small", std::sqrt(t.nees))
+        t.isOptimistic() ? "optimistic, sigmas x " + numberText(std::sqrt(t.nees), 2) + " too small"
         : t.isConservative()
-            ? format("conservative, sigmas x %.2f too large", 1 / std::sqrt(t.nees))
+            ? "conservative, sigmas x " + numberText(1 / std::sqrt(t.nees), 2) + " too large"
             : "consistent";
     std::vector<std::string> cells{name, judgement, std::to_string(r.independent)};
     for (const ConsistencyTest& test : {r.joint, r.translation, r.rotation})
     {
-        cells.push_back(format("%.2f", test.nees));
+        cells.push_back(numberText(test.nees, 2));
     }
     for (const AxisConsistency& axis : r.axes)
     {
-        cells.push_back(format("%.2f", axis.test.nees));
+        cells.push_back(numberText(axis.test.nees, 2));
     }
     cells.push_back(format("%.2f - %.2f", r.joint.lower, r.joint.upper));
     return cells;
@@ -212,16 +213,41 @@ void addConsistency(HtmlReport& report, const ReportedRun& run)
     std::for_each(charts.begin(), charts.end(), [&](const Chart& c) { report.addChart(c); });
 }
 
-/** Number that pointplane-odometry gave a frame: the table knows, else it is the pose's index. */
-std::size_t frameNumber(const FrameTable& table, double stamp, std::size_t index)
+/** Numbers that pointplane-odometry gave to frames. */
+class FrameNumbers
 {
-    const std::vector<double> frames = table.column("frame");
-    if (frames.empty())
+ public:
+    /** \param table in the order of the recording: frames that are lost for a late stamp are not in
+     * the order of stamps */
+    explicit FrameNumbers(const FrameTable& table)
     {
-        return index;
+        const std::vector<double> frames = table.column("frame");
+        std::vector<std::pair<double, double>> sorted;
+        for (std::size_t k = 0; k < frames.size(); ++k)
+        {
+            if (frames[k] >= 0)  // not NaN
+            {
+                sorted.emplace_back(table.stamps()[k], frames[k]);
+            }
+        }
+        std::sort(sorted.begin(), sorted.end());
+        for (const auto& [stamp, frame] : sorted)
+        {
+            stamps_.push_back(stamp);
+            frames_.push_back(static_cast<std::size_t>(frame));
+        }
     }
-    return static_cast<std::size_t>(frames[nearestIndex(table.stamps(), stamp)]);
-}
+
+    /** \param index of the pose, its number where there is no table */
+    [[nodiscard]] std::size_t of(double stamp, std::size_t index) const
+    {
+        return stamps_.empty() ? index : frames_[nearestIndex(stamps_, stamp)];
+    }
+
+ private:
+    std::vector<double> stamps_;
+    std::vector<std::size_t> frames_;
+};
 
 /** Pictures, of those that there are, of the frames whose motion from the previous frame is the
  * most wrong. */
@@ -242,11 +268,12 @@ void addWorstFrames(
         pairs.begin(),
         pairs.end(),
         [](const RpePair& a, const RpePair& b) { return a.translation > b.translation; });
+    const FrameNumbers numbers(table);
     std::size_t numPictures = 0;
     for (const RpePair& pair : pairs)
     {
         const double stamp = run.estimate.stamps[pair.j];
-        const std::size_t frame = frameNumber(table, stamp, pair.j);
+        const std::size_t frame = numbers.of(stamp, pair.j);
         const std::string picture = folder + format("/%06zu.jpg", frame);
         if (numPictures == kWorstFrames || !std::filesystem::exists(picture))
         {

@@ -3,6 +3,7 @@
 
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/external_range.h>
+#include <pointplane/mrpt_io/output_labels.h>
 #include <pointplane/mrpt_io/recording_marks.h>
 
 #include <mrpt/obs/CObservationRobotPose.h>
@@ -10,8 +11,6 @@
 
 #include <filesystem>
 #include <utility>
-
-#include "output_labels.h"
 
 namespace pointplane
 {

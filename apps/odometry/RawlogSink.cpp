@@ -2,6 +2,7 @@
 #include "RawlogSink.h"
 
 #include <pointplane/mrpt_io/SimplemapWriter.h>
+#include <pointplane/mrpt_io/output_labels.h>
 
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CActionRobotMovement3D.h>
@@ -9,8 +10,6 @@
 #include <mrpt/obs/CObservationRobotPose.h>
 
 #include <vector>
-
-#include "output_labels.h"
 
 namespace pointplane
 {

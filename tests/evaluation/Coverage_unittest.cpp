@@ -85,6 +85,20 @@ TEST(Coverage, isOfTheRecordingNotOfGroundTruthThatRunsOn)
     EXPECT_THAT(describe(c), HasSubstr("of the ground truth's time, frames not marked"));
 }
 
+/** A wrong stamp says nothing about how many frames were tracked. */
+TEST(Coverage, oneStampFromTheFutureLeavesTheShareAsItIs)
+{
+    const Trajectory truth = randomTrajectory(151, 1);
+    Trajectory tracked = estimateOf(std::vector<FrameStatus>(151));
+    tracked.stamps.back() += 3e9;
+    EXPECT_NEAR(coverageOf(truth, tracked, 0).share, 149. / 150, 1e-9);
+    Trajectory lost = withoutLost(estimateOf(mostlyLost()));
+    lost.lostStamps.back() += 3e9;
+    EXPECT_NEAR(coverageOf(truth, lost, 0).share, 0.2, 1e-2);
+    lost.lostWithoutTime = 150;  // frames of the recording, too
+    EXPECT_NEAR(coverageOf(truth, lost, 0).share, 0.1, 1e-2);
+}
+
 TEST(Coverage, poseOfALostFrameGivesWayToOneWithTheSameStamp)
 {
     std::vector<StampedPose> poses(3);

@@ -135,10 +135,153 @@ TEST_F(EvalApp, runsThatCannotBeComparedHaveNoBest)
 /** Millimetres taken for metres. */
 TEST_F(EvalApp, columnsStayApartWhereErrorsAreHuge)
 {
-    const std::string huge = writeFile(files, "huge.txt", straightLine(1e9));
+    const std::string huge = writeFile(files, "huge.txt", straightLine(1e7));
     EXPECT_THAT(
         run({"ate", truth, huge}).out,
         testing::Not(testing::ContainsRegex("[0-9][.][0-9]{6}[0-9]")));
+}
+
+/** Their digits are lost: the error of a run that got stuck out there would be 0. */
+TEST_F(EvalApp, positionsBeyondWhatDoubleResolvesAreRefused)
+{
+    const std::string far = writeFile(files, "far.txt", straightLine(1e17));
+    for (const char* command : {"rpe", "ate", "compare"})
+    {
+        const test::AppRun r = run({command, truth, far});
+        EXPECT_EQ(r.code, 2) << command;
+        EXPECT_THAT(
+            r.err,
+            testing::AllOf(
+                HasSubstr("far.txt: the position at 0.100000 s is 1e+16 m away"),
+                HasSubstr("beyond 1e+08 m")));
+        const test::AppRun scaled = run({command, truth, estimate, "--scale", "1e300"});
+        EXPECT_EQ(scaled.code, 2) << command;
+        EXPECT_THAT(
+            scaled.err, HasSubstr("estimate.txt: the position at 0.100000 s times 1.000e+300"));
+    }
+}
+
+TEST_F(EvalApp, timesOf300DigitsAreInScientificForm)
+{
+    const test::AppRun r = run({"rpe", truth, estimate, "--offset", "1e300"});
+    EXPECT_EQ(r.code, 2);
+    EXPECT_THAT(r.err, HasSubstr("[1.000e+300, 1.000e+300] s"));
+}
+
+namespace
+{
+/** As pointplane-odometry writes it: the first `tracked` of 51 frames, the others lost. */
+std::string mostlyLost(int tracked)
+{
+    std::istringstream lines(straightLine(1));
+    std::string out = "# pointplane-status: what such lines mean\n";
+    int k = 0;
+    for (std::string line; std::getline(lines, line); ++k)
+    {
+        const std::string stamp = line.substr(0, line.find(' '));
+        out += k < tracked ? line + "\n" : "# pointplane-status " + stamp + " lost: no depth\n";
+    }
+    return out;
+}
+}  // namespace
+
+/** Who loses all but the easy frames would pass best. */
+TEST_F(EvalApp, aRunThatLostMostOfItsFramesPassesNoGate)
+{
+    const std::string lost = writeFile(files, "lost.txt", mostlyLost(6));
+    const std::vector<std::vector<std::string>> gates{
+        {"ate", truth, lost, "--max-rmse", "1"},
+        {"rpe", truth, lost, "--fixed-delta", "--delta", "0.2", "--max-rmse", "1"},
+        {"rpe", truth, lost, "--fixed-delta", "--delta", "0.2", "--max-rmse-deg", "1"}};
+    for (std::vector<std::string> args : gates)
+    {
+        const test::AppRun r = run(args);
+        EXPECT_EQ(r.code, 1);
+        EXPECT_THAT(
+            r.err,
+            HasSubstr("lost.txt: coverage 10.0 % is below 50 %, too little for a threshold to be "
+                      "passed; --min-coverage sets another limit\n"));
+        args.insert(args.end(), {"--min-coverage", "10"});
+        EXPECT_EQ(run(args).code, 0);
+        EXPECT_THAT(run(args).err, HasSubstr("lost.txt: only 10.0 % of the recording were judged"));
+        args.back() = "10.1";
+        EXPECT_EQ(run(args).code, 1);
+        EXPECT_THAT(run(args).err, HasSubstr("lost.txt: coverage 10.0 % is below 10.1 %"));
+    }
+    EXPECT_EQ(run({"ate", truth, lost}).code, 0);  // no gate
+    EXPECT_EQ(run({"ate", truth, lost}).err, "");
+    EXPECT_EQ(run({"ate", truth, lost, "--min-coverage", "50"}).code, 1);
+    EXPECT_EQ(run({"compare", truth, lost, "--delta", "0.2", "--min-coverage", "50"}).code, 1);
+    EXPECT_EQ(run({"ate", truth, lost, "--min-coverage", "101"}).code, 2);
+}
+
+/** Who scores a part against the whole ground truth lost nothing: a warning is enough. */
+TEST_F(EvalApp, aGateOfAShortRunWithoutMarksIsWarnedOf)
+{
+    const std::string whole = straightLine(1);
+    const std::string part = writeFile(files, "part.txt", whole.substr(0, whole.find("\n1 ") + 1));
+    const test::AppRun r = run({"ate", truth, part, "--max-rmse", "1"});
+    EXPECT_EQ(r.code, 0);
+    EXPECT_THAT(
+        r.err,
+        HasSubstr("warning: " + part + ": only 18.0 % of the ground truth's time were judged"));
+    EXPECT_EQ(run({"ate", truth, part, "--max-rmse", "1", "--min-coverage", "50"}).code, 1);
+}
+
+TEST_F(EvalApp, whoGivesUpIsNotTheBestInAte)
+{
+    const std::string lost = writeFile(files, "lost.txt", mostlyLost(26));
+    const test::AppRun r =
+        run({"compare", truth, estimate, lost, "--delta", "0.2", "--json", files / "out.json"});
+    EXPECT_EQ(r.code, 0) << r.err;
+    EXPECT_THAT(r.out, HasSubstr("each run's own, so none is marked as the best in ATE"));
+    const auto json = nlohmann::json::parse(test::readBytes(files / "out.json"));
+    EXPECT_TRUE(json["bestAte"].is_null());
+    EXPECT_EQ(json["bestTranslation"], lost);
+    EXPECT_EQ(std::count(r.out.begin(), r.out.end(), '*'), 2) << r.out;
+}
+
+/** Frames that are lost for a late stamp are in the table in order of the file. */
+TEST_F(EvalApp, picturesAreThoseOfTheWorstFrames)
+{
+    std::string jumps;
+    std::string table = "frame,stamp,status\n";
+    for (int k = 0; k <= 50; ++k)
+    {
+        if (k == 26)
+        {
+            table += "27,0.05,lost\n";
+        }
+        const std::string stamp = std::to_string(0.1 * k);
+        jumps += stamp + " " + stamp + (k < 8 ? " 0" : " 1") + " 0 0 0 0 1\n";
+        table += std::to_string(k < 26 ? k + 1 : k + 2) + "," + stamp + ",tracked\n";
+    }
+    const std::string path = writeFile(files, "jumps.txt", jumps);
+    const std::string diagnostics = writeFile(files, "frames.csv", table);
+    writeFile(files, "000009.jpg", "JPEG");
+    const test::AppRun r = run(
+        {"ate",
+         truth,
+         path,
+         "--report",
+         files / "r",
+         "--diagnostics",
+         diagnostics,
+         "--overlays",
+         files / ""});
+    EXPECT_EQ(r.code, 0) << r.err;
+    EXPECT_THAT(
+        test::readBytes(files / "r/index.html"),
+        HasSubstr("Frame 9 at 0.80 s: motion off by 1000"));
+
+    const std::string bad = writeFile(files, "bad.csv", "frame,stamp\n1,0\n\n2,x\n");
+    const test::AppRun refused =
+        run({"ate", truth, path, "--report", files / "r", "--diagnostics", bad});
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_THAT(refused.err, HasSubstr("bad.csv:4: the stamp is not a number"));
+    EXPECT_THAT(
+        run({"ate", truth, path, "--report", files / "r", "--diagnostics", "/proc/self/mem"}).err,
+        HasSubstr("cannot read /proc/self/mem: "));
 }
 
 TEST_F(EvalApp, reportsOfOneRun)

@@ -3,13 +3,16 @@
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/mrpt_poses.h>
 
+#include <mrpt/io/CFileOutputStream.h>
 #include <mrpt/maps/CSimpleMap.h>
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CActionRobotMovement3D.h>
 #include <mrpt/obs/CObservationComment.h>
+#include <mrpt/obs/CObservationRange.h>
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/poses/CPose3DInterpolator.h>
+#include <mrpt/serialization/CArchive.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -18,6 +21,7 @@
 #include "EvalApp.h"
 #include "matchers.h"
 #include "mrpt_trajectories.h"
+#include "rawlog_samples.h"
 #include "run_app.h"
 #include "test_trajectories.h"
 #include <gmock/gmock.h>
@@ -192,14 +196,190 @@ TEST(MrptTrajectories, simplemap)
     ASSERT_TRUE(map.saveToFile(dir / "a.simplemap"));
     expectEstimate(readSimplemapTrajectory(dir / "a.simplemap"));
 
+    const std::string plain = test::decompressed(dir / "a.simplemap");
+    test::writeBytes(dir / "plain.simplemap", plain);
+    expectEstimate(readSimplemapTrajectory(dir / "plain.simplemap"));
+    test::writeBytes(dir / "long.simplemap", plain + "more");
+    EXPECT_THAT(
+        messageOf([&] { return readSimplemapTrajectory(dir / "long.simplemap"); }),
+        HasSubstr("long.simplemap: damaged at byte"));
+
     std::filesystem::resize_file(
         dir / "a.simplemap", std::filesystem::file_size(dir / "a.simplemap") / 2);
     EXPECT_THAT(
         messageOf([&] { return readSimplemapTrajectory(dir / "a.simplemap"); }),
-        HasSubstr("a.simplemap' is not a complete .simplemap"));
+        HasSubstr("a.simplemap: truncated at byte"));
     EXPECT_THAT(
         messageOf([&] { return readSimplemapTrajectory(dir / "none.simplemap"); }),
-        HasSubstr("cannot read"));
+        HasSubstr("none.simplemap: No such file"));
+    writeFormat2(dir / "rawlog.simplemap", {"VO"});
+    EXPECT_THAT(
+        messageOf([&] { return readSimplemapTrajectory(dir / "rawlog.simplemap"); }),
+        HasSubstr("rawlog.simplemap: begins with class CObservationRobotPose, not CSimpleMap"));
+}
+
+namespace
+{
+/** Two key frames with all that an RGB-D camera and other sensors give. */
+mrpt::maps::CSimpleMap mapOf(const mrpt::obs::CObservation::Ptr& more)
+{
+    mrpt::maps::CSimpleMap map;
+    for (int k = 0; k < 2; ++k)
+    {
+        auto frame = mrpt::obs::CSensoryFrame::Create();
+        frame->insert(test::sampleScan(k));
+        frame->insert(more);
+        const auto at = static_cast<std::size_t>(k);
+        map.insert(mrpt::poses::CPose3DPDFGaussian::Create(toMrpt(gaussianAt(at))), frame);
+    }
+    return map;
+}
+}  // namespace
+
+/** MRPT's own reader ends the process, or takes gigabytes. */
+TEST(MrptTrajectories, noByteOfASimplemapCrashesTheReader)
+{
+    test::TempDir dir;
+    const auto comment = mrpt::obs::CObservationComment::Create();
+    ASSERT_TRUE(mapOf(comment).saveToFile(dir / "a.simplemap"));
+    const std::string bytes = test::decompressed(dir / "a.simplemap");
+    EXPECT_EQ(readSimplemapTrajectory(dir / "a.simplemap").size(), 2U);
+    std::size_t numRefused = 0;
+    for (std::size_t at = 0; at < bytes.size(); ++at)
+    {
+        std::string damaged = bytes;
+        damaged[at] = static_cast<char>(~damaged[at]);
+        test::writeBytes(dir / "b.simplemap", damaged);
+        const std::string message =
+            messageOf([&] { return readSimplemapTrajectory(dir / "b.simplemap"); });
+        numRefused += message == "no exception" ? 0 : 1;
+    }
+    EXPECT_GT(numRefused, 300U);  // the others are pixels, stamps and poses
+}
+
+TEST(MrptTrajectories, aDamagedSimplemapIsBadInputThatSaysWhere)
+{
+    test::TempDir dir;
+    const auto comment = mrpt::obs::CObservationComment::Create();
+    ASSERT_TRUE(mapOf(comment).saveToFile(dir / "a.simplemap"));
+    std::string bytes = test::readBytes(dir / "a.simplemap");
+    bytes[bytes.size() - 6] = static_cast<char>(~bytes[bytes.size() - 6]);  // of the checksum
+    test::writeBytes(dir / "sum.simplemap", bytes);
+    const test::AppRun r = run({"ate", writeTruth(dir), dir / "sum.simplemap"});
+    EXPECT_EQ(r.code, 2);
+    EXPECT_THAT(r.err, HasSubstr("sum.simplemap: damaged at byte"));
+    EXPECT_EQ(r.out, "");
+}
+
+/** What only MRPT can read is left to it where a checksum is right. */
+TEST(MrptTrajectories, simplemapWithSensorsThatOnlyMrptKnows)
+{
+    test::TempDir dir;
+    ASSERT_TRUE(mapOf(mrpt::obs::CObservationRange::Create()).saveToFile(dir / "a.simplemap"));
+    EXPECT_EQ(readSimplemapTrajectory(dir / "a.simplemap").size(), 2U);
+    test::writeBytes(dir / "plain.simplemap", test::decompressed(dir / "a.simplemap"));
+    EXPECT_THAT(
+        messageOf([&] { return readSimplemapTrajectory(dir / "plain.simplemap"); }),
+        testing::AllOf(HasSubstr("class CObservationRange"), HasSubstr("no checksum")));
+    for (const char* name : {"localization_demo", "malaga-cs-fac-building"})
+    {
+        const std::string sample =
+            std::string("/usr/share/mrpt/datasets/") + name + ".simplemap.gz";
+        if (std::filesystem::exists(sample))
+        {
+            EXPECT_GT(readSimplemapTrajectory(sample).size(), 10U) << name;
+        }
+    }
+}
+
+/** As newer releases of MRPT write it, whose maps Debian 12's cannot read. */
+TEST(MrptTrajectories, simplemapWithTwists)
+{
+    test::TempDir dir;
+    {
+        mrpt::io::CFileOutputStream file(dir / "twists.simplemap");
+        auto archive = mrpt::serialization::archiveFrom(file);
+        const std::string name = "mrpt::maps::CSimpleMap";
+        archive << static_cast<std::uint8_t>(name.size() | 0x80U);
+        archive.WriteBuffer(name.data(), name.size());
+        archive << std::uint8_t{2} << std::uint32_t{2};
+        for (std::size_t k = 0; k < 2; ++k)
+        {
+            archive << toMrpt(gaussianAt(k)) << frameAt(k) << std::string("std::optional")
+                    << std::string("mrpt::math::TTwist3D") << (k == 1);
+            for (int n = 0; k == 1 && n < 6; ++n)
+            {
+                archive << 0.5;
+            }
+        }
+        archive << std::uint8_t{0x88};
+    }
+    const Trajectory read = readSimplemapTrajectory(dir / "twists.simplemap");
+    ASSERT_EQ(read.size(), 2U);
+    EXPECT_THAT(read.poses[1], test::IsNearPose(estimate().poses[1], 1e-9, 1e-9));
+}
+
+TEST(MrptTrajectories, posesThatAreNoNumbersAreLeftOutAsInText)
+{
+    test::TempDir dir;
+    const auto write = [&](const std::string& name, double x)
+    {
+        RawlogWriter writer(dir / name);
+        for (std::size_t k = 0; k < estimate().size(); ++k)
+        {
+            auto observation = observationOf(k, "VO");
+            if (k == 5)
+            {
+                observation.pose.mean.x(x);
+            }
+            writer.write(observation);
+        }
+        writer.close();
+    };
+    write("nan.rawlog", NAN);
+    const std::string warning =
+        "nan.rawlog: 1 pose(s) with NaN or infinity left out, the first at 100.500000 s";
+    for (const char* command : {"rpe", "ate", "compare", "nees"})
+    {
+        const test::AppRun r = run({command, writeTruth(dir), dir / "nan.rawlog"});
+        EXPECT_EQ(r.code, 0) << command << r.err;
+        EXPECT_THAT(r.err, HasSubstr(warning)) << command;
+    }
+    write("far.rawlog", 3e8);
+    for (const char* command : {"rpe", "ate", "compare", "nees"})
+    {
+        const test::AppRun r = run({command, writeTruth(dir), dir / "far.rawlog"});
+        EXPECT_EQ(r.code, 2) << command;
+        EXPECT_THAT(
+            r.err,
+            testing::AllOf(HasSubstr("far.rawlog"), HasSubstr("at 100.500000 s is 3e+08 m")));
+    }
+}
+
+/** In 300 digits, they would hide the rest of the table. */
+TEST(MrptTrajectories, numbersThatAreTooLongAreInScientificForm)
+{
+    test::TempDir dir;
+    {
+        RawlogWriter writer(dir / "sure.rawlog");
+        for (std::size_t k = 0; k < estimate().size(); ++k)
+        {
+            auto observation = observationOf(k, "RGBD_pose");
+            observation.pose.cov *= 1e-200;
+            writer.write(observation);
+        }
+        writer.close();
+    }
+    const test::AppRun r = run(
+        {"nees", writeTruth(dir), dir / "sure.rawlog", "--max-nees", "2", "--report", dir / "r"});
+    EXPECT_EQ(r.code, 1) << r.err;
+    const std::string digits = "[0-9]{20}";
+    EXPECT_THAT(
+        r.out, testing::AllOf(HasSubstr("e+"), testing::Not(testing::ContainsRegex(digits))));
+    EXPECT_THAT(r.err, testing::Not(testing::ContainsRegex(digits)));
+    const std::string html = test::readBytes(dir / "r/index.html");
+    EXPECT_THAT(
+        html.substr(html.find("<table")), testing::Not(testing::ContainsRegex(digits + "[.]")));
 }
 
 TEST(MrptTrajectories, interpolatorTextAsMrptWritesIt)

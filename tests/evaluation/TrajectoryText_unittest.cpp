@@ -30,7 +30,7 @@ TEST(TrajectoryText, readsTumWithCommentsCommasTabsAndCarriageReturns)
     const Trajectory t = readTrajectoryText(writeFile(
         files,
         "t.txt",
-        "# comment\n\n1.5 1 2 3 0 0 0 2\r\n0.5,\t4,5,6,  0,0,1,1 99\n"
+        "# comment\n\n1.5 1 2 3 0 0 0 1.001\r\n0.5,\t4,5,6,  0,0,0.707,0.707\n"
         "\t\n"));
     ASSERT_EQ(t.size(), 2u);
     EXPECT_EQ(t.stamps[0], 0.5);                                                 // sorted
@@ -40,14 +40,55 @@ TEST(TrajectoryText, readsTumWithCommentsCommasTabsAndCarriageReturns)
     EXPECT_TRUE(t.covs.empty());
 }
 
+/** EuRoC's quaternions begin with w, KITTI's lines with the first row of a matrix: read as TUM's,
+ * they give a score, and a wrong one. */
+TEST(TrajectoryText, otherFormatsAreNotTakenForTum)
+{
+    test::TempDir files;
+    EXPECT_THAT(
+        messageOf(writeFile(files, "n.txt", "1 0 0 0 0 0 0 1 9\n")),
+        HasSubstr("n.txt:1: 9 columns; expected 8 (TUM: stamp tx ty tz qx qy qz qw) or"));
+    EXPECT_THAT(
+        messageOf(writeFile(files, "kitti.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n")),
+        HasSubstr("kitti.txt:1: 12 columns, as KITTI's poses"));
+    EXPECT_THAT(
+        messageOf(writeFile(
+            files, "euroc.csv", "#t\n1403636580838555648,4,-1,0,0,-0,-0,-0,1,0,0,0,0,0,0,0,0\n")),
+        HasSubstr("euroc.csv:2: 17 columns, as EuRoC's ground truth"));
+    EXPECT_THAT(
+        messageOf(writeFile(files, "mixed.txt", "1 0 0 0 0 0 0\n2 0 0 0 0 0 0 1\n")),
+        HasSubstr("mixed.txt:2: 8 columns"));
+}
+
+TEST(TrajectoryText, quaternionsOfAnotherLengthAreTold)
+{
+    test::TempDir files;
+    const Trajectory t = readTrajectoryText(writeFile(
+        files,
+        "t.txt",
+        "1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 0.991\n3 0 0 0 0 0 0 0.98\n4 0 0 0 0 3 0 4\n"));
+    EXPECT_EQ(t.size(), 4u);
+    EXPECT_THAT(
+        t.warnings,
+        testing::ElementsAre(
+            HasSubstr("t.txt: 2 line(s) with a quaternion whose norm is not 1, the first is "
+                      "line 3; are columns 5 to 8 qx qy qz qw?")));
+}
+
+/** A disk that fails: its opening succeeds, reading it does not. */
+TEST(TrajectoryText, anErrorWhileReadingIsNotTheEnd)
+{
+    EXPECT_THAT(messageOf("/proc/self/mem"), HasSubstr("cannot read /proc/self/mem: "));
+}
+
 TEST(TrajectoryText, readsBehindAByteOrderMark)
 {
     test::TempDir files;
     const std::string mark = "\xEF\xBB\xBF";
     EXPECT_EQ(
-        readTrajectoryText(writeFile(files, "t.txt", mark + "1.5 1 2 3 0 0 0 2\n")).size(), 1U);
+        readTrajectoryText(writeFile(files, "t.txt", mark + "1.5 1 2 3 0 0 0 1\n")).size(), 1U);
     EXPECT_EQ(
-        readTrajectoryText(writeFile(files, "c.txt", mark + "# c\n1.5 1 2 3 0 0 0 2\n")).size(),
+        readTrajectoryText(writeFile(files, "c.txt", mark + "# c\n1.5 1 2 3 0 0 0 1\n")).size(),
         1U);
     EXPECT_THAT(messageOf(writeFile(files, "e.txt", "")), HasSubstr("(0 lines)"));
 }

@@ -4,6 +4,8 @@
 #include <pointplane/simulation/SimulatedSequence.h>
 
 #include <mrpt/io/CFileOutputStream.h>
+#include <mrpt/maps/CSimpleMap.h>
+#include <mrpt/poses/CPose3DPDFGaussian.h>
 #include <mrpt/serialization/CArchive.h>
 
 #include <cmath>
@@ -197,6 +199,23 @@ void writeRawlogs(const fs::path& folder)
     writePlain("jpeg", [](Scan&) {});
 }
 
+/** A map as pointplane-odometry writes it, plain and compressed. */
+void writeSimplemaps(const fs::path& folder)
+{
+    mrpt::maps::CSimpleMap map;
+    mrpt::poses::CPose3DPDFGaussian pose;
+    pose.cov.setIdentity();
+    for (int k = 0; k < 2; ++k)
+    {
+        mrpt::obs::CSensoryFrame frame;
+        frame.insert(test::sampleScan(k, 8, 6));
+        map.insert(pose, frame);
+    }
+    map.saveToFile((folder / "compressed").string());
+    mrpt::io::CFileOutputStream file((folder / "plain").string());
+    mrpt::serialization::archiveFrom(file) << map;
+}
+
 void writeTexts(const fs::path& folder)
 {
     const std::string tum =
@@ -304,6 +323,7 @@ int main(int argc, char** argv)
     {
         const fs::path root = argv[2];
         writeRawlogs(newFolder(root, "rawlog"));
+        writeSimplemaps(newFolder(root, "simplemap"));
         writeTexts(newFolder(root, "text"));
         writeKlgLogs(newFolder(root, "klg"));
         writeFolders(newFolder(root, "folder"));

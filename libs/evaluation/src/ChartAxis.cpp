@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ChartAxis.h"
 
+#include <pointplane/evaluation/number_text.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -21,13 +23,6 @@ double roundStep(double step)
         }
     }
     return 10 * power;
-}
-
-std::string label(double value, int decimals)
-{
-    char text[32];
-    std::snprintf(text, sizeof text, "%.*f", decimals, value);
-    return text;
 }
 
 std::string shortLabel(double value)
@@ -84,7 +79,7 @@ std::vector<ChartTick> ChartAxis::ticks(double spacing) const
         const int decimals = std::max(0, static_cast<int>(-std::floor(std::log10(step) + 1e-9)));
         for (double k = std::ceil(min_ / step - 1e-9); k * step <= max_ + 1e-9 * step; ++k)
         {
-            out.push_back({k == 0 ? 0 : k * step, label(k == 0 ? 0 : k * step, decimals)});
+            out.push_back({k == 0 ? 0 : k * step, numberText(k == 0 ? 0 : k * step, decimals)});
         }
         return out;
     }

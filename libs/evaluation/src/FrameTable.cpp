@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/read_errors.h>
 #include <pointplane/evaluation/FrameTable.h>
 
 #include <algorithm>
@@ -52,7 +53,9 @@ FrameTable FrameTable::read(const std::string& path)
 {
     std::ifstream file(path);
     std::string line;
-    if (!file || !std::getline(file, line))
+    const bool hasHeader = file && std::getline(file, line);
+    requireRead(file, path);
+    if (!hasHeader)
     {
         throw std::runtime_error("cannot read frame table '" + path + "'");
     }
@@ -60,7 +63,9 @@ FrameTable FrameTable::read(const std::string& path)
     table.names_ = splitCsvLine(line);
     table.columns_.resize(table.names_.size());
     const auto statusAt = std::find(table.names_.begin(), table.names_.end(), "status");
-    if (!table.has("stamp"))
+    const auto stampAt = static_cast<std::size_t>(
+        std::find(table.names_.begin(), table.names_.end(), "stamp") - table.names_.begin());
+    if (stampAt == table.names_.size())
     {
         throw std::runtime_error(path + ":1: no column 'stamp'; is this a table of --diagnostics?");
     }
@@ -77,6 +82,11 @@ FrameTable FrameTable::read(const std::string& path)
                 path + ":" + std::to_string(number) + ": " + std::to_string(fields.size()) +
                 " fields, " + std::to_string(table.names_.size()) + " in the header");
         }
+        if (!std::isfinite(numberOrNaN(fields[stampAt])))
+        {
+            throw std::runtime_error(
+                path + ":" + std::to_string(number) + ": the stamp is not a number");
+        }
         for (std::size_t k = 0; k < fields.size(); ++k)
         {
             table.columns_[k].push_back(numberOrNaN(fields[k]));
@@ -87,15 +97,8 @@ FrameTable FrameTable::read(const std::string& path)
                 fields[static_cast<std::size_t>(statusAt - table.names_.begin())]);
         }
     }
+    requireRead(file, path);
     table.stamps_ = table.column("stamp");
-    const auto bad = std::find_if_not(
-        table.stamps_.begin(), table.stamps_.end(), [](double s) { return std::isfinite(s); });
-    if (bad != table.stamps_.end())
-    {
-        throw std::runtime_error(
-            path + ":" + std::to_string(bad - table.stamps_.begin() + 2) +
-            ": the stamp is not a number");
-    }
     return table;
 }
 

@@ -3,10 +3,13 @@
 #include <pointplane/core/se3.h>
 #include <pointplane/evaluation/Statistics.h>
 #include <pointplane/evaluation/Trajectory.h>
+#include <pointplane/evaluation/number_text.h>
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
+#include <cstdio>
+#include <iterator>
+#include <locale>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -15,16 +18,6 @@ namespace pointplane
 {
 namespace
 {
-std::vector<double> intervals(const Trajectory& trajectory)
-{
-    std::vector<double> out;
-    for (std::size_t i = 1; i < trajectory.size(); ++i)
-    {
-        out.push_back(trajectory.stamps[i] - trajectory.stamps[i - 1]);
-    }
-    return out;
-}
-
 /** Running sum of measure(T_next_previous), starting at 0. */
 template <class Measure>
 std::vector<double> accumulate(const Trajectory& trajectory, Measure measure)
@@ -41,10 +34,21 @@ std::vector<double> accumulate(const Trajectory& trajectory, Measure measure)
 
 std::string timeRange(const char* role, const Trajectory& trajectory, double offset)
 {
-    std::ostringstream out;
-    out << std::fixed << std::setprecision(3) << role << " '" << trajectory.name << "' ["
-        << trajectory.stamps.front() + offset << ", " << trajectory.stamps.back() + offset << "] s";
-    return out.str();
+    return std::string(role) + " '" + trajectory.name + "' [" +
+           numberText(trajectory.stamps.front() + offset, 3) + ", " +
+           numberText(trajectory.stamps.back() + offset, 3) + "] s";
+}
+
+/** Moves poses that are no numbers out of the list. \return their stamps */
+std::vector<double> removeNotFinite(std::vector<StampedPose>& poses)
+{
+    const auto bad = std::stable_partition(
+        poses.begin(), poses.end(), [](const auto& p) { return p.pose.matrix().allFinite(); });
+    std::vector<double> stamps;
+    std::transform(
+        bad, poses.end(), std::back_inserter(stamps), [](const auto& p) { return p.stamp; });
+    poses.erase(bad, poses.end());
+    return stamps;
 }
 }  // namespace
 
@@ -62,6 +66,14 @@ Trajectory makeTrajectory(std::string name, std::vector<StampedPose> poses)
 
     Trajectory out;
     out.name = std::move(name);
+    out.lostStamps = removeNotFinite(poses);
+    if (!out.lostStamps.empty())
+    {
+        out.warnings.push_back(
+            out.name + ": " + std::to_string(out.lostStamps.size()) +
+            " pose(s) with NaN or infinity left out, the first at " +
+            numberText(out.lostStamps.front(), 6) + " s");
+    }
     std::size_t repeated = 0;
     const bool marked = std::any_of(
         poses.begin(), poses.end(), [](const auto& p) { return p.status != FrameStatus::Tracked; });
@@ -87,9 +99,12 @@ Trajectory makeTrajectory(std::string name, std::vector<StampedPose> poses)
             out.sinceCovs.push_back(std::move(poses[i].sinceCovs));
         }
     }
-    if (repeated > 0)
+    if (repeated > 0 || !out.lostStamps.empty())
     {
         out.sinceCovs.clear();  // which count all poses
+    }
+    if (repeated > 0)
+    {
         out.warnings.push_back(
             out.name + ": " + std::to_string(repeated) +
             " pose(s) with a repeated stamp; the last one of each was used");
@@ -171,6 +186,7 @@ void checkOverlap(const Trajectory& groundTruth, const Trajectory& estimate, dou
 std::string describeChanges(double offset, double scale)
 {
     std::ostringstream out;
+    out.imbue(std::locale::classic());
     if (offset != 0)
     {
         out << " stamps " << std::showpos << offset << std::noshowpos << " s";
@@ -182,9 +198,37 @@ std::string describeChanges(double offset, double scale)
     return out.str().empty() ? "" : ", estimate's" + out.str();
 }
 
-double medianInterval(const Trajectory& trajectory)
+void checkPositions(const Trajectory& trajectory, double scale)
 {
-    return trajectory.size() < 2 ? 0 : statisticsOf(intervals(trajectory)).median;
+    constexpr double kFarthest = 1e8;
+    for (std::size_t i = 0; i < trajectory.size(); ++i)
+    {
+        const double distance = scale * trajectory.poses[i].translation().lpNorm<Eigen::Infinity>();
+        if (!(distance <= kFarthest))
+        {
+            char text[160];
+            std::snprintf(
+                text,
+                sizeof text,
+                " is %g m away from the origin, beyond %g m, where digits are lost; are positions "
+                "in metres?",
+                distance,
+                kFarthest);
+            throw std::runtime_error(
+                trajectory.name + ": the position at " + numberText(trajectory.stamps[i], 6) +
+                " s" + (scale == 1 ? "" : " times " + numberText(scale, 3)) + text);
+        }
+    }
+}
+
+double medianInterval(const std::vector<double>& stamps)
+{
+    std::vector<double> intervals;
+    for (std::size_t i = 1; i < stamps.size(); ++i)
+    {
+        intervals.push_back(stamps[i] - stamps[i - 1]);
+    }
+    return intervals.empty() ? 0 : statisticsOf(intervals).median;
 }
 
 Trajectory withBody(Trajectory trajectory, const Eigen::Isometry3d& T_body_other)

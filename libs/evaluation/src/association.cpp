@@ -106,7 +106,7 @@ SampledTruth sampleTruth(
     out.poses.assign(stamps.size(), Eigen::Isometry3d::Identity());
     out.valid.assign(stamps.size(), 0);
     out.stamps.assign(stamps.size(), 0);
-    out.maxTimeDifference = 2 * medianInterval(groundTruth);
+    out.maxTimeDifference = 2 * medianInterval(groundTruth.stamps);
     const std::vector<double>& truth = groundTruth.stamps;
     for (std::size_t i = 0; i < stamps.size(); ++i)
     {

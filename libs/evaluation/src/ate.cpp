@@ -24,6 +24,8 @@ AteResult absoluteTrajectoryError(
     const Trajectory& groundTruth, const Trajectory& estimate, const AteOptions& options)
 {
     checkOverlap(groundTruth, estimate, options.offset);
+    checkPositions(groundTruth);
+    checkPositions(estimate, options.scale);
     const auto pairs =
         associate(groundTruth.stamps, estimate.stamps, options.offset, options.maxDifference);
     if (pairs.size() < 2)

@@ -91,6 +91,31 @@ std::set<StampPair> commonPairs(
     return out;
 }
 
+/** Stamps of the poses whose error ATE is. */
+std::vector<double> ateStamps(const Trajectory& estimate, const AteResult& result)
+{
+    std::vector<double> out;
+    for (const AteError& error : result.errors)
+    {
+        out.push_back(estimate.stamps[error.estimate]);
+    }
+    std::sort(out.begin(), out.end());
+    return out;
+}
+
+bool haveSameAteFrames(
+    const std::vector<Trajectory>& estimates, const std::vector<ComparedRun>& runs)
+{
+    for (std::size_t k = 1; k < runs.size(); ++k)
+    {
+        if (ateStamps(estimates[k], runs[k].ate) != ateStamps(estimates[0], runs[0].ate))
+        {
+            return false;
+        }
+    }
+    return true;
+}
+
 template <class Value>
 std::size_t smallest(const std::vector<ComparedRun>& runs, Value value)
 {
@@ -146,7 +171,10 @@ Comparison compareRuns(
     }
     out.bestTranslation = smallest(out.runs, [](const auto& r) { return r.translation.value; });
     out.bestRotation = smallest(out.runs, [](const auto& r) { return r.rotation.value; });
-    out.bestAte = smallest(out.runs, [](const auto& r) { return r.ate.translation.rmse; });
+    if (haveSameAteFrames(estimates, out.runs))
+    {
+        out.bestAte = smallest(out.runs, [](const auto& r) { return r.ate.translation.rmse; });
+    }
 
     const auto behind = [&](std::size_t k, std::size_t best, double RpePair::*error)
     {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/evaluation/chi_square.h>
 #include <pointplane/evaluation/consistency.h>
+#include <pointplane/evaluation/number_text.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 
 namespace pointplane
@@ -112,23 +112,12 @@ NeesResult consistencyOf(
 
 std::string verdict(const ConsistencyTest& test)
 {
-    char out[160] = "consistent";
-    if (test.isOptimistic())
-    {
-        std::snprintf(
-            out,
-            sizeof out,
-            "optimistic: the stated standard deviations are too small by a factor of %.2f",
-            std::sqrt(test.nees));
-    }
-    else if (test.isConservative())
-    {
-        std::snprintf(
-            out,
-            sizeof out,
-            "conservative: the stated standard deviations are too large by a factor of %.2f",
-            1 / std::sqrt(test.nees));
-    }
-    return out;
+    return test.isOptimistic()
+               ? "optimistic: the stated standard deviations are too small by a factor of " +
+                     numberText(std::sqrt(test.nees), 2)
+           : test.isConservative()
+               ? "conservative: the stated standard deviations are too large by a factor of " +
+                     numberText(1 / std::sqrt(test.nees), 2)
+               : "consistent";
 }
 }  // namespace pointplane

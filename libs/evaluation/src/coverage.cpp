@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pointplane/evaluation/Statistics.h>
 #include <pointplane/evaluation/coverage.h>
 
 #include <algorithm>
 #include <cstdio>
+#include <iterator>
 
 namespace pointplane
 {
@@ -35,38 +35,39 @@ std::vector<Frame> framesOf(const Trajectory& estimate)
         [](const Frame& a, const Frame& b) { return a.stamp < b.stamp; });
     return frames;
 }
-
-double medianInterval(const std::vector<Frame>& frames)
-{
-    std::vector<double> intervals;
-    for (std::size_t i = 1; i < frames.size(); ++i)
-    {
-        intervals.push_back(frames[i].stamp - frames[i - 1].stamp);
-    }
-    return intervals.empty() ? 0 : statisticsOf(intervals).median;
-}
 }  // namespace
 
 Coverage coverageOf(const Trajectory& groundTruth, const Trajectory& estimate, double offset)
 {
     const std::vector<Frame> frames = framesOf(estimate);
-    const double longest = 5 * medianInterval(frames);
-    double tracked = 0;
+    std::vector<double> stamps;
+    std::transform(
+        frames.begin(),
+        frames.end(),
+        std::back_inserter(stamps),
+        [](const Frame& frame) { return frame.stamp; });
+    const double longest = 5 * medianInterval(stamps);
+    double seconds = 0;
+    double steps = 0;
     for (std::size_t i = 1; i < frames.size(); ++i)
     {
-        if (frames[i].tracked && frames[i].stamp - frames[i - 1].stamp <= longest)
+        const double interval = stamps[i] - stamps[i - 1];
+        if (frames[i].tracked && interval > 0 && interval <= longest)
         {
-            const double from = std::max(frames[i - 1].stamp + offset, groundTruth.stamps.front());
-            const double to = std::min(frames[i].stamp + offset, groundTruth.stamps.back());
-            tracked += std::max(0.0, to - from);
+            const double from = std::max(stamps[i - 1] + offset, groundTruth.stamps.front());
+            const double to = std::min(stamps[i] + offset, groundTruth.stamps.back());
+            seconds += std::max(0.0, to - from);
+            steps += std::max(0.0, to - from) / interval;
         }
     }
     Coverage out;
     out.ofRecording = estimate.marksFrames;
-    const double whole = out.ofRecording && frames.size() > 1
-                             ? frames.back().stamp - frames.front().stamp
+    // Steps of a recording, not its time, of which one wrong stamp would make years.
+    const double counted = out.ofRecording ? steps : seconds;
+    const double whole = out.ofRecording
+                             ? static_cast<double>(frames.size() + estimate.lostWithoutTime) - 1
                              : groundTruth.duration();
-    out.share = whole > 0 ? tracked / whole : 0;
+    out.share = whole > 0 ? std::min(1.0, counted / whole) : 0;
     const auto count = [&](FrameStatus status)
     {
         return static_cast<std::size_t>(

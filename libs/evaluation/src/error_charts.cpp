@@ -79,7 +79,7 @@ std::vector<Chart> errorOverInterval(
     over.unit = DeltaUnit::Seconds;
     for (const double seconds : {0.1, 0.2, 0.3, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0})
     {
-        if (seconds < medianInterval(estimate) || seconds > 0.5 * estimate.duration())
+        if (seconds < medianInterval(estimate.stamps) || seconds > 0.5 * estimate.duration())
         {
             continue;  // pairs would be of a pose with itself, or there would be next to none
         }

@@ -33,7 +33,7 @@ std::vector<std::pair<std::size_t, std::size_t>> endsOf(
     const Trajectory& estimate, const NeesInterval& interval)
 {
     std::vector<std::pair<std::size_t, std::size_t>> out;
-    const double tolerance = 0.5 * medianInterval(estimate) + 1e-6;
+    const double tolerance = 0.5 * medianInterval(estimate.stamps) + 1e-6;
     for (std::size_t i = 0; i < estimate.size(); ++i)
     {
         if (interval.sinceStart && i > 0)
@@ -80,6 +80,8 @@ std::vector<NeesIncrement> neesIncrements(
             "' has no covariances: give a rawlog or .simplemap with pose PDFs");
     }
     checkOverlap(groundTruth, estimate, options.offset);
+    checkPositions(groundTruth);
+    checkPositions(estimate);
     const SampledTruth truth =
         sampleTruth(groundTruth, estimate.stamps, options.offset, options.truthAt);
 

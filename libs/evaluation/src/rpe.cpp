@@ -229,6 +229,8 @@ RpeResult relativePoseError(
     const Trajectory& groundTruth, const Trajectory& estimate, const RpeOptions& options)
 {
     checkOverlap(groundTruth, estimate, options.offset);
+    checkPositions(groundTruth);
+    checkPositions(estimate, options.scale);
     const SampledTruth truth =
         sampleTruth(groundTruth, estimate.stamps, options.offset, options.truthAt);
     const PairError error(truth.poses, estimate.poses, options.scale, options.formula);

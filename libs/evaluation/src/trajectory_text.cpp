@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/core/byte_order_mark.h>
+#include <pointplane/core/read_errors.h>
 #include <pointplane/evaluation/trajectory_text.h>
 
 #include <algorithm>
@@ -19,6 +20,7 @@ namespace
 {
 constexpr std::size_t kMrptColumns = 7;
 constexpr std::size_t kTumColumns = 8;
+constexpr double kNormTolerance = 0.01;  // files have four digits and more
 
 [[noreturn]] void failAt(const std::string& path, std::size_t line, const std::string& what)
 {
@@ -141,14 +143,123 @@ void FrameMarks::read(
     }
 }
 
-/** Lines of one kind that were left out. */
-struct LeftOut
+/** Lines of one kind that the user is told of. */
+struct NotedLines
 {
-    const char* kind;
     std::size_t count{0};
     std::size_t firstLine{0};
     void add(std::size_t line) { firstLine = count++ == 0 ? line : firstLine; }
+
+    /** Adds "FILE: 2 line(s) with WHAT, the first is line 3MORE", if there are any. */
+    void warn(Trajectory& trajectory, const std::string& what, const std::string& more = "") const
+    {
+        if (count > 0)
+        {
+            trajectory.warnings.push_back(
+                trajectory.name + ": " + std::to_string(count) + " line(s) with " + what +
+                ", the first is line " + std::to_string(firstLine) + more);
+        }
+    }
 };
+
+/** Which other format has so many columns: read as TUM's, its lines would give a score. */
+std::string otherFormat(std::size_t columns)
+{
+    constexpr std::size_t kEuroc = 17, kKitti = 12;
+    return columns == kEuroc
+               ? ", as EuRoC's ground truth (nanoseconds, quaternion qw qx qy qz: convert it)"
+           : columns == kKitti ? ", as KITTI's poses (matrices without stamps: convert them)"
+                               : "";
+}
+
+/** Poses from the lines of a file that are no comments. */
+class PoseLines
+{
+ public:
+    explicit PoseLines(const std::string& path) : path_(path) {}
+
+    void add(const std::string& text, std::size_t line);
+    [[nodiscard]] double latestStamp() const { return poses_.empty() ? 0 : poses_.back().stamp; }
+
+    /** \param numLines of the file \throws std::runtime_error if there is no pose */
+    [[nodiscard]] Trajectory result(FrameMarks marks, std::size_t numLines);
+
+ private:
+    void requireColumns(std::size_t columns, std::size_t line);
+
+    const std::string& path_;
+    std::vector<StampedPose> poses_;
+    std::size_t columns_{0};
+    NotedLines notFinite_, zeroQuaternion_, otherNorm_;
+};
+
+void PoseLines::requireColumns(std::size_t columns, std::size_t line)
+{
+    columns_ = columns_ == 0 ? columns : columns_;
+    if ((columns != kMrptColumns && columns != kTumColumns) || columns != columns_)
+    {
+        failAt(
+            path_,
+            line,
+            std::to_string(columns) + " columns" + otherFormat(columns) +
+                "; expected 8 (TUM: stamp tx ty tz qx qy qz qw) or 7 (MRPT: stamp x y z yaw pitch "
+                "roll), the same in all lines");
+    }
+}
+
+void PoseLines::add(const std::string& text, std::size_t line)
+{
+    if (text.find(',') != std::string::npos && !decimalComma(text).empty())
+    {
+        failAt(path_, line, "'" + decimalComma(text) + "' has a decimal comma; write points");
+    }
+    const std::vector<double> v = parseNumbers(text, path_, line);
+    if (v.empty())
+    {
+        return;
+    }
+    requireColumns(v.size(), line);
+    const bool isTum = columns_ == kTumColumns;
+    const double norm = isTum ? Eigen::Vector4d(v[4], v[5], v[6], v[7]).norm() : 1;
+    if (!std::all_of(v.begin(), v.end(), [](double x) { return std::isfinite(x); }))
+    {
+        notFinite_.add(line);
+    }
+    else if (norm == 0)
+    {
+        zeroQuaternion_.add(line);
+    }
+    else
+    {
+        if (std::abs(norm - 1) > kNormTolerance)
+        {
+            otherNorm_.add(line);
+        }
+        poses_.push_back({v[0], isTum ? poseFromQuaternion(v) : poseFromYawPitchRoll(v)});
+    }
+}
+
+Trajectory PoseLines::result(FrameMarks marks, std::size_t numLines)
+{
+    if (poses_.empty())
+    {
+        throw std::runtime_error(
+            "'" + path_ + "' holds no usable pose (" + std::to_string(numLines) + " lines)");
+    }
+    for (StampedPose& pose : poses_)
+    {
+        pose.status =
+            marks.predicted.count(pose.stamp) > 0 ? FrameStatus::Predicted : FrameStatus::Tracked;
+    }
+    Trajectory out = makeTrajectory(path_, std::move(poses_));
+    out.marksFrames = marks.any;
+    out.lostStamps = std::move(marks.lost);
+    out.lostWithoutTime += marks.lostWithoutTime;
+    notFinite_.warn(out, "NaN or infinity left out");
+    zeroQuaternion_.warn(out, "a zero quaternion left out");
+    otherNorm_.warn(out, "a quaternion whose norm is not 1", "; are columns 5 to 8 qx qy qz qw?");
+    return out;
+}
 }  // namespace
 
 Trajectory readTrajectoryText(const std::string& path)
@@ -160,76 +271,22 @@ Trajectory readTrajectoryText(const std::string& path)
             "cannot open " + path + ": " + (file ? "is a directory" : std::strerror(errno)));
     }
     skipByteOrderMark(file);
-    std::vector<StampedPose> poses;
+    PoseLines poses(path);
     FrameMarks marks;
-    LeftOut notFinite{"NaN or infinity"};
-    LeftOut zeroQuaternion{"a zero quaternion"};
-    std::size_t columns = 0;
     std::size_t line = 0;
     for (std::string text; std::getline(file, text);)
     {
         ++line;
         if (!text.empty() && (text[0] == '#' || text[0] == '%'))
         {
-            marks.read(text, path, line, poses.empty() ? 0 : poses.back().stamp);
-            continue;
-        }
-        if (text.find(',') != std::string::npos && !decimalComma(text).empty())
-        {
-            failAt(path, line, "'" + decimalComma(text) + "' has a decimal comma; write points");
-        }
-        const std::vector<double> v = parseNumbers(text, path, line);
-        if (v.empty())
-        {
-            continue;
-        }
-        columns = columns == 0 ? v.size() : columns;
-        if (v.size() < kMrptColumns || (v.size() == kMrptColumns) != (columns == kMrptColumns))
-        {
-            failAt(
-                path,
-                line,
-                std::to_string(v.size()) +
-                    " columns; expected 8 (TUM: stamp tx ty tz qx qy qz qw) or, in all lines, 7 "
-                    "(MRPT: stamp x y z yaw pitch roll)");
-        }
-        if (!std::all_of(v.begin(), v.end(), [](double x) { return std::isfinite(x); }))
-        {
-            notFinite.add(line);
-        }
-        else if (columns >= kTumColumns && v[4] == 0 && v[5] == 0 && v[6] == 0 && v[7] == 0)
-        {
-            zeroQuaternion.add(line);
+            marks.read(text, path, line, poses.latestStamp());
         }
         else
         {
-            const bool isTum = columns >= kTumColumns;
-            poses.push_back({v[0], isTum ? poseFromQuaternion(v) : poseFromYawPitchRoll(v)});
+            poses.add(text, line);
         }
     }
-    if (poses.empty())
-    {
-        throw std::runtime_error(
-            "'" + path + "' holds no usable pose (" + std::to_string(line) + " lines)");
-    }
-    for (StampedPose& pose : poses)
-    {
-        pose.status =
-            marks.predicted.count(pose.stamp) > 0 ? FrameStatus::Predicted : FrameStatus::Tracked;
-    }
-    Trajectory out = makeTrajectory(path, std::move(poses));
-    out.marksFrames = marks.any;
-    out.lostStamps = std::move(marks.lost);
-    out.lostWithoutTime += marks.lostWithoutTime;
-    for (const LeftOut& left : {notFinite, zeroQuaternion})
-    {
-        if (left.count > 0)
-        {
-            out.warnings.push_back(
-                path + ": " + std::to_string(left.count) + " line(s) with " + left.kind +
-                " left out, the first is line " + std::to_string(left.firstLine));
-        }
-    }
-    return out;
+    requireRead(file, path);
+    return poses.result(std::move(marks), line);
 }
 }  // namespace pointplane

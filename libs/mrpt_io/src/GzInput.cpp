@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 
 #include "gz_members.h"
 #include <sys/stat.h>
@@ -243,5 +244,22 @@ std::size_t GzInput::read(void* bytes, std::size_t size)
         done += n;
     }
     return done;
+}
+
+Checksums checksumsOf(const std::string& path)
+{
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(path, error))
+    {
+        return Checksums::None;
+    }
+    GzInput in(path);
+    std::vector<std::uint8_t> chunk(1U << 20U);
+    while (in.isCompressed() && in.read(chunk.data(), chunk.size()) == chunk.size())
+    {
+    }
+    return in.end() == GzInput::End::Clean     ? Checksums::Right
+           : in.end() == GzInput::End::Damaged ? Checksums::Wrong
+                                               : Checksums::None;
 }
 }  // namespace pointplane

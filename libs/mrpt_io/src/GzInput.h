@@ -77,4 +77,15 @@ class GzInput
     End end_{End::Open};
     std::string problem_;
 };
+
+/** What the checksums of a file say about it. */
+enum class Checksums
+{
+    None,  //!< there are none, or the file stops before them
+    Right,
+    Wrong
+};
+
+/** Reads the whole file, unless it is not compressed. */
+[[nodiscard]] Checksums checksumsOf(const std::string& path);
 }  // namespace pointplane

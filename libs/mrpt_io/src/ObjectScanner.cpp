@@ -58,29 +58,34 @@ void ObjectScanner::copyArray(std::uint64_t count, std::uint64_t elementSize)
     copy(count * elementSize);
 }
 
+std::string ObjectScanner::copyClassName(std::size_t size)
+{
+    copy(size);
+    std::string name(reinterpret_cast<const char*>(bytes_->data()) + bytes_->size() - size, size);
+    const auto isPlain = [](char c) { return c > 0x20 && c < 0x7f; };
+    require(
+        size > 0 && std::all_of(name.begin(), name.end(), isPlain), "not the start of an object");
+    if (const auto colon = name.rfind("::"); colon != std::string::npos)
+    {
+        name.erase(0, colon + 2);
+    }
+    return name;
+}
+
 ObjectScanner::Header ObjectScanner::copyHeader()
 {
     Header header;
     header.begin = bytes_->size();
     const auto length = copyValue<std::uint8_t>();
     // Without the high bit: the format before MRPT 0.5.5, older than any RGB-D sensor.
-    require((length & 0x80U) != 0, "not the start of an object");
-    const std::size_t size = length & 0x7FU;
-    copy(size);
-    header.className.assign(
-        reinterpret_cast<const char*>(bytes_->data()) + bytes_->size() - size, size);
-    const bool isName = size > 0 && std::all_of(
-                                        header.className.begin(),
-                                        header.className.end(),
-                                        [](char c) { return c > 0x20 && c < 0x7f; });
-    require(isName, "not the start of an object");
+    if ((length & 0x80U) == 0)
+    {
+        throw OldFormat("not the start of an object");
+    }
+    header.className = copyClassName(length & 0x7FU);
     if (header.className != "nullptr")
     {
         header.version = copyValue<std::uint8_t>();
-    }
-    if (const auto colon = header.className.rfind("::"); colon != std::string::npos)
-    {
-        header.className.erase(0, colon + 2);
     }
     return header;
 }
@@ -92,12 +97,17 @@ void ObjectScanner::copyEndFlag(const Header& header)
         "an object of class " + header.className + " without its end mark");
 }
 
-bool ObjectScanner::scan(std::vector<std::uint8_t>& bytes)
+void ObjectScanner::begin(std::vector<std::uint8_t>& bytes)
 {
     bytes_ = &bytes;
     bytes.clear();
     resolutions_.clear();
     edits_.clear();
+}
+
+bool ObjectScanner::scan(std::vector<std::uint8_t>& bytes)
+{
+    begin(bytes);
     try
     {
         copyAnyObject(0);

@@ -36,6 +36,13 @@ class ObjectScanner
         using Problem::Problem;
     };
 
+    /** Written before MRPT 0.5.5, or no object at all. */
+    class OldFormat : public Problem
+    {
+     public:
+        using Problem::Problem;
+    };
+
     /** What a range scan says about its depth camera. MRPT replaces it by the size of the range
      * image while reading, which hides intrinsics of another resolution. */
     struct Resolution
@@ -49,6 +56,22 @@ class ObjectScanner
      * False if the input ended before its first byte.
      * \throws Problem, Unknown; the bytes so far are in `bytes` then */
     bool scan(std::vector<std::uint8_t>& bytes);
+
+    /** @name A CSimpleMap, piece by piece: it may be larger than memory. Between its start and its
+     * end are, for each key frame, two objects (the pose and the sensory frame) and, since version
+     * 2, a twist.
+     * \throws Problem, Unknown
+     * @{ */
+    struct MapStart
+    {
+        int version{0};
+        bool isOld{false};  //!< OldFormat
+        std::uint32_t numKeyFrames{0};
+    };
+    MapStart scanMapStart(std::vector<std::uint8_t>& bytes);
+    void scanTwist(std::vector<std::uint8_t>& bytes);
+    void scanMapEnd(const MapStart& map, std::vector<std::uint8_t>& bytes);
+    /** @} */
 
     /** Puts the file's own bytes back into the latest object. */
     void restore(std::vector<std::uint8_t>& bytes) const;
@@ -65,6 +88,8 @@ class ObjectScanner
         std::size_t begin{0};  //!< of the object in the buffer
     };
 
+    void begin(std::vector<std::uint8_t>& bytes);
+
     // Primitives: copy and return.
     void copy(std::uint64_t size);
     template <class T>
@@ -74,6 +99,8 @@ class ObjectScanner
     void copyArray(std::uint64_t count, std::uint64_t elementSize);
 
     Header copyHeader();
+    Header copyOldHeader();
+    std::string copyClassName(std::size_t size);
     void copyBody(const Header& header, int depth);
     void copyObject(const char* expectedClass);
     void copyAnyObject(int depth);

@@ -6,7 +6,6 @@
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CSensoryFrame.h>
-#include <mrpt/serialization/CArchive.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -23,15 +22,6 @@ namespace pointplane
 {
 namespace
 {
-/** \param live what the object goes on with, or nullptr */
-[[nodiscard]] mrpt::serialization::CSerializable::Ptr deserialise(
-    std::vector<std::uint8_t>& bytes, GzInput* live)
-{
-    ReplayStream stream(bytes, 0, live);
-    auto archive = mrpt::serialization::archiveFrom(static_cast<mrpt::io::CStream&>(stream));
-    return archive.ReadObject();
-}
-
 /** MRPT's rule. Its own CRawlog::detectImagesDirectory() (2.5.8) drops the slash between folder and
  * name, and so finds nothing for a path with a folder in it. Where there is no such folder, the
  * first name is the one to tell. */
@@ -75,31 +65,6 @@ void restoreResolutions(
         }
     }
 }
-
-/** What the checksums of a file say about it. */
-enum class Sum
-{
-    None,  //!< there are none, or the file stops before them
-    Right,
-    Wrong
-};
-
-[[nodiscard]] Sum sumOf(const std::string& path)
-{
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(path, error))
-    {
-        return Sum::None;
-    }
-    GzInput in(path);
-    std::vector<std::uint8_t> chunk(1U << 20U);
-    while (in.isCompressed() && in.read(chunk.data(), chunk.size()) == chunk.size())
-    {
-    }
-    return in.end() == GzInput::End::Clean     ? Sum::Right
-           : in.end() == GzInput::End::Damaged ? Sum::Wrong
-                                               : Sum::None;
-}
 }  // namespace
 
 struct RawlogReader::Impl
@@ -112,16 +77,15 @@ struct RawlogReader::Impl
     void readAhead();
     void readMark();
     void scanOrAskMrpt();
-    void requireRoom();
     void askMrpt(const std::string& what);
-    [[nodiscard]] Sum sum();
+    [[nodiscard]] Checksums sum();
     void endHere(const std::string& problem);
     void endHere(RawlogEnd kind, const std::string& problem);
 
     std::string path;
     RawlogClasses classes;
     std::string externals;
-    std::optional<Sum> knownSum;
+    std::optional<Checksums> knownSum;
     std::vector<std::uint8_t> member;  // of the object ahead
     GzInput in;
     ObjectScanner scanner;
@@ -134,11 +98,11 @@ struct RawlogReader::Impl
     RawlogEnding endingSeen;  // by the caller
 };
 
-Sum RawlogReader::Impl::sum()
+Checksums RawlogReader::Impl::sum()
 {
     if (!knownSum)
     {
-        knownSum = sumOf(path);
+        knownSum = checksumsOf(path);
     }
     return *knownSum;
 }
@@ -175,7 +139,7 @@ void RawlogReader::Impl::askMrpt(const std::string& what)
         endHere(RawlogEnd::NotSupported, what + ", whose layout is not known");
         return;
     }
-    if (sum() == Sum::Wrong)
+    if (sum() == Checksums::Wrong)
     {
         endHere(RawlogEnd::Damaged, "the checksum is wrong, so this is not read: " + what);
         return;
@@ -189,7 +153,7 @@ void RawlogReader::Impl::askMrpt(const std::string& what)
     {
         // MRPT reads on behind the end of a whole file, too, where it takes a class for another
         // version.
-        const bool isWhole = sum() == Sum::Right;
+        const bool isWhole = sum() == Checksums::Right;
         if (!isWhole && (!in.problem().empty() || in.end() != GzInput::End::Open))
         {
             endHere(oneLine(e));
@@ -199,14 +163,6 @@ void RawlogReader::Impl::askMrpt(const std::string& what)
             RawlogEnd::NotSupported,
             what + (isWhole ? "" : " (or damage: the file has no checksum)"));
     }
-}
-
-/** MRPT (2.5.8) writes a range image to memory that it did not get. So memory for the object is
- * asked for and given back; another thread may still be quicker. */
-void RawlogReader::Impl::requireRoom()
-{
-    room.reserve(bytes.size());
-    room = std::vector<std::uint8_t>();
 }
 
 void RawlogReader::Impl::scanOrAskMrpt()
@@ -227,7 +183,7 @@ void RawlogReader::Impl::scanOrAskMrpt()
             endHere("");
             return;
         }
-        requireRoom();
+        requireRoom(bytes.size(), room);
         ahead = deserialise(bytes, nullptr);
     }
     catch (const ObjectScanner::Unknown& e)

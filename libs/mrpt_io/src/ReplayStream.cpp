@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ReplayStream.h"
 
+#include <mrpt/serialization/CArchive.h>
+
 #include <algorithm>
 #include <cstring>
 #include <stdexcept>
@@ -29,5 +31,18 @@ std::size_t ReplayStream::Read(void* buffer, std::size_t count)
     std::memcpy(buffer, bytes_.data() + position_, count);
     position_ += count;
     return count;
+}
+
+mrpt::serialization::CSerializable::Ptr deserialise(std::vector<std::uint8_t>& bytes, GzInput* live)
+{
+    ReplayStream stream(bytes, 0, live);
+    auto archive = mrpt::serialization::archiveFrom(static_cast<mrpt::io::CStream&>(stream));
+    return archive.ReadObject();
+}
+
+void requireRoom(std::size_t size, std::vector<std::uint8_t>& room)
+{
+    room.reserve(size);
+    room = std::vector<std::uint8_t>();
 }
 }  // namespace pointplane

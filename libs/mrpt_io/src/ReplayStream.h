@@ -2,6 +2,7 @@
 #pragma once
 
 #include <mrpt/io/CStream.h>
+#include <mrpt/serialization/CSerializable.h>
 
 #include <cstdint>
 #include <vector>
@@ -32,4 +33,13 @@ class ReplayStream : public mrpt::io::CStream
     std::size_t position_;
     GzInput* live_;
 };
+
+/** The object that MRPT reads from these bytes. \param live what they go on with, or nullptr */
+[[nodiscard]] mrpt::serialization::CSerializable::Ptr deserialise(
+    std::vector<std::uint8_t>& bytes, GzInput* live);
+
+/** MRPT (2.5.8) writes a range image to memory that it did not get. So memory for the object is
+ * asked for and given back before; another thread may still be quicker. \param room of the caller,
+ * or a compiler may leave it out */
+void requireRoom(std::size_t size, std::vector<std::uint8_t>& room);
 }  // namespace pointplane

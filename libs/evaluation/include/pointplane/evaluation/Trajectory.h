@@ -54,8 +54,8 @@ struct Trajectory
 };
 
 /** Sorts poses by stamp. Of equal stamps the last one wins, as in the TUM scripts, but a lost frame
- * never wins over a pose; a warning counts the others. Covariances are kept only if every pose has
- * one. */
+ * never wins over a pose; a warning counts the others. Poses that are NaN or infinite are left out
+ * with a warning; their frames count as lost. Covariances are kept only if every pose has one. */
 [[nodiscard]] Trajectory makeTrajectory(std::string name, std::vector<StampedPose> poses);
 
 /** Path length from the first pose to each pose [m]. */
@@ -80,8 +80,13 @@ void checkOverlap(const Trajectory& groundTruth, const Trajectory& estimate, dou
  * estimate. Empty where neither is changed. */
 [[nodiscard]] std::string describeChanges(double offset, double scale);
 
-/** Median of the intervals between stamps [s]; 0 for fewer than two poses. */
-[[nodiscard]] double medianInterval(const Trajectory& trajectory);
+/** Whether positions are where double resolves them to a micrometre; beyond, errors lose
+ * their digits, and those of a run that is stuck out there would be 0. \param scale of the
+ * positions \throws std::runtime_error naming file and stamp */
+void checkPositions(const Trajectory& trajectory, double scale = 1);
+
+/** Median of the intervals between stamps [s]; 0 for fewer than two. */
+[[nodiscard]] double medianInterval(const std::vector<double>& stamps);
 
 /** The trajectory of another frame rigidly attached to the moving body: poses * T_body_other. The
  * poses' covariances, being left perturbations, stay. */

@@ -28,10 +28,11 @@ struct ComparedRun
 
 struct Comparison
 {
-    std::vector<ComparedRun> runs;                                //!< in the order given
-    std::size_t bestTranslation{0}, bestRotation{0}, bestAte{0};  //!< indices of the smallest RMSE
-    std::size_t numCommonPairs{0};                                //!< that all runs have
-    bool sameFrames{true};                                        //!< no run has others
+    std::vector<ComparedRun> runs;                    //!< in the order given
+    std::size_t bestTranslation{0}, bestRotation{0};  //!< indices of the smallest RMSE
+    std::optional<std::size_t> bestAte;               //!< none where ATE is not of the same frames
+    std::size_t numCommonPairs{0};                    //!< that all runs have
+    bool sameFrames{true};                            //!< no run has other pairs
 
     /** Otherwise the smallest RMSE does not make a run the best one. */
     [[nodiscard]] bool isComparable() const { return numCommonPairs >= 2; }

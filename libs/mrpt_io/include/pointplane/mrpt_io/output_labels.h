@@ -7,17 +7,25 @@ namespace pointplane
 {
 /** @name How the output rawlog names what it says about a camera, by the camera's label.
  * @{ */
+inline const std::string kPoseEnding = "_pose";
+inline const std::string kSinceEnding = "_since_";  //!< the number of frames follows
+inline const std::string kStatusBegins = "pointplane-status label=";
+inline const std::string kStatusFrame = " frame=";  //!< behind the label; number and status follow
+
 /** Of the CObservationRobotPose with the pose since the first frame. */
-[[nodiscard]] inline std::string poseLabelOf(const std::string& camera) { return camera + "_pose"; }
+[[nodiscard]] inline std::string poseLabelOf(const std::string& camera)
+{
+    return camera + kPoseEnding;
+}
 /** Of those with motions since earlier frames; the number of frames follows. */
 [[nodiscard]] inline std::string sinceLabelOf(const std::string& camera)
 {
-    return camera + "_since_";
+    return camera + kSinceEnding;
 }
 /** Beginning of the text of a CObservationComment on a frame that was not tracked. */
 [[nodiscard]] inline std::string statusCommentOf(const std::string& camera)
 {
-    return "pointplane-status label=" + camera + " frame=";
+    return kStatusBegins + camera + kStatusFrame;
 }
 /** @} */
 }  // namespace pointplane
