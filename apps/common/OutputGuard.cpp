@@ -5,6 +5,7 @@
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/rawlog_names.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -87,8 +88,11 @@ bool OutputGuard::writes(const Output& output, const File& file)
     if (output.isFolder)
     {
         const fs::path path(file.path);
-        return path.parent_path() == output.files.front().path &&
-               (output.extension.empty() || path.extension() == output.extension);
+        return (output.extension.empty() || path.extension() == output.extension) &&
+               std::any_of(
+                   output.files.begin(),
+                   output.files.end(),
+                   [&](const File& folder) { return path.parent_path() == folder.path; });
     }
     for (const File& written : output.files)
     {
@@ -235,10 +239,15 @@ void OutputGuard::addOutput(const std::string& option, const std::string& path)
 void OutputGuard::addOutputFolder(
     const std::string& option, const std::string& path, const std::string& extension)
 {
-    if (path.empty())
+    if (!path.empty())
     {
-        return;
+        add(folderAt(option, path, extension));
     }
+}
+
+OutputGuard::Output OutputGuard::folderAt(
+    const std::string& option, const std::string& path, const std::string& extension)
+{
     const fs::path folder = existingFolder(path);
     std::error_code error;
     if (!fs::is_directory(folder, error))
@@ -249,7 +258,7 @@ void OutputGuard::addOutputFolder(
     {
         failToWrite(option, path);
     }
-    add({option, path, {fileAt(path)}, true, extension});
+    return {option, path, {fileAt(path)}, true, extension};
 }
 
 void OutputGuard::addFolderBeside(
@@ -262,6 +271,8 @@ void OutputGuard::addFolderBeside(
             ": is not a file that a folder can be beside; give the name of "
             "a file");
     }
-    addOutputFolder(option, folder, "");
+    Output output = folderAt(option, folder, "");
+    output.files.push_back(fileAt(partialFolderOf(folder)));
+    add(output);
 }
 }  // namespace pointplane

@@ -39,7 +39,8 @@ class OutputGuard
     void addOutputFolder(
         const std::string& option, const std::string& path, const std::string& extension);
 
-    /** As addOutputFolder(), for one beside a rawlog that is an output itself. */
+    /** As addOutputFolder(), for one beside a rawlog that is an output itself, and for the partial
+     * one (partialFolderOf()). */
     void addFolderBeside(
         const std::string& option, const std::string& rawlog, const std::string& folder);
 
@@ -55,13 +56,15 @@ class OutputGuard
     struct Output
     {
         std::string option, name;  //!< as given
-        std::vector<File> files;   //!< itself and the partial one
+        std::vector<File> files;   //!< itself and the partial one, if there is one
         bool isFolder{false};
         std::string extension;  //!< of what is written into the folder
     };
 
     [[nodiscard]] static File fileAt(const std::string& path);
     [[nodiscard]] static File inputFolderAt(const std::string& path);
+    [[nodiscard]] static Output folderAt(
+        const std::string& option, const std::string& path, const std::string& extension);
     [[nodiscard]] static bool same(const File& a, const File& b);
     [[nodiscard]] static bool isIn(const File& file, const File& folder);
     [[nodiscard]] static bool writes(const Output& output, const File& file);

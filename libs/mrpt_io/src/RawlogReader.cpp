@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/mrpt_io/RawlogReader.h>
 #include <pointplane/mrpt_io/errors.h>
+#include <pointplane/mrpt_io/rawlog_names.h>
 #include <pointplane/mrpt_io/recording_marks.h>
 
 #include <mrpt/obs/CObservation3DRangeScan.h>
@@ -37,8 +38,16 @@ namespace
  * first name is the one to tell. */
 [[nodiscard]] std::string imagesDirectory(const std::string& rawlog)
 {
-    const std::string stem = std::filesystem::path(rawlog).replace_extension().string();
-    const std::string shared = (std::filesystem::path(rawlog).parent_path() / "Images").string();
+    const std::filesystem::path path(rawlog);
+    if (path.extension() == ".partial")  // of a run that was killed, its images as well
+    {
+        const std::string folder = imagesFolderOf(std::filesystem::path(path).replace_extension());
+        const std::string partial = partialFolderOf(folder);
+        std::error_code error;
+        return std::filesystem::is_directory(partial, error) ? partial : folder;
+    }
+    const std::string stem = std::filesystem::path(path).replace_extension().string();
+    const std::string shared = (path.parent_path() / "Images").string();
     for (const std::string& name : {stem + "_Images", stem + "_images", stem + "_IMAGES", shared})
     {
         std::error_code error;
