@@ -59,6 +59,20 @@ namespace
     return stem + "_Images";
 }
 
+/** As by `gzip a.rawlog`, although rawlogs are compressed. */
+[[nodiscard]] bool isCompressedTwice(const std::string& path)
+{
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(path, error))
+    {
+        return false;  // what was read from a pipe is gone
+    }
+    GzInput in(path);
+    std::uint8_t head[2] = {0, 0};
+    return in.isCompressed() && in.read(head, sizeof(head)) == sizeof(head) && head[0] == 0x1f &&
+           head[1] == 0x8b;
+}
+
 /** Puts the depth cameras' resolutions back, which the scanner had exchanged. */
 void restoreResolutions(
     mrpt::serialization::CSerializable& object,
@@ -296,7 +310,8 @@ RawlogReader::RawlogReader(const std::string& path, RawlogClasses classes)
     {
         const std::string type = otherFileType(path);
         throw InputError(
-            !type.empty()                   ? path + ": is " + type + ", not a rawlog"
+            isCompressedTwice(path)         ? path + ": is compressed twice; run gunzip on it once"
+            : !type.empty()                 ? path + ": is " + type + ", not a rawlog"
             : impl_->ending.message.empty() ? path + ": contains no objects"
             : impl_->ending.kind == RawlogEnd::NotSupported
                 ? impl_->ending.message
