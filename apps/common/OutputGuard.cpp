@@ -40,6 +40,20 @@ namespace fs = std::filesystem;
     return path;
 }
 
+/** Where a name is too long for the disk, before the run finds out. */
+void requireShortName(const std::string& option, const std::string& path, const fs::path& written)
+{
+    const long most = ::pathconf(existingFolder(folderOf(written)).c_str(), _PC_NAME_MAX);
+    const std::string name = written.filename().string();
+    if (most > 0 && name.size() > static_cast<std::size_t>(most))
+    {
+        throw InputError(
+            option + " " + path + ": needs a name of " + std::to_string(name.size()) +
+            " bytes while it is written, but " + std::to_string(most) +
+            " are the most; give a shorter one");
+    }
+}
+
 [[noreturn]] void failToWrite(const std::string& option, const std::string& path)
 {
     throw EnvironmentError(option + ": cannot write " + path + ": " + std::strerror(errno));
@@ -158,6 +172,16 @@ void OutputGuard::addInput(const std::string& path)
     }
 }
 
+void OutputGuard::addInputRawlog(const std::string& path)
+{
+    addInput(path);
+    std::error_code error;
+    if (const std::string truth = groundTruthOf(path); fs::exists(truth, error))
+    {
+        addInput(truth);
+    }
+}
+
 void OutputGuard::addInputFolder(const std::string& path)
 {
     checkInputFolder(path);
@@ -218,6 +242,7 @@ void OutputGuard::addOutput(const std::string& option, const std::string& path)
         requireStandardOutput();
     }
     const OutputTarget target = outputTarget(path);
+    requireShortName(option, path, target.writtenPath());
     // The file and, where it is made anew, its folder.
     if ((fs::exists(status) && ::access(path.c_str(), W_OK) != 0) ||
         (target.isReplaced && ::access(folderOf(target.path).c_str(), W_OK | X_OK) != 0))
@@ -261,6 +286,26 @@ OutputGuard::Output OutputGuard::folderAt(
     return {option, path, {fileAt(path)}, true, extension};
 }
 
+void OutputGuard::addGroundTruth(const std::string& rawlog)
+{
+    if (!hasPlaceBeside(rawlog))
+    {
+        return;
+    }
+    const std::string truth = groundTruthOf(rawlog);
+    const fs::path path(rawlog);
+    const std::string other =
+        path.extension() == ".gz" ? fs::path(path).replace_extension().string() : rawlog + ".gz";
+    std::error_code error;
+    if (fs::exists(truth, error) && fs::exists(other, error))
+    {
+        throw InputError(
+            "-o " + rawlog + ": its ground truth would replace " + truth + ", which is that of " +
+            other + "; give another name");
+    }
+    addOutput("ground truth of -o", truth);
+}
+
 void OutputGuard::addFolderBeside(
     const std::string& option, const std::string& rawlog, const std::string& folder)
 {
@@ -271,6 +316,7 @@ void OutputGuard::addFolderBeside(
             ": is not a file that a folder can be beside; give the name of "
             "a file");
     }
+    requireShortName(option, rawlog, partialFolderOf(folder));
     Output output = folderAt(option, folder, "");
     output.files.push_back(fileAt(partialFolderOf(folder)));
     add(output);

@@ -21,6 +21,9 @@ class OutputGuard
     /** A file. Need not be there, and may be something else: its reader reports that. */
     void addInput(const std::string& path);
 
+    /** A rawlog, and its ground truth if that is beside it. */
+    void addInputRawlog(const std::string& path);
+
     /** A folder and all that is in it. */
     void addInputFolder(const std::string& path);
 
@@ -38,6 +41,10 @@ class OutputGuard
      * \param extension of these files, e.g. ".png"; empty: any */
     void addOutputFolder(
         const std::string& option, const std::string& path, const std::string& extension);
+
+    /** The ground truth beside a rawlog that is an output itself, if there is a place for it.
+     * Refused where it is that of another rawlog: a.rawlog and a.rawlog.gz have one name for it. */
+    void addGroundTruth(const std::string& rawlog);
 
     /** As addOutputFolder(), for one beside a rawlog that is an output itself, and for the partial
      * one (partialFolderOf()). */
