@@ -196,14 +196,14 @@ void ScanWriter::write(const RegisteredScan& scan)
 
 std::string problemOfDepthUnits(double unitsPerMetre)
 {
-    constexpr double kLeast = 1, kMost = 1e6;  // metres, micrometres
-    if (unitsPerMetre >= kLeast && unitsPerMetre <= kMost)
+    if (unitsPerMetre >= kLeastDepthUnits && unitsPerMetre <= kMostDepthUnits)
     {
         return "";
     }
     std::ostringstream out;
     out.imbue(std::locale::classic());
-    out << unitsPerMetre << " is not a number from " << kLeast << " to " << kMost;
+    out << unitsPerMetre << " is not a number from " << kLeastDepthUnits << " to "
+        << kMostDepthUnits;
     return out.str();
 }
 

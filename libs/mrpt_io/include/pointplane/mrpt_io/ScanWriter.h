@@ -62,6 +62,9 @@ class ScanWriter
     std::unique_ptr<ImagesFolder> images_;  //!< none: embedded
 };
 
+/** Fewest and most units per metre: metres, micrometres. */
+constexpr double kLeastDepthUnits = 1, kMostDepthUnits = 1e6;
+
 /** \return why no camera's depth has so many units per metre, or empty: 16 bits of them would show
  * nothing or span less than a hand, and floats cannot hold what is far beyond that */
 [[nodiscard]] std::string problemOfDepthUnits(double unitsPerMetre);
