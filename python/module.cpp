@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/mrpt_io/ObservationConverter.h>
 #include <pointplane/mrpt_io/RawlogReader.h>
+#include <pointplane/mrpt_io/ScanWriter.h>
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/params_ini.h>
 #include <pointplane/odometry/Odometry.h>
@@ -15,7 +16,9 @@
 #include <cstdint>
 #include <deque>
 #include <limits>
+#include <map>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <utility>
 #include <vector>
@@ -61,6 +64,11 @@ cv::Mat depthOf(const py::array& depth, double unit)
     if (!depth.dtype().is(py::dtype::of<std::uint16_t>()))
     {
         throw py::type_error("depth: expected float32 in metres, or uint16 in units of depth_unit");
+    }
+    if (const std::string problem = problemOfDepthUnits(1 / unit); !problem.empty())
+    {
+        throw py::value_error(
+            "depth_unit: is " + std::to_string(unit) + " m, but " + problem + " [units per metre]");
     }
     const cv::Mat readings = matOf(depth, CV_16UC1, "depth");
     cv::Mat metres;
@@ -137,6 +145,7 @@ class RawlogFrames
                     continue;
                 }
                 label_ = label_.empty() ? scan->sensorLabel : label_;
+                ++framesOf_[scan->sensorLabel];
                 if (scan->sensorLabel == label_)
                 {
                     return converter_.convert(*scan);
@@ -149,6 +158,7 @@ class RawlogFrames
                 {
                     throw InputError(reader_.ending().message);
                 }
+                requireFrames();
                 throw py::stop_iteration();
             }
             if (auto observation = std::dynamic_pointer_cast<mrpt::obs::CObservation>(object))
@@ -163,25 +173,63 @@ class RawlogFrames
     }
 
  private:
+    /** A label that no camera has is a mistake, not a camera without frames. */
+    void requireFrames() const
+    {
+        if (label_.empty() || framesOf_.count(label_) > 0)
+        {
+            return;
+        }
+        std::string there;
+        for (const auto& [label, count] : framesOf_)
+        {
+            there += (there.empty() ? "" : ", ") + std::to_string(count) + " of '" + label + "'";
+        }
+        throw InputError(
+            reader_.path() + ": no frames of camera '" + label_ + "'; in it are " +
+            (there.empty() ? "none" : there));
+    }
+
     RawlogReader reader_;
     ObservationConverter converter_;
     std::deque<mrpt::obs::CObservation::Ptr> pending_;
     std::string label_;
+    std::map<std::string, std::size_t> framesOf_;
 };
 
-OdometryResult processFrame(Odometry& odometry, const ConvertedFrame& converted)
+/** An odometry that Python's threads may share: one frame after the other. */
+class SharedOdometry
 {
-    OdometryResult result;
+ public:
+    explicit SharedOdometry(const OdometryParams& params) : odometry_(params) {}
+
+    [[nodiscard]] OdometryResult process(const ConvertedFrame& converted)
+    {
+        OdometryResult result;
+        {
+            // In this order: who waits for a frame of another thread must not hold up Python.
+            const py::gil_scoped_release release;
+            const std::lock_guard lock(mutex_);
+            result = odometry_.process(converted.frame);
+        }
+        if (!converted.problem.empty())
+        {
+            result.reason = converted.problem;
+        }
+        return result;
+    }
+
+    void reset()
     {
         const py::gil_scoped_release release;
-        result = odometry.process(converted.frame);
+        const std::lock_guard lock(mutex_);
+        odometry_.reset();
     }
-    if (!converted.problem.empty())
-    {
-        result.reason = converted.problem;
-    }
-    return result;
-}
+
+ private:
+    std::mutex mutex_;
+    Odometry odometry_;
+};
 
 void addCamera(py::module_& m)
 {
@@ -269,16 +317,21 @@ void addResult(py::module_& m)
 
 void addOdometry(py::module_& m)
 {
-    py::class_<Odometry>(m, "VisualOdometry", "One object per camera; frames in order of time.")
+    py::class_<SharedOdometry>(
+        m,
+        "VisualOdometry",
+        "One object per camera; frames in order of time. Threads that share it wait for each "
+        "other.")
         .def(
-            py::init([](const std::string& config, const std::vector<std::string>& settings)
-                     { return std::make_unique<Odometry>(loadOdometryParams(config, settings)); }),
+            py::init(
+                [](const std::string& config, const std::vector<std::string>& settings)
+                { return std::make_unique<SharedOdometry>(loadOdometryParams(config, settings)); }),
             py::arg("config") = "",
             py::arg("settings") = std::vector<std::string>(),
             "config: an ini file, or empty for the defaults; settings: 'Section.key=value', ...")
         .def(
             "process",
-            [](Odometry& odometry,
+            [](SharedOdometry& odometry,
                const py::array& depth,
                const py::object& colour,
                const PinholeCamera& camera,
@@ -290,7 +343,7 @@ void addOdometry(py::module_& m)
                 converted.frame.camera = camera;
                 converted.frame.depth = depthOf(depth, unit);
                 converted.frame.gray = grayOf(colour);
-                return processFrame(odometry, converted);
+                return odometry.process(converted);
             },
             py::arg("depth"),
             py::arg("colour"),
@@ -298,11 +351,16 @@ void addOdometry(py::module_& m)
             py::arg("stamp"),
             py::arg("depth_unit") = 0.001,
             "depth: (height, width), float32 [m] with NaN for no reading, used in place; or uint16 "
-            "in units of depth_unit [m] with 0 for none. colour: registered to it, uint8, gray "
+            "in units of depth_unit (1e-6 to 1 m) with 0 for none. colour: registered to it, "
+            "uint8, gray "
             "(used in place) or RGB, or None. stamp [s]. A frame that cannot be used is lost, with "
             "a reason, and no exception.")
-        .def("process", &processFrame, py::arg("frame"), "A frame of a rawlog, see read_rawlog().")
-        .def("reset", &Odometry::reset, "Starts anew with the same configuration.");
+        .def(
+            "process",
+            &SharedOdometry::process,
+            py::arg("frame"),
+            "A frame of a rawlog, see read_rawlog().")
+        .def("reset", &SharedOdometry::reset, "Starts anew with the same configuration.");
 }
 
 void addRawlogs(py::module_& m)
@@ -329,7 +387,7 @@ void addRawlogs(py::module_& m)
         py::arg("path"),
         py::arg("sensor_label") = "",
         "The frames of one camera, by default the first one's, one after the other. Damage raises "
-        "InputError after the frames before it.");
+        "InputError after the frames before it, and so does a label that no camera has.");
 }
 }  // namespace
 }  // namespace pointplane

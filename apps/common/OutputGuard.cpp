@@ -5,6 +5,7 @@
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/rawlog_names.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -37,6 +38,20 @@ namespace fs = std::filesystem;
         }
     }
     return path;
+}
+
+/** Where a name is too long for the disk, before the run finds out. */
+void requireShortName(const std::string& option, const std::string& path, const fs::path& written)
+{
+    const long most = ::pathconf(existingFolder(folderOf(written)).c_str(), _PC_NAME_MAX);
+    const std::string name = written.filename().string();
+    if (most > 0 && name.size() > static_cast<std::size_t>(most))
+    {
+        throw InputError(
+            option + " " + path + ": needs a name of " + std::to_string(name.size()) +
+            " bytes while it is written, but " + std::to_string(most) +
+            " are the most; give a shorter one");
+    }
 }
 
 [[noreturn]] void failToWrite(const std::string& option, const std::string& path)
@@ -87,8 +102,11 @@ bool OutputGuard::writes(const Output& output, const File& file)
     if (output.isFolder)
     {
         const fs::path path(file.path);
-        return path.parent_path() == output.files.front().path &&
-               (output.extension.empty() || path.extension() == output.extension);
+        return (output.extension.empty() || path.extension() == output.extension) &&
+               std::any_of(
+                   output.files.begin(),
+                   output.files.end(),
+                   [&](const File& folder) { return path.parent_path() == folder.path; });
     }
     for (const File& written : output.files)
     {
@@ -154,6 +172,16 @@ void OutputGuard::addInput(const std::string& path)
     }
 }
 
+void OutputGuard::addInputRawlog(const std::string& path)
+{
+    addInput(path);
+    std::error_code error;
+    if (const std::string truth = groundTruthOf(path); fs::exists(truth, error))
+    {
+        addInput(truth);
+    }
+}
+
 void OutputGuard::addInputFolder(const std::string& path)
 {
     checkInputFolder(path);
@@ -214,6 +242,7 @@ void OutputGuard::addOutput(const std::string& option, const std::string& path)
         requireStandardOutput();
     }
     const OutputTarget target = outputTarget(path);
+    requireShortName(option, path, target.writtenPath());
     // The file and, where it is made anew, its folder.
     if ((fs::exists(status) && ::access(path.c_str(), W_OK) != 0) ||
         (target.isReplaced && ::access(folderOf(target.path).c_str(), W_OK | X_OK) != 0))
@@ -235,10 +264,15 @@ void OutputGuard::addOutput(const std::string& option, const std::string& path)
 void OutputGuard::addOutputFolder(
     const std::string& option, const std::string& path, const std::string& extension)
 {
-    if (path.empty())
+    if (!path.empty())
     {
-        return;
+        add(folderAt(option, path, extension));
     }
+}
+
+OutputGuard::Output OutputGuard::folderAt(
+    const std::string& option, const std::string& path, const std::string& extension)
+{
     const fs::path folder = existingFolder(path);
     std::error_code error;
     if (!fs::is_directory(folder, error))
@@ -249,7 +283,27 @@ void OutputGuard::addOutputFolder(
     {
         failToWrite(option, path);
     }
-    add({option, path, {fileAt(path)}, true, extension});
+    return {option, path, {fileAt(path)}, true, extension};
+}
+
+void OutputGuard::addGroundTruth(const std::string& rawlog)
+{
+    if (!hasPlaceBeside(rawlog))
+    {
+        return;
+    }
+    const std::string truth = groundTruthOf(rawlog);
+    const fs::path path(rawlog);
+    const std::string other =
+        path.extension() == ".gz" ? fs::path(path).replace_extension().string() : rawlog + ".gz";
+    std::error_code error;
+    if (fs::exists(truth, error) && fs::exists(other, error))
+    {
+        throw InputError(
+            "-o " + rawlog + ": its ground truth would replace " + truth + ", which is that of " +
+            other + "; give another name");
+    }
+    addOutput("ground truth of -o", truth);
 }
 
 void OutputGuard::addFolderBeside(
@@ -262,6 +316,9 @@ void OutputGuard::addFolderBeside(
             ": is not a file that a folder can be beside; give the name of "
             "a file");
     }
-    addOutputFolder(option, folder, "");
+    requireShortName(option, rawlog, partialFolderOf(folder));
+    Output output = folderAt(option, folder, "");
+    output.files.push_back(fileAt(partialFolderOf(folder)));
+    add(output);
 }
 }  // namespace pointplane

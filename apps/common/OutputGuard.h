@@ -21,6 +21,9 @@ class OutputGuard
     /** A file. Need not be there, and may be something else: its reader reports that. */
     void addInput(const std::string& path);
 
+    /** A rawlog, and its ground truth if that is beside it. */
+    void addInputRawlog(const std::string& path);
+
     /** A folder and all that is in it. */
     void addInputFolder(const std::string& path);
 
@@ -39,7 +42,12 @@ class OutputGuard
     void addOutputFolder(
         const std::string& option, const std::string& path, const std::string& extension);
 
-    /** As addOutputFolder(), for one beside a rawlog that is an output itself. */
+    /** The ground truth beside a rawlog that is an output itself, if there is a place for it.
+     * Refused where it is that of another rawlog: a.rawlog and a.rawlog.gz have one name for it. */
+    void addGroundTruth(const std::string& rawlog);
+
+    /** As addOutputFolder(), for one beside a rawlog that is an output itself, and for the partial
+     * one (partialFolderOf()). */
     void addFolderBeside(
         const std::string& option, const std::string& rawlog, const std::string& folder);
 
@@ -55,13 +63,15 @@ class OutputGuard
     struct Output
     {
         std::string option, name;  //!< as given
-        std::vector<File> files;   //!< itself and the partial one
+        std::vector<File> files;   //!< itself and the partial one, if there is one
         bool isFolder{false};
         std::string extension;  //!< of what is written into the folder
     };
 
     [[nodiscard]] static File fileAt(const std::string& path);
     [[nodiscard]] static File inputFolderAt(const std::string& path);
+    [[nodiscard]] static Output folderAt(
+        const std::string& option, const std::string& path, const std::string& extension);
     [[nodiscard]] static bool same(const File& a, const File& b);
     [[nodiscard]] static bool isIn(const File& file, const File& folder);
     [[nodiscard]] static bool writes(const Output& output, const File& file);

@@ -9,6 +9,7 @@
 #include <csignal>
 #include <iostream>
 #include <memory>
+#include <stdexcept>
 #include <system_error>
 #include <vector>
 
@@ -142,9 +143,20 @@ int report(const std::string& program, std::ostream& err)
     {
         return say(e.what(), kExitEnvironment);
     }
+    // What libs/evaluation and libs/simulation refuse of options and trajectories: they know no
+    // InputError.
+    catch (const std::invalid_argument& e)
+    {
+        return say(oneLine(e), kExitBadInput);
+    }
+    catch (const std::runtime_error& e)
+    {
+        return say(oneLine(e), kExitBadInput);
+    }
     catch (const std::exception& e)
     {
-        return say(oneLine(e), isOutOfMemory(e) ? kExitEnvironment : kExitBadInput);
+        // Nothing of the kind is thrown for what a user gave: it is a bug, not his mistake.
+        return say((isOutOfMemory(e) ? "" : "internal error: ") + oneLine(e), kExitEnvironment);
     }
 }
 }  // namespace

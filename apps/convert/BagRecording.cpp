@@ -10,6 +10,7 @@
 
 #include "bag_cameras.h"
 #include "bag_topics.h"
+#include "frame_images.h"
 #include "ros_images.h"
 
 namespace pointplane
@@ -177,8 +178,7 @@ RecordedFrame BagRecording::frame(const Picture& colour, const Picture& depth) c
     scan.unitsPerMetre = cameras_.unitsPerMetre;
     if (scan.depth.type() == CV_32FC1)
     {
-        scan.depth = depthInUnits(scan.depth, kUnitsOfFloat);
-        scan.unitsPerMetre = kUnitsOfFloat;
+        setFloatDepth(scan, depth.image, options_.depthScale);
     }
     if (!scan.depthCamera && scan.depth.size() != scan.colour.size())
     {

@@ -4,7 +4,9 @@
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/rawlog_names.h>
 
+#include <filesystem>
 #include <ostream>
+#include <system_error>
 
 #include "BagRecording.h"
 #include "FolderRecording.h"
@@ -13,6 +15,7 @@
 #include "TextOutput.h"
 #include "TumRecording.h"
 #include "convert_recording.h"
+#include "label_check.h"
 #include "number_checks.h"
 #include "run_program.h"
 #include <CLI/CLI.hpp>
@@ -25,6 +28,7 @@ void addOutputOptions(CLI::App& command, RecordingOutput& output)
 {
     command.add_option("-o,--output", output.path, "Rawlog to write")->required();
     command.add_option("--label", output.label, "Label of the camera in the rawlog")
+        ->check(isLabel())
         ->capture_default_str();
     auto* external = command.add_flag(
         "--external", output.external, "Put the images into files beside the rawlog");
@@ -54,7 +58,7 @@ void addTumCommand(CLI::App& app, TumOptions& options, RecordingOutput& output)
            "--depth-scale",
            options.depthScale,
            "Depth units per metre (default: the camera's, 5000)")
-        ->check(isPositive());
+        ->check(isBetween(kLeastDepthUnits, kMostDepthUnits));
     tum->add_option(
            "--max-difference",
            options.maxDifference,
@@ -86,8 +90,8 @@ CLI::App* addFolderCommand(CLI::App& app, FolderOptions& options, RecordingOutpu
             "--depth-scale",
             options.depthScale,
             "Depth units per metre (default: the "
-            "layout's, else 1000)")
-        ->check(isPositive());
+            "layout's, else 1000; 1 for floating point)")
+        ->check(isBetween(kLeastDepthUnits, kMostDepthUnits));
     folder
         ->add_option(
             "--fps",
@@ -117,7 +121,7 @@ CLI::App* addKlgCommand(CLI::App& app, KlgOptions& options, RecordingOutput& out
            "--depth-scale",
            options.depthScale,
            "Depth units per metre (default: the camera's, 1000)")
-        ->check(isPositive());
+        ->check(isBetween(kLeastDepthUnits, kMostDepthUnits));
     klg->add_flag("--bgr", options.bgr, "Its colours are in the order blue, green, red");
     addOutputOptions(*klg, output);
     return klg;
@@ -138,8 +142,10 @@ CLI::App* addBagCommand(CLI::App& app, BagOptions& options, RecordingOutput& out
         options.camera,
         std::string(kCameraHelp) + " (default: camera_info of the bag)");
     bag->add_option(
-           "--depth-scale", options.depthScale, "Units per metre of 16 bit depth (default: 1000)")
-        ->check(isPositive());
+           "--depth-scale",
+           options.depthScale,
+           "Depth units per metre (default: the recorder's, else 1000; 1 for floating point)")
+        ->check(isBetween(kLeastDepthUnits, kMostDepthUnits));
     bag->add_option(
            "--max-difference",
            options.maxDifference,
@@ -159,6 +165,17 @@ void addOutputs(const RecordingOutput& output, OutputGuard& guard)
     }
 }
 
+/** A file with the name of the ground truth that this run did not write: not this recording's. */
+void warnOfEarlierTruth(const std::string& truth, std::ostream& err)
+{
+    std::error_code error;
+    if (std::filesystem::exists(truth, error))
+    {
+        err << "pointplane-convert: warning: " << truth
+            << " was there before and is not of this recording; remove it if it is of another\n";
+    }
+}
+
 /** \param guard with all inputs */
 int convert(
     Recording& recording,
@@ -169,34 +186,40 @@ int convert(
 {
     addOutputs(output, guard);
     const RecordingSummary summary = convertRecording(recording, output, err);
+    if (hasPlaceBeside(output.path))
+    {
+        warnOfEarlierTruth(groundTruthOf(output.path), err);
+    }
     return report(summary, output, recording.notes(), out, err);
 }
 
 /** With the ground truth that comes with the images. */
-int convert(
+int convertTum(
     TumRecording& recording, const RecordingOutput& output, std::ostream& out, std::ostream& err)
 {
-    const std::string groundTruth =
-        hasPlaceBeside(output.path) ? groundTruthOf(output.path) : std::string();
     OutputGuard guard;
-    guard.addOutput("ground truth of -o", groundTruth);
     for (const std::string& file : recording.files())
     {
         guard.addInput(file);
     }
+    if (recording.groundTruth().empty())
+    {
+        return convert(recording, output, guard, out, err);
+    }
+    guard.addGroundTruth(output.path);
     addOutputs(output, guard);
     const RecordingSummary summary = convertRecording(recording, output, err);
     std::vector<std::string> notes = recording.notes();
-    if (!recording.groundTruth().empty() && groundTruth.empty())
+    if (!hasPlaceBeside(output.path))
     {
         notes.push_back(output.path + ": is not a file; the ground truth was not written");
     }
-    else if (!recording.groundTruth().empty())
+    else
     {
-        TextOutput file(groundTruth);
+        TextOutput file(groundTruthOf(output.path));
         file.write(recording.groundTruth());
         file.close();
-        notes.push_back(groundTruth + ": ground truth");
+        notes.push_back(file.path() + ": ground truth");
     }
     return report(summary, output, notes, out, err);
 }
@@ -246,7 +269,7 @@ int runConvert(const std::vector<std::string>& args, std::ostream& out, std::ost
                 return convert(*recording, output, guard, out, err);
             }
             TumRecording recording(tumOptions);
-            return convert(recording, output, out, err);
+            return convertTum(recording, output, out, err);
         });
 }
 }  // namespace pointplane

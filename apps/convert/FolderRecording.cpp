@@ -2,7 +2,6 @@
 #include "FolderRecording.h"
 
 #include <pointplane/evaluation/association.h>
-#include <pointplane/mrpt_io/image_file.h>
 #include <pointplane/mrpt_io/mrpt_poses.h>
 
 #include <opencv2/imgcodecs.hpp>
@@ -10,11 +9,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <sstream>
 
 #include "even_stamps.h"
+#include "frame_images.h"
+#include "quantile.h"
 
 namespace pointplane
 {
@@ -24,18 +26,6 @@ namespace fs = std::filesystem;
 
 constexpr std::uint16_t kNoReading = 65535;  //!< 7-Scenes; farther than any camera sees
 
-[[nodiscard]] cv::Mat readImage(const std::string& path, int flags)
-{
-    try
-    {
-        return readImageFile(path, flags);
-    }
-    catch (const InputError& e)
-    {
-        throw BadFrame(e.what());
-    }
-}
-
 [[nodiscard]] std::vector<double> stampsOf(const std::vector<ImageRef>& images)
 {
     std::vector<double> out;
@@ -44,11 +34,6 @@ constexpr std::uint16_t kNoReading = 65535;  //!< 7-Scenes; farther than any cam
         out.push_back(*image.stamp);
     }
     return out;
-}
-
-[[nodiscard]] std::string sizeText(const cv::Mat& image)
-{
-    return std::to_string(image.cols) + "x" + std::to_string(image.rows);
 }
 }  // namespace
 
@@ -93,12 +78,12 @@ FolderRecording::FolderRecording(const FolderOptions& options)
     }
     if (options.depthScale > 0)
     {
-        unitsPerMetre_ = options.depthScale;
+        unitsPerMetre_ = floatUnits_ = options.depthScale;
     }
-    if (!(unitsPerMetre_ > 0))
+    if (const std::string problem = problemOfDepthUnits(unitsPerMetre_); !problem.empty())
     {
         throw InputError(
-            folder_ + ": its depth units are not positive; give them by --depth-scale");
+            folder_ + ": depth units per metre: " + problem + "; give them by --depth-scale");
     }
     fps_ = options.fps > 0 ? options.fps : layout_.fps.value_or(30);
     const auto areStamped = [](const std::vector<ImageRef>& images)
@@ -245,16 +230,16 @@ double FolderRecording::stampOf(const ImageRef& image) const
 cv::Mat FolderRecording::colourOf(const ImageRef& image)
 {
     return video_ ? video_->frame(image.key, layout_.video)
-                  : readImage(image.path, cv::IMREAD_COLOR);
+                  : readFrameImage(image.path, cv::IMREAD_COLOR);
 }
 
-void FolderRecording::readDepth(const ImageRef& image, RegisteredScan& scan) const
+void FolderRecording::readDepth(const ImageRef& image, RegisteredScan& scan)
 {
-    cv::Mat depth = readImage(image.path, cv::IMREAD_ANYDEPTH | cv::IMREAD_ANYCOLOR);
+    cv::Mat depth = readFrameImage(image.path, cv::IMREAD_ANYDEPTH | cv::IMREAD_ANYCOLOR);
     if (depth.type() == CV_32FC1)
     {
-        scan.depth = depthInUnits(depth, kUnitsOfFloat);
-        scan.unitsPerMetre = kUnitsOfFloat;
+        isFloat_ = true;
+        setFloatDepth(scan, depth, floatUnits_);
         return;
     }
     if (depth.type() != CV_16UC1)
@@ -286,15 +271,16 @@ void FolderRecording::setCameras(RegisteredScan& scan, const std::string& name) 
     }
     // A calibration for another size of the same picture.
     if (scan.colour.cols != scan.camera.width &&
-        scan.colour.cols * scan.camera.height == scan.colour.rows * scan.camera.width)
+        std::int64_t{scan.colour.cols} * scan.camera.height ==
+            std::int64_t{scan.colour.rows} * scan.camera.width)
     {
         scan.camera = scan.camera.scaled(static_cast<double>(scan.colour.cols) / scan.camera.width);
     }
     if (scan.colour.cols != scan.camera.width || scan.colour.rows != scan.camera.height)
     {
         throw BadFrame(
-            name + ": is " + sizeText(scan.colour) + ", but the camera is for " +
-            std::to_string(scan.camera.width) + "x" + std::to_string(scan.camera.height));
+            name + ": is " + sizeText(scan.colour.size()) + ", but the camera is for " +
+            sizeText({scan.camera.width, scan.camera.height}));
     }
     checkCamera(scan.camera, "colour");
     if (layout_.depthCamera)
@@ -311,8 +297,8 @@ void FolderRecording::setCameras(RegisteredScan& scan, const std::string& name) 
         if (std::abs(scaled.height - scan.depth.rows) > 1)
         {
             throw BadFrame(
-                name + ": depth is " + sizeText(scan.depth) + " and colour " +
-                sizeText(scan.colour) + ", which are different views");
+                name + ": depth is " + sizeText(scan.depth.size()) + " and colour " +
+                sizeText(scan.colour.size()) + ", which are different views");
         }
         scan.depthCamera = DepthCamera{scaled, Eigen::Isometry3d::Identity()};
         scan.depthCamera->camera.distortion = {};
@@ -348,12 +334,43 @@ double FolderRecording::progress() const
     return static_cast<double>(next_) / static_cast<double>(pairs_.size());
 }
 
+std::string FolderRecording::noteOfSteps() const
+{
+    constexpr double kLong = 0.5;  // [s] between frames: slower than anybody records
+    std::vector<double> steps;
+    for (std::size_t i = 1; i < pairs_.size(); ++i)
+    {
+        const long key = layout_.colour[pairs_[i].first].key;
+        steps.push_back(static_cast<double>(key - layout_.colour[pairs_[i - 1].first].key));
+    }
+    const double step = steps.empty() ? 1 : quantile(steps, 0.5);
+    if (step <= 1)
+    {
+        return "";
+    }
+    std::ostringstream out;
+    out << "numbers rise by " << step << ", so frames are " << step / fps_ << " s apart";
+    if (step / fps_ > kLong)
+    {
+        out << ": are they times? Then give how many of them are a second by --fps, 1000 for "
+               "milliseconds";
+    }
+    return out.str();
+}
+
 std::vector<std::string> FolderRecording::notes() const
 {
-    std::ostringstream layout, rate;
-    rate << "frames numbered at " << fps_ << " Hz";
-    layout << "read as " << layout_.name << ", " << unitsPerMetre_ << " depth units per metre, "
-           << (hasStamps_ ? "stamps of the recording" : rate.str());
+    std::ostringstream layout;
+    layout << "read as " << layout_.name << ", " << (isFloat_ ? floatUnits_ : unitsPerMetre_)
+           << " depth units per metre, ";
+    if (hasStamps_)
+    {
+        layout << "stamps of the recording";
+    }
+    else
+    {
+        layout << "frames numbered at " << fps_ << " Hz";
+    }
     std::vector<std::string> out{layout.str()};
     if (!evening_.empty())
     {
@@ -364,6 +381,10 @@ std::vector<std::string> FolderRecording::notes() const
         out.emplace_back(
             "stamps: regular by number only; say --fps if the rate is another one, and do not use "
             "the velocity of a recording that dropped frames");
+        if (const std::string steps = noteOfSteps(); !steps.empty())
+        {
+            out.push_back(steps);
+        }
     }
     if (layout_.cameraIsNominal)
     {
@@ -373,6 +394,13 @@ std::vector<std::string> FolderRecording::notes() const
     if (alone > 0)
     {
         out.push_back(std::to_string(alone) + " images without a partner were left out");
+    }
+    const auto others = imagesBeside(layout_.colour, layout_.depth);
+    if (!others.empty())
+    {
+        out.push_back(
+            std::to_string(others.size()) + " images whose names are no number were left out: " +
+            others.front() + (others.size() > 1 ? ", ..." : ""));
     }
     return out;
 }

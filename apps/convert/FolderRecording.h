@@ -42,14 +42,18 @@ class FolderRecording : public Recording
     void pairByNumber();
     [[nodiscard]] double stampOf(const ImageRef& image) const;
     [[nodiscard]] cv::Mat colourOf(const ImageRef& image);
-    void readDepth(const ImageRef& image, RegisteredScan& scan) const;
+    void readDepth(const ImageRef& image, RegisteredScan& scan);
     void checkCamera(const PinholeCamera& camera, const char* which) const;
     void setCameras(RegisteredScan& scan, const std::string& name) const;
+    /** How far numbers are apart, if that is more than one, or empty. */
+    [[nodiscard]] std::string noteOfSteps() const;
 
     struct Video;
     std::string folder_;
     FolderLayout layout_;
     double unitsPerMetre_{1000}, fps_{30};
+    double floatUnits_{1};  //!< the same, of depth in floating point
+    bool isFloat_{false};   //!< depth has been
     bool hasStamps_{false};
     std::string evening_;  //!< what was done to the stamps, or empty
     std::vector<std::pair<std::size_t, std::size_t>> pairs_;

@@ -150,8 +150,12 @@ cv::Mat KlgRecording::colourOf(const std::vector<unsigned char>& bytes) const
     {
         out = bytes.empty() ? cv::Mat() : cv::imdecode(bytes, cv::IMREAD_COLOR);
     }
-    catch (const cv::Exception&)
+    catch (const cv::Exception& e)
     {
+        if (isOutOfMemory(e))
+        {
+            throw;  // says nothing about the frame
+        }
         out.release();
     }
     if (out.size() != size)

@@ -11,8 +11,8 @@
 
 namespace pointplane
 {
-/** Units per metre of depth that comes in floating point metres: a quarter of a millimetre, up to
- * 16 m. */
+/** Units per metre of what is written of depth that comes in floating point: a quarter of a
+ * millimetre, up to 16 m. */
 constexpr double kUnitsOfFloat = 4000;
 
 /** A frame of a recording. */

@@ -2,7 +2,6 @@
 #include "TumRecording.h"
 
 #include <pointplane/evaluation/association.h>
-#include <pointplane/mrpt_io/image_file.h>
 #include <pointplane/mrpt_io/mrpt_poses.h>
 
 #include <opencv2/imgcodecs.hpp>
@@ -17,6 +16,7 @@
 #include <sstream>
 
 #include "even_stamps.h"
+#include "frame_images.h"
 #include "quantile.h"
 
 namespace pointplane
@@ -58,21 +58,12 @@ namespace fs = std::filesystem;
 /** An image of the camera's size. */
 [[nodiscard]] cv::Mat readImage(const std::string& path, int flags, const PinholeCamera& camera)
 {
-    cv::Mat image;
-    try
-    {
-        image = readImageFile(path, flags);
-    }
-    catch (const InputError& e)
-    {
-        throw BadFrame(e.what());
-    }
-    if (image.cols != camera.width || image.rows != camera.height)
+    const cv::Mat image = readFrameImage(path, flags);
+    const cv::Size size(camera.width, camera.height);
+    if (image.size() != size)
     {
         throw BadFrame(
-            path + ": is " + std::to_string(image.cols) + "x" + std::to_string(image.rows) +
-            " but the camera is for " + std::to_string(camera.width) + "x" +
-            std::to_string(camera.height));
+            path + ": is " + sizeText(image.size()) + " but the camera is for " + sizeText(size));
     }
     return image;
 }

@@ -29,6 +29,21 @@ using sensor_msgs::CameraInfo;
     return out;
 }
 
+/** By ROS's names: .../image_rect, image_rect_color, image_rect_raw, perhaps with a transport
+ * behind it. Other words with "rect" in them, such as direct, tell nothing. */
+[[nodiscard]] bool isRectified(std::string topic)
+{
+    for (const std::string transport : {"/compressed", "/compressedDepth"})
+    {
+        if (topic.size() > transport.size() &&
+            topic.compare(topic.size() - transport.size(), transport.size(), transport) == 0)
+        {
+            topic.erase(topic.size() - transport.size());
+        }
+    }
+    return topic.compare(topic.rfind('/') + 1, 10, "image_rect") == 0;
+}
+
 [[nodiscard]] PinholeCamera cameraOf(
     const rosbag::Bag& bag, const ImageTopic& topic, const std::string& file)
 {
@@ -50,7 +65,7 @@ using sensor_msgs::CameraInfo;
             name,
             [&](const CameraInfo& info)
             {
-                out = toCamera(info, topic.name.find("rect") != std::string::npos);
+                out = toCamera(info, isRectified(topic.name));
                 return false;
             });
         if (out)
@@ -151,6 +166,11 @@ BagCameras readBagCameras(
     BagCameras out;
     out.unitsPerMetre =
         options.depthScale > 0 ? options.depthScale : recordedUnits(bag, depth).value_or(1000);
+    if (const std::string problem = problemOfDepthUnits(out.unitsPerMetre); !problem.empty())
+    {
+        throw InputError(
+            options.file + ": depth units per metre: " + problem + "; give them by --depth-scale");
+    }
     out.colour = options.camera.empty() ? cameraOf(bag, colour, options.file)
                                         : loadTumCamera(options.camera, "").camera;
     const bool isOneFrame = colour.frame == depth.frame && !colour.frame.empty();

@@ -5,6 +5,8 @@
 #include <pointplane/mrpt_io/OutputFile.h>
 #include <pointplane/mrpt_io/mrpt_poses.h>
 
+#include <opencv2/core.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
@@ -86,6 +88,7 @@ class CameraCommentWriter
                 camera.write(writer, output.label, *frame);
                 writer.write(frame->scan);
                 stamps.push_back(toSeconds(frame->scan.stamp));
+                out.numWithoutDepth += cv::countNonZero(frame->scan.depth) == 0 ? 1 : 0;
                 out.depth = out.depth > 0 ? out.depth : medianDepth(frame->scan);
                 ++out.numFrames;
             }
@@ -162,10 +165,24 @@ int report(
     {
         out << note << "\n";
     }
-    std::ostringstream depth;
-    depth << std::setprecision(3) << summary.depth
-          << " m, the median of a frame; if that is wrong, give --depth-scale";
-    out << "depth: " << (summary.depth > 0 ? depth.str() : "no reading in any frame") << "\n";
+    if (summary.depth > 0)
+    {
+        std::ostringstream depth;
+        depth << std::setprecision(3) << summary.depth;
+        out << "depth: " << depth.str()
+            << " m, the median of a frame; if that is wrong, give --depth-scale\n";
+    }
+    const bool isWithoutDepth = summary.numWithoutDepth == summary.numFrames;
+    if (isWithoutDepth)
+    {
+        err << "pointplane-convert: " << output.path
+            << ": no depth reading in any frame; if there are some, give --depth-scale (1000: "
+               "millimetres)\n";
+    }
+    else if (summary.numWithoutDepth > 0)
+    {
+        out << "depth: no reading in " << summary.numWithoutDepth << " frames\n";
+    }
     if (!summary.stamps.empty())
     {
         out << "stamps: " << summary.stamps << "\n";
@@ -182,6 +199,7 @@ int report(
     {
         err << "pointplane-convert: " << summary.damage << "\n";
     }
-    return summary.numBad == 0 && summary.damage.empty() ? kExitOk : kExitIncomplete;
+    return summary.numBad == 0 && summary.damage.empty() && !isWithoutDepth ? kExitOk
+                                                                            : kExitIncomplete;
 }
 }  // namespace pointplane

@@ -25,6 +25,7 @@ struct RecordingSummary
     std::vector<std::string> problems;  //!< of the first bad frames
     std::string damage;                 //!< where the input ended early, or empty
     std::string stamps;                 //!< what is wrong with the stamps, or empty
+    std::size_t numWithoutDepth{0};     //!< frames without any reading
     double depth{0};  //!< median of the first frame that has any [m]: tells wrong units
 };
 

@@ -77,8 +77,7 @@ std::optional<FolderLayout> replica(const fs::path& folder)
 
 void readPublishedCamera(const fs::path& folder, FolderLayout& out)
 {
-    const std::string path = fs::absolute(folder).lexically_normal().string();
-    if (path.find("rgbd_bonn") != std::string::npos)
+    if (isInNameOf(folder, "rgbd_bonn"))
     {
         PinholeCamera camera = pinholeOf(640, 480, 542.822841, 315.593520, 237.756098);
         camera.fy = 542.576870;

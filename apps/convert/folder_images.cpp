@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cmath>
 #include <locale>
+#include <set>
 #include <sstream>
 #include <tuple>
 
@@ -51,6 +52,55 @@ namespace
     }
 }
 }  // namespace
+
+std::vector<std::string> imagesBeside(
+    const std::vector<ImageRef>& colour, const std::vector<ImageRef>& depth)
+{
+    std::set<fs::path> folders, taken;
+    for (const auto* images : {&colour, &depth})
+    {
+        for (const ImageRef& image : *images)
+        {
+            if (!image.path.empty())  // else it is a frame of a video
+            {
+                taken.insert(image.path);
+                folders.insert(fs::path(image.path).parent_path());
+            }
+        }
+    }
+    std::vector<std::string> out;
+    for (const fs::path& folder : folders)
+    {
+        std::error_code error;
+        for (const auto& entry : fs::directory_iterator(folder, error))
+        {
+            const bool isHidden = entry.path().filename().string().front() == '.';
+            if (isImage(entry.path()) && !isHidden && taken.count(entry.path()) == 0)
+            {
+                out.push_back(entry.path().string());
+            }
+        }
+    }
+    std::sort(out.begin(), out.end());
+    return out;
+}
+
+bool isInNameOf(const fs::path& folder, const std::string& words)
+{
+    const fs::path whole = fs::absolute(folder).lexically_normal();
+    const std::string name =
+        (whole.has_filename() ? whole : whole.parent_path()).filename().string();
+    const auto isInWord = [&name](std::size_t at)
+    { return at < name.size() && std::isalnum(static_cast<unsigned char>(name[at])) != 0; };
+    for (auto at = name.find(words); at != std::string::npos; at = name.find(words, at + 1))
+    {
+        if ((at == 0 || !isInWord(at - 1)) && !isInWord(at + words.size()))
+        {
+            return true;
+        }
+    }
+    return false;
+}
 
 std::optional<double> numberOf(const std::string& text)
 {

@@ -27,6 +27,15 @@ struct ImageRef
     const std::string& prefix = "",
     const std::string& suffix = "");
 
+/** Names of the images in the folders of these that are none of them: their names are no numbers.
+ */
+[[nodiscard]] std::vector<std::string> imagesBeside(
+    const std::vector<ImageRef>& colour, const std::vector<ImageRef>& depth);
+
+/** Whether the folder's own name holds these whole words: "fr1" is in scans/fr1_desk, but neither
+ * in fr1_scans/desk nor in fr10. */
+[[nodiscard]] bool isInNameOf(const std::filesystem::path& folder, const std::string& words);
+
 /** Of a text that is a finite number and nothing else, in any locale. */
 [[nodiscard]] std::optional<double> numberOf(const std::string& text);
 }  // namespace pointplane

@@ -57,8 +57,12 @@ struct CompressedDepthHeader
             }
         }
     }
-    catch (const cv::Exception&)
+    catch (const cv::Exception& e)
     {
+        if (isOutOfMemory(e))
+        {
+            throw;  // says nothing about the image
+        }
     }
     throw BadFrame("compressed image is damaged");
 }

@@ -2,6 +2,8 @@
 #include "tum_camera.h"
 
 #include <pointplane/core/byte_order_mark.h>
+#include <pointplane/mrpt_io/ScanWriter.h>
+#include <pointplane/mrpt_io/camera_ini.h>
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/ini_file.h>
 
@@ -16,6 +18,8 @@
 #include <sstream>
 #include <vector>
 
+#include "folder_images.h"
+
 namespace pointplane
 {
 namespace
@@ -26,7 +30,6 @@ struct Preset
     const char* longName;
     std::array<double, 4> intrinsics;  //!< fx fy cx cy [px]
     std::array<double, 5> distortion;  //!< k1 k2 p1 p2 k3
-    ShutterModel shutter;
 };
 
 /** The colour cameras of the TUM RGB-D benchmark, as published with it. */
@@ -34,14 +37,12 @@ const std::array<Preset, 3> kPresets{{
     {"fr1",
      "freiburg1",
      {{517.306408, 516.469215, 318.643040, 255.313989}},
-     {{0.262383, -0.953104, -0.005358, 0.002628, 1.163314}},
-     {}},
+     {{0.262383, -0.953104, -0.005358, 0.002628, 1.163314}}},
     {"fr2",
      "freiburg2",
      {{520.908620, 521.007327, 325.141442, 249.701764}},
-     {{0.231222, -0.784899, -0.003257, -0.000105, 0.917205}},
-     {}},
-    {"fr3", "freiburg3", {{535.4, 539.2, 320.1, 247.6}}, {{0, 0, 0, 0, 0}}, {}},
+     {{0.231222, -0.784899, -0.003257, -0.000105, 0.917205}}},
+    {"fr3", "freiburg3", {{535.4, 539.2, 320.1, 247.6}}, {{0, 0, 0, 0, 0}}},
 }};
 
 [[nodiscard]] TumCamera fromPreset(const Preset& preset)
@@ -52,7 +53,6 @@ const std::array<Preset, 3> kPresets{{
     out.camera.cx = preset.intrinsics[2];
     out.camera.cy = preset.intrinsics[3];
     out.camera.distortion = preset.distortion;
-    out.shutter = preset.shutter;
     return out;
 }
 
@@ -141,20 +141,7 @@ const std::array<Preset, 3> kPresets{{
 {
     const auto file = openIniFile(path);
     const mrpt::config::CConfigFile& ini = *file;
-    mrpt::img::TCamera from;
-    const std::string section = cameraSection(ini, path);
-    try
-    {
-        from.loadFromConfigFile(section, ini);
-    }
-    catch (const std::exception& e)
-    {
-        throw InputError(path + ": [" + section + "]: " + oneLine(e));
-    }
-    if (from.distortion == mrpt::img::DistortionModel::kannala_brandt)
-    {
-        throw InputError(path + ": [" + section + "]: fisheye distortion is not supported");
-    }
+    const mrpt::img::TCamera from = cameraInIni(ini, path, cameraSection(ini, path));
     TumCamera out;
     out.camera.width = static_cast<int>(from.ncols);
     out.camera.height = static_cast<int>(from.nrows);
@@ -162,10 +149,7 @@ const std::array<Preset, 3> kPresets{{
     out.camera.fy = from.fy();
     out.camera.cx = from.cx();
     out.camera.cy = from.cy();
-    if (from.distortion == mrpt::img::DistortionModel::plumb_bob)
-    {
-        std::copy_n(from.dist.begin(), 5, out.camera.distortion.begin());
-    }
+    std::copy_n(from.dist.begin(), 5, out.camera.distortion.begin());
     return out;
 }
 
@@ -177,11 +161,13 @@ const std::array<Preset, 3> kPresets{{
     }
     auto out = fromLine(path);
     TumCamera camera = out ? *out : fromIni(path);
-    const std::string problem = camera.camera.problem();
-    if (!problem.empty() || !(camera.unitsPerMetre > 0))
+    if (const std::string problem = camera.camera.problem(); !problem.empty())
     {
-        throw InputError(
-            path + ": " + (problem.empty() ? "depth units are not positive" : problem));
+        throw InputError(path + ": " + problem);
+    }
+    if (const std::string problem = problemOfDepthUnits(camera.unitsPerMetre); !problem.empty())
+    {
+        throw InputError(path + ": depth units per metre: " + problem);
     }
     return camera;
 }
@@ -194,11 +180,10 @@ TumCamera loadTumCamera(const std::string& camera, const std::string& folder)
     {
         return fromFile(local);
     }
-    const std::string name = std::filesystem::path(folder).lexically_normal().string();
     for (const Preset& preset : kPresets)
     {
-        const bool guessed = camera.empty() && (name.find(preset.longName) != std::string::npos ||
-                                                name.find(preset.name) != std::string::npos);
+        const bool guessed = camera.empty() && (isInNameOf(folder, preset.longName) ||
+                                                isInNameOf(folder, preset.name));
         if (guessed || camera == preset.name)
         {
             TumCamera out = fromPreset(preset);

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <pointplane/sensor/PinholeCamera.h>
-#include <pointplane/sensor/RgbdFrame.h>
 
 #include <string>
 
@@ -15,11 +14,10 @@ struct TumCamera
     double unitsPerMetre{5000};  //!< of depth images
     bool tellsUnits{false};      //!< not the usual ones
     std::string guessed{};       //!< name of the preset, if the folder's name told it
-    ShutterModel shutter;        //!< depthDelay is measured from the stamps instead
 };
 
 /** \param camera "fr1", "fr2", "fr3", a file, or empty: camera.txt in the folder, else a preset by
- * the folder's name (freiburg1, fr1_... and so on)
+ * a whole word of the folder's name (freiburg1, fr1 and so on)
  * \throws InputError */
 [[nodiscard]] TumCamera loadTumCamera(const std::string& camera, const std::string& folder);
 }  // namespace pointplane

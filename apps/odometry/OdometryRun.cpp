@@ -10,6 +10,8 @@
 #include <memory>
 #include <optional>
 #include <ostream>
+#include <stdexcept>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -66,7 +68,7 @@ using Sinks = std::vector<std::unique_ptr<Sink>>;
     guard.addInput(options.config);
     for (const std::string& input : options.inputs)
     {
-        guard.addInput(input);
+        guard.addInputRawlog(input);
     }
     guard.addOutput("-o", options.output);
     guard.addOutput("--simplemap", options.simplemap);
@@ -106,13 +108,25 @@ class Run
             bar_.reset();
             finish();
         }
-        catch (const InputError&)
+        catch (const EnvironmentError&)
         {
+            throw;  // what was written may be wanted
+        }
+        catch (const std::exception& e)
+        {
+            if (isOutOfMemory(e) || dynamic_cast<const std::system_error*>(&e) != nullptr)
+            {
+                throw;  // the machine, too
+            }
             for (const auto& sink : sinks_)
             {
                 sink->discard();
             }
-            throw;
+            if (dynamic_cast<const InputError*>(&e) != nullptr)
+            {
+                throw;
+            }
+            throw std::logic_error(oneLine(e));  // a bug: the options are good by now
         }
         summary_.seconds =
             std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

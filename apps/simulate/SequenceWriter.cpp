@@ -96,35 +96,13 @@ void writeGroundTruth(const SimulatedSequence& sequence, const SequenceOutput& o
     }
     file.close();
 }
-}  // namespace
 
-std::string masksFolderOf(const std::string& rawlog)
+void writeFrames(
+    const SimulatedSequence& sequence,
+    const SequenceOutput& output,
+    ScanWriter& writer,
+    std::ostream& progress)
 {
-    const std::string images = imagesFolderOf(rawlog), suffix = "_Images";
-    return images.substr(0, images.size() - suffix.size()) + "_Masks";
-}
-
-Eigen::Isometry3d robotFromCamera(const Eigen::Isometry3d& T_world_cam)
-{
-    return T_world_cam * opticalInBody().inverse();
-}
-
-void writeSequence(
-    const SimulatedSequence& sequence, const SequenceOutput& output, std::ostream& progress)
-{
-    OutputGuard guard;
-    guard.addOutput("-o", output.path);
-    guard.addOutput(
-        "ground truth of -o", hasPlaceBeside(output.path) ? groundTruthOf(output.path) : "");
-    if (output.external)
-    {
-        guard.addFolderBeside("images of -o", output.path, imagesFolderOf(output.path));
-    }
-    if (output.masks)
-    {
-        guard.addFolderBeside("masks of -o", output.path, masksFolderOf(output.path));
-    }
-    ScanWriter writer(output.path, output.label, output.external);
     const auto start = fromSeconds(sequence.stamp(0));
     if (!output.hideShutter)
     {
@@ -146,14 +124,56 @@ void writeSequence(
             bar->update(static_cast<double>(i + 1) / numFrames, static_cast<std::size_t>(i) + 1);
         }
     }
-    if (hasPlaceBeside(output.path))
+}
+}  // namespace
+
+std::string masksFolderOf(const std::string& rawlog)
+{
+    const std::string images = imagesFolderOf(rawlog), suffix = "_Images";
+    return images.substr(0, images.size() - suffix.size()) + "_Masks";
+}
+
+Eigen::Isometry3d robotFromCamera(const Eigen::Isometry3d& T_world_cam)
+{
+    return T_world_cam * opticalInBody().inverse();
+}
+
+void writeSequence(
+    const SimulatedSequence& sequence, const SequenceOutput& output, std::ostream& progress)
+{
+    OutputGuard guard;
+    guard.addOutput("-o", output.path);
+    guard.addGroundTruth(output.path);
+    if (output.external)
     {
-        writeGroundTruth(sequence, output);
+        guard.addFolderBeside("images of -o", output.path, imagesFolderOf(output.path));
     }
     if (output.masks)
     {
-        writeMasks(sequence, masksFolderOf(output.path));
+        guard.addFolderBeside("masks of -o", output.path, masksFolderOf(output.path));
     }
-    writer.close();
+    ScanWriter writer(output.path, output.label, output.external);
+    try
+    {
+        writeFrames(sequence, output, writer, progress);
+        if (hasPlaceBeside(output.path))
+        {
+            writeGroundTruth(sequence, output);
+        }
+        if (output.masks)
+        {
+            writeMasks(sequence, masksFolderOf(output.path));
+        }
+        writer.close();
+    }
+    catch (const EnvironmentError&)
+    {
+        throw;  // what was written may be wanted
+    }
+    catch (...)
+    {
+        writer.discard();
+        throw;
+    }
 }
 }  // namespace pointplane

@@ -8,12 +8,14 @@
 #include <pointplane/simulation/Scene.h>
 #include <pointplane/simulation/scenes.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <optional>
 #include <ostream>
 
 #include "SequenceWriter.h"
+#include "label_check.h"
 #include "run_program.h"
 #include "standard_streams.h"
 #include <CLI/CLI.hpp>
@@ -85,6 +87,7 @@ void addOptions(CLI::App& app, Arguments& args)
         ->expected(1)
         ->take_all();
     app.add_option("--label", args.output.label, "Label of the camera in the rawlog")
+        ->check(isLabel())
         ->capture_default_str();
     app.add_flag("--external", args.output.external, "Put the images into files beside the rawlog");
     app.add_flag(
@@ -101,6 +104,22 @@ void addOptions(CLI::App& app, Arguments& args)
         ->capture_default_str();
     app.add_flag("--quiet", args.output.quiet, "Show no progress");
     app.set_version_flag("--version", POINTPLANE_VERSION);
+}
+
+/** What applySetting() would say of sections, which --set does not have here. */
+void requireKnown(const std::string& setting, const ParameterTable& table)
+{
+    const std::size_t equals = setting.find('=');
+    if (equals == std::string::npos)
+    {
+        throw InputError("--set " + setting + ": expected key=value (see --list-settings)");
+    }
+    const std::string key = setting.substr(0, equals);
+    if (std::none_of(
+            table.begin(), table.end(), [&](const ParameterRef& p) { return p.key == key; }))
+    {
+        throw InputError("--set " + setting + ": unknown key '" + key + "' (see --list-settings)");
+    }
 }
 
 SimulationParams paramsOf(const Arguments& args)
@@ -122,6 +141,7 @@ SimulationParams paramsOf(const Arguments& args)
     const ParameterTable table = parametersOf(kSection, params);
     for (const std::string& setting : args.settings)
     {
+        requireKnown(setting, table);
         applySetting(std::string(kSection) + "." + setting, table);
     }
     params.check();

@@ -7,10 +7,14 @@
 
 #include <opencv2/imgcodecs.hpp>
 
+#include <array>
 #include <filesystem>
 #include <future>
 #include <iterator>
 #include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "SmallDisk.h"
 #include "TempDir.h"
@@ -268,6 +272,101 @@ TEST_F(ConvertApp, cameraFiles)
     }
 }
 
+/** MRPT takes abc for 0, 318,5 for 318, 5e for 5 and the last of two values, and says nothing. */
+TEST_F(ConvertApp, aTypoInACalibrationIsRefusedAndNamed)
+{
+    const std::string ini = dir_ / "c.ini";
+    const auto cameraWith = [&](const std::string& line)
+    {
+        const std::string key = line.substr(0, line.find('='));
+        std::string text = "[CAM]\n";
+        for (const char* good :
+             {"resolution=[32 24]",
+              "fx=26",
+              "fy=27",
+              "cx=15.5",
+              "cy=11.5",
+              "dist=[0.2 -0.9 0 0 1]"})
+        {
+            text += (std::string(good).rfind(key + "=", 0) == 0 ? line : good) + std::string("\n");
+        }
+        writeBytes(ini, text + (text.find(line) == std::string::npos ? line + "\n" : ""));
+        return loadTumCamera(ini, in_).camera;
+    };
+    const std::vector<std::pair<std::string, std::string>> wrong{
+        {"cx=abc", "cx = 'abc': 'abc' is not a number"},
+        {"cx=318,5", "cx = '318,5' is not one number"},
+        {"fx=5e", "fx = '5e': '5e' is not a number"},
+        {"fy=5 16", "fy = '5 16' is not one number"},
+        {"fx=inf", "'inf' is not a number"},
+        {"fx=", "fx = '' is not one number"},
+        {"dist=[a b c d e]", "dist = '[a b c d e]': 'a' is not a number"},
+        {"dist=[0,2 -0,9 0,0 0,0]", "is not a number"},
+        {"dist=[1 2 3]", "dist must be [k1 k2 p1 p2 k3]"},
+        {"dist=[0.2 -0.9 0 0 1 0.1 0.2 0.3]", "dist has k4, k5 or k6"},
+        {"resolution=[32 24.5]", "resolution is not two whole numbers of pixels"},
+        {"resolution=640x480", "resolution = '640x480': '640x480' is not a number"},
+        {"distortion_model=fisheye", "distortion_model = 'fisheye' is neither plumb_bob nor none"},
+        {"distortion_model=kannala_brandt", "fisheye distortion is not supported"}};
+    for (const auto& [line, words] : wrong)
+    {
+        try
+        {
+            (void)cameraWith(line);
+            ADD_FAILURE() << "accepted " << line;
+        }
+        catch (const InputError& e)
+        {
+            EXPECT_THAT(e.what(), testing::StartsWith(ini + ": section [CAM]: ")) << line;
+            EXPECT_THAT(e.what(), HasSubstr(words)) << line;
+        }
+    }
+    EXPECT_EQ(cameraWith("cx=16 // px").cx, 16);
+    EXPECT_EQ(cameraWith("dist=[0.1, 0.2, 0, 0]").distortion[1], 0.2);
+    EXPECT_EQ(cameraWith("dist=[0.1 0.2 0 0 0.3 0 0 0]").distortion[4], 0.3);
+    EXPECT_EQ(cameraWith("distortion_model=none").distortion[0], 0);
+    // A file from before there was a distortion_model.
+    EXPECT_EQ(cameraWith("fx=28").distortion, (std::array<double, 5>{0.2, -0.9, 0, 0, 1}));
+    writeBytes(ini, "[CAM]\nfx=1\n# fx=2\ncx=3\nFX = 4\n");
+    try
+    {
+        (void)loadTumCamera(ini, in_);
+        ADD_FAILURE() << "a key that is there twice";
+    }
+    catch (const InputError& e)
+    {
+        EXPECT_THAT(e.what(), HasSubstr(ini + ":5: key 'FX' appears twice in [CAM]"));
+    }
+}
+
+TEST_F(ConvertApp, unitsThatNoCameraHasAreRefused)
+{
+    for (const char* units : {"1e300", "1e-300", "0.5"})
+    {
+        EXPECT_EQ(run({in_, "-o", out_, "--depth-scale", units}), kExitBadInput) << units;
+        EXPECT_THAT(text_, HasSubstr("--depth-scale"));
+        writeBytes(
+            dir_ / "c.txt", std::string("26.2 26.1 15.5 11.5 0 0 0 0 0 32 24 ") + units + "\n");
+        EXPECT_EQ(run({in_, "-o", out_, "--camera", dir_ / "c.txt"}), kExitBadInput) << units;
+        EXPECT_THAT(text_, HasSubstr("c.txt: depth units per metre: "));
+        EXPECT_FALSE(std::filesystem::exists(out_));
+    }
+}
+
+TEST_F(ConvertApp, aCameraIsGuessedFromWholeWordsOfTheFoldersOwnName)
+{
+    for (const char* folder :
+         {"/data/rgbd_dataset_freiburg1_xyz", "/data/fr1_x/", "fr1", "/fr3/tum-fr1", "a/../b.fr1"})
+    {
+        EXPECT_EQ(loadTumCamera("", folder).guessed, "fr1") << folder;
+    }
+    EXPECT_EQ(loadTumCamera("", "/data/fr1_backup/rgbd_dataset_freiburg3_x").guessed, "fr3");
+    for (const char* folder : {"/data/scan_15fr30s", "/data/fr1tz", "/data/fr1/x", "/data/fr10"})
+    {
+        EXPECT_THROW((void)loadTumCamera("", folder), InputError) << folder;
+    }
+}
+
 TEST_F(ConvertApp, listsMayHaveAByteOrderMarkAndAbsoluteNames)
 {
     const std::string mark = "\xEF\xBB\xBF";
@@ -365,6 +464,68 @@ TEST_F(ConvertApp, nothingIsWrittenBesideAPipe)
     }
     const std::filesystem::directory_iterator first(dir_ / "devices"), end;
     EXPECT_EQ(std::distance(first, end), 2);
+}
+
+/** Of another rawlog, whose name differs by .gz alone, or of an earlier one. */
+TEST_F(ConvertApp, groundTruthOfAnotherRawlogIsNotReplacedAndNotAdopted)
+{
+    const std::string truth = dir_ / "out.groundtruth.txt";
+    ASSERT_EQ(run({in_, "-o", out_}), kExitOk) << text_;
+    writeBytes(truth, "the first");
+    EXPECT_EQ(run({in_, "-o", out_ + ".gz"}), kExitBadInput);
+    EXPECT_THAT(text_, HasSubstr(truth + ", which is that of " + out_ + "; give another name"));
+    EXPECT_EQ(test::readBytes(truth), "the first");
+    EXPECT_FALSE(std::filesystem::exists(out_ + ".gz"));
+
+    ASSERT_EQ(run({in_, "-o", out_}), kExitOk) << text_;
+    EXPECT_THAT(text_, Not(HasSubstr("warning")));
+    EXPECT_THAT(test::readBytes(truth), HasSubstr("# truth"));
+
+    std::filesystem::remove(dir_ / "in/groundtruth.txt");
+    EXPECT_EQ(run({in_, "-o", out_}), kExitOk) << text_;
+    EXPECT_THAT(text_, HasSubstr("warning: " + truth + " was there before"));
+    EXPECT_EQ(run({in_, "-o", dir_ / "other.rawlog"}), kExitOk) << text_;
+    EXPECT_THAT(text_, Not(HasSubstr("warning")));
+}
+
+TEST_F(ConvertApp, aRefusedRunWithExternalImagesLeavesAnEarlierOneAsItWas)
+{
+    ASSERT_EQ(run({in_, "-o", out_, "--external"}), kExitOk) << text_;
+    const std::string image = dir_ / "out_Images/1305031102.175304000_rgb.png";
+    const std::string before = test::readBytes(image);
+    ASSERT_FALSE(before.empty());
+    cv::imwrite(dir_ / "in/rgb/0.png", colours_[3]);
+    writeBytes(dir_ / "in/rgb/1.png", "no picture");
+    EXPECT_EQ(run({in_, "-o", out_, "--external", "--strict"}), kExitBadInput);
+    EXPECT_EQ(test::readBytes(image), before);
+    EXPECT_FALSE(std::filesystem::exists(dir_ / "out_Images.partial"));
+}
+
+/** The file that is being written, or one beside it, has a longer name than the one that is given.
+ */
+TEST_F(ConvertApp, namesThatAreTooLongAreRefusedBeforeTheRun)
+{
+    const std::string suffix = ".rawlog", folder = dir_ / "long/";
+    std::filesystem::create_directory(folder);
+    for (const std::size_t size : {248U, 240U})  // .partial; .groundtruth.txt.partial
+    {
+        const std::string name = std::string(size - suffix.size(), 'n') + suffix;
+        EXPECT_EQ(run({in_, "-o", folder + name}), kExitBadInput) << size;
+        EXPECT_THAT(text_, HasSubstr("bytes while it is written, but 255 are the most; give a"));
+    }
+    EXPECT_EQ(
+        run({in_, "-o", folder + std::string(241, 'n') + suffix, "--external"}), kExitBadInput);
+    EXPECT_TRUE(std::filesystem::is_empty(folder));
+}
+
+TEST_F(ConvertApp, aLabelIsOneLine)
+{
+    for (const char* label : {"a\nb", "\x1b[2J", "a\tb"})
+    {
+        EXPECT_EQ(run({in_, "-o", out_, "--label", label}), kExitBadInput);
+        EXPECT_THAT(text_, HasSubstr("holds a new line or another control character"));
+    }
+    EXPECT_EQ(run({in_, "-o", out_, "--label", "front \"camera\" \xc3\xa4"}), kExitOk) << text_;
 }
 
 TEST_F(ConvertApp, groundTruthThatCannotBeReadLeavesNothing)

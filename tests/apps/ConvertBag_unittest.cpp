@@ -207,6 +207,46 @@ TEST_F(ConvertBag, everyEncoding)
     }
 }
 
+TEST_F(ConvertBag, floatingPointDepthMayHaveAnotherUnit)
+{
+    writeInfos();
+    for (int i = 0; i < 3; ++i)
+    {
+        cv::Mat millimetres;
+        test::depthImage(i).convertTo(millimetres, CV_32F);
+        writeColour(i);
+        bag_.write(
+            "/camera/depth/image",
+            timeOf(i, 0.005),
+            imageOf(millimetres, "32FC1", "optical", timeOf(i, 0.005)));
+    }
+    ASSERT_EQ(convert({"--depth-scale", "1000"}), kExitOk) << text_;
+    expectFrames(3, 1.3e-4F);
+    EXPECT_EQ(convert(), kExitIncomplete);
+    EXPECT_THAT(text_, HasSubstr("no depth reading in any frame"));
+}
+
+/** By the last part of the topic: "direct" has "rect" in it, too. */
+TEST_F(ConvertBag, whatIsRectifiedHasNoDistortion)
+{
+    bag_.close();
+    for (const std::string topic :
+         {"/direct/image_raw", "/rectified/rgb/image_color", "/rgb/image_rect_color"})
+    {
+        bag_.open(path_, rosbag::bagmode::Write);
+        sensor_msgs::CameraInfo info = cameraInfo("optical");
+        info.D = {0.1, 0, 0, 0, 0};
+        info.distortion_model = "plumb_bob";
+        bag_.write(topic.substr(0, topic.rfind('/')) + "/camera_info", timeOf(0), info);
+        bag_.write("/camera/depth/camera_info", timeOf(0), cameraInfo("optical"));
+        bag_.write(topic, timeOf(0), imageOf(test::colourImage(0), "bgr8", "optical", timeOf(0)));
+        writeDepth(0);
+        ASSERT_EQ(convert(), kExitOk) << topic << text_;
+        const bool isRectified = topic.find("image_rect") != std::string::npos;
+        EXPECT_EQ(frames().at(0).camera.distortion[0], isRectified ? 0 : 0.1) << topic;
+    }
+}
+
 TEST_F(ConvertBag, compressedImages)
 {
     bag_.close();

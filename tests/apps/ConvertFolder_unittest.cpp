@@ -16,6 +16,7 @@ using test::colourImage;
 using test::depthImage;
 using test::numbered;
 using testing::HasSubstr;
+using testing::Not;
 
 class ConvertFolder : public test::ConvertedRecording
 {
@@ -224,6 +225,72 @@ TEST_F(ConvertFolder, depthInFloatingPointMetres)
     const auto found = frames();
     ASSERT_EQ(found.size(), 3U);
     EXPECT_NEAR(found[2].depth.at<float>(20, 30), 2.004, 1.3e-4);
+}
+
+TEST_F(ConvertFolder, depthInFloatingPointMayHaveAnotherUnit)
+{
+    const auto writeDepth = [this](float reading)
+    {
+        for (int i = 0; i < 3; ++i)
+        {
+            writeImage(
+                numbered("in/depth/%d.tiff", i), cv::Mat(48, 64, CV_32FC1, cv::Scalar(reading)));
+        }
+    };
+    writeFrames("in/rgb/%d.png", "in/depth/%d.png");
+    for (int i = 0; i < 3; ++i)
+    {
+        std::filesystem::remove(dir_ / numbered("in/depth/%d.png", i));
+    }
+    writeDepth(1500);
+    write("in/camera.txt", kCamera);
+    ASSERT_EQ(run({"folder", in_, "--depth-scale", "1000"}), kExitOk) << text_;
+    EXPECT_NEAR(frames().at(2).depth.at<float>(20, 30), 1.5, 1.3e-4);
+    EXPECT_THAT(text_, HasSubstr("1000 depth units per metre"));
+    EXPECT_THAT(text_, HasSubstr("depth: 1.5 m"));
+
+    // 1500 m: nothing is left of it.
+    EXPECT_EQ(run({"folder", in_}), kExitIncomplete);
+    EXPECT_THAT(text_, HasSubstr("no depth reading in any frame; if there are some, give --depth"));
+    EXPECT_THAT(text_, HasSubstr(", 1 depth units per metre"));
+
+    writeDepth(1.5F);
+    writeImage("in/depth/1.tiff", cv::Mat(48, 64, CV_32FC1, cv::Scalar(0)));
+    EXPECT_EQ(run({"folder", in_}), kExitOk) << text_;
+    EXPECT_THAT(text_, HasSubstr("depth: no reading in 1 frames"));
+}
+
+TEST_F(ConvertFolder, imagesWhoseNamesAreNoNumberAreCounted)
+{
+    writeFrames("in/rgb/%d.png", "in/depth/%d.png");
+    write("in/camera.txt", kCamera);
+    ASSERT_EQ(run({"folder", in_}), kExitOk) << text_;
+    EXPECT_THAT(text_, Not(HasSubstr("left out")));
+    writeImage("in/rgb/img_6.png", colourImage(0));
+    writeImage("in/depth/img_6.png", depthImage(0));
+    write("in/depth/notes.txt", "no image");
+    ASSERT_EQ(run({"folder", in_}), kExitOk) << text_;
+    EXPECT_EQ(frames().size(), 3U);
+    EXPECT_THAT(
+        text_,
+        HasSubstr(
+            "2 images whose names are no number were left out: " + in_ + "/depth/img_6.png, ..."));
+}
+
+/** 0.png, 33.png, 66.png, ... are milliseconds. */
+TEST_F(ConvertFolder, numbersThatMayBeTimesAreTold)
+{
+    write("in/camera.txt", kCamera);
+    for (int i = 0; i < 3; ++i)
+    {
+        writeImage(numbered("in/rgb/%d.png", 33 * i), colourImage(i));
+        writeImage(numbered("in/depth/%d.png", 33 * i), depthImage(i));
+    }
+    ASSERT_EQ(run({"folder", in_}), kExitOk) << text_;
+    EXPECT_THAT(text_, HasSubstr("numbers rise by 33, so frames are 1.1 s apart: are they times?"));
+    ASSERT_EQ(run({"folder", in_, "--fps", "1000"}), kExitOk) << text_;
+    EXPECT_THAT(text_, HasSubstr("numbers rise by 33, so frames are 0.033 s apart\n"));
+    EXPECT_NEAR(mrpt::Clock::toDouble(scans().at(1)->timestamp), 0.033, 1e-6);
 }
 
 TEST_F(ConvertFolder, aBadImageIsNamedAndLeftOut)

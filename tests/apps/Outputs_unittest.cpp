@@ -96,6 +96,18 @@ class Outputs : public testing::Test
     std::string out_{dir_ / "out"};
 };
 
+/** What the project's own programs write beside a rawlog. */
+TEST_F(Outputs, noneIsTheGroundTruthBesideAnInput)
+{
+    const std::string truth = dir_ / "in/a.groundtruth.txt";
+    writeBytes(truth, "# truth\n");
+    for (const std::string& option : kOptions)
+    {
+        expectRefused({in_, option, truth}, option + " " + truth + ": is an input");
+    }
+    EXPECT_EQ(readBytes(truth), "# truth\n");
+}
+
 TEST_F(Outputs, noneIsAnInputByAnyName)
 {
     fs::create_symlink(in_, dir_ / "symbolic");

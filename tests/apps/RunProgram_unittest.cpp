@@ -174,6 +174,18 @@ TEST(RunCommand, whatTheSystemRefusesIsExitCode3)
     };
     EXPECT_EQ(codeOf(std::system_error(EAGAIN, std::generic_category())), kExitEnvironment);
     EXPECT_EQ(codeOf(std::runtime_error("something else")), kExitBadInput);
+    EXPECT_EQ(codeOf(std::invalid_argument("an option")), kExitBadInput);
+}
+
+/** The user did nothing wrong, and is told so. */
+TEST(RunCommand, aBugIsNotTheUsersMistake)
+{
+    CLI::App app{"", "pointplane"};
+    std::ostringstream out, err;
+    const int code =
+        runCommand(app, {}, out, err, []() -> int { throw std::out_of_range("map::at"); });
+    EXPECT_EQ(code, kExitEnvironment);
+    EXPECT_EQ(err.str(), "pointplane: internal error: map::at\n");
 }
 
 TEST(RunCommand, wholeNumbersAreThoseThatWereGiven)

@@ -178,9 +178,15 @@ TEST_F(CalibrationFile, scalesToTheMode)
 
 TEST_F(CalibrationFile, errorsNameFileSectionAndKey)
 {
-    expectRejected("fx = 572.9", "fy = 1", "[OPENNI2_LEFT] has no key 'fx'");
+    expectRejected("fx = 572.9", "fz = 1", "[OPENNI2_LEFT] has no key 'fx'");
     expectRejected("[OPENNI2_RIGHT]", "[OTHER_RIGHT]", "[OPENNI2_RIGHT] has no key 'resolution'");
-    expectRejected("fx = 521.2", "fx = abc", "[OPENNI2_RIGHT]: fx, fy, cx and cy must be positive");
+    expectRejected("fx = 521.2", "fx = abc", "[OPENNI2_RIGHT]: fx = 'abc': 'abc' is not a number");
+    expectRejected("fx = 521.2", "fx = -5", "[OPENNI2_RIGHT]: fx, fy, cx and cy must be positive");
+    expectRejected(
+        "fx = 572.9", "fx = 572.9\nfx = 5", ":14: key 'fx' appears twice in [OPENNI2_LEFT]");
+    expectRejected("-0.001462 1 0 0 0]", "-0.001462 1 0 0]", "is not 7 numbers");
+    expectRejected("-0.001462 1 0 0 0]", "-0.001462 0 0 0 0]", "a quaternion of length 1");
+    expectRejected("pose_z = 1.2", "pose_z = 1,2", "[OPENNI2]: pose_z = '1,2' is not one number");
     expectRejected("resolution = [640 480]", "resolution = [640 400]", "does not fit");
     expectRejected("pose_quaternion", "pose", "has no key 'pose_quaternion'");
     expectRejected("fx = 572.9", "fx = $eval{572.9", "Expected closing `}`");

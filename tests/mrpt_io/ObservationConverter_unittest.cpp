@@ -347,6 +347,8 @@ TEST(ObservationConverter, everyBadFrameHasItsText)
     const double nan = std::numeric_limits<double>::quiet_NaN();
     EXPECT_EQ(with([](Scan& s) { s.hasRangeImage = false; }), "observation has no range image");
     EXPECT_THAT(
+        with([](Scan& s) { s.timestamp = INVALID_TIMESTAMP; }), HasSubstr("has no time stamp"));
+    EXPECT_THAT(
         with([nan](Scan& s) { s.cameraParams.setIntrinsicParamsFromValues(nan, 1, 1, 1); }),
         HasSubstr("cameraParams: camera intrinsics are not finite"));
     EXPECT_THAT(

@@ -10,6 +10,7 @@
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <mrpt/serialization/CArchive.h>
 
+#include <cstdlib>
 #include <fstream>
 #include <future>
 
@@ -338,6 +339,18 @@ TEST(RawlogReader, badFilesAreNamed)
 }
 
 /** What came out of a pipe is gone: opening it again would wait for ever. */
+/** As by `gzip a.rawlog`. */
+TEST(RawlogReader, aFileThatIsCompressedTwiceIsNamedAsSuch)
+{
+    const TempDir dir;
+    test::writeObservations(dir / "a.rawlog", 2);
+    writeBytes(dir / "b.rawlog", readBytes(dir / "a.rawlog"));
+    ASSERT_EQ(std::system(("gzip " + (dir / "b.rawlog")).c_str()), 0);
+    EXPECT_EQ(
+        messageFor(dir / "b.rawlog.gz"),
+        dir / "b.rawlog.gz" + ": is compressed twice; run gunzip on it once");
+}
+
 TEST(RawlogReader, aPipeIsReadOnce)
 {
     const TempDir dir;

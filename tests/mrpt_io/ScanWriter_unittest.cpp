@@ -12,9 +12,11 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "TempDir.h"
@@ -130,10 +132,149 @@ TEST(ScanWriter, externalColourIsTheFileItCameFrom)
     ScanWriter writer(dir / "a.rawlog", "RGBD", true);
     writer.write(scan);
     EXPECT_EQ(
-        test::readBytes(dir / "a_Images/1000.250000000_rgb.jpg"), test::readBytes(scan.colourFile));
+        test::readBytes(dir / "a_Images.partial/1000.250000000_rgb.jpg"),
+        test::readBytes(scan.colourFile));
 
     scan.colourFile = dir / "gone.jpg";
     EXPECT_THROW(writer.write(scan), EnvironmentError);
+}
+
+/** The names of all files of a folder, and of those below. */
+std::vector<std::string> filesIn(const std::string& folder)
+{
+    std::vector<std::string> out;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+    {
+        out.push_back(std::filesystem::relative(entry.path(), folder));
+    }
+    std::sort(out.begin(), out.end());
+    return out;
+}
+
+class ExternalImages : public testing::Test
+{
+ protected:
+    /** A complete rawlog with an image of one colour. */
+    void writeComplete(int value)
+    {
+        ScanWriter writer(path_, "RGBD", true);
+        scan_.colour.setTo(value);
+        writer.write(scan_);
+        writer.close();
+    }
+
+    void expectShows(int value) const
+    {
+        const cv::Mat image = cv::imread(image_);
+        ASSERT_FALSE(image.empty());
+        EXPECT_EQ(image.at<cv::Vec3b>(0, 0)[0], value);
+        EXPECT_EQ(scansOf(path_).size(), 1U);
+    }
+
+    test::TempDir dir_;
+    std::string path_{dir_ / "a.rawlog"};
+    std::string image_{dir_ / "a_Images/1000.250000000_rgb.png"};
+    RegisteredScan scan_{sample()};
+};
+
+TEST_F(ExternalImages, ofAnEarlierRawlogStayUntilTheNewOneIsComplete)
+{
+    writeComplete(10);
+    const auto before = filesIn(dir_ / "");
+    {
+        ScanWriter killed(path_, "RGBD", true);
+        scan_.colour.setTo(20);
+        killed.write(scan_);
+    }
+    expectShows(10);
+    // What was written may be wanted, and is found.
+    EXPECT_EQ(RawlogReader(path_ + ".partial").externalsDirectory(), dir_ / "a_Images.partial");
+    EXPECT_TRUE(std::filesystem::exists(dir_ / "a_Images.partial/1000.250000000_rgb.png"));
+    {
+        ScanWriter refused(path_, "RGBD", true);
+        refused.write(scan_);
+        refused.discard();
+    }
+    expectShows(10);
+    EXPECT_EQ(filesIn(dir_ / ""), before);
+    scan_.stamp = stampFromText("1000.5");
+    {
+        ScanWriter other(path_, "RGBD", true);
+        other.write(scan_);
+        other.close();
+    }
+    // Of the earlier one, nothing is left.
+    EXPECT_EQ(
+        filesIn(dir_ / "a_Images"),
+        (std::vector<std::string>{"1000.500000000_depth.bin", "1000.500000000_rgb.png"}));
+    EXPECT_FALSE(std::filesystem::exists(dir_ / "a_Images.partial"));
+    EXPECT_EQ(RawlogReader(path_).externalsDirectory(), dir_ / "a_Images");
+}
+
+TEST_F(ExternalImages, leaveNothingBehindWhereTheRunIsRefused)
+{
+    ScanWriter writer(path_, "RGBD", true);
+    writer.write(scan_);
+    writer.discard();
+    EXPECT_EQ(filesIn(dir_ / ""), std::vector<std::string>());
+}
+
+TEST_F(ExternalImages, doNotReplaceWhatIsSomebodyElses)
+{
+    writeComplete(10);
+    for (const char* folder : {"a_Images", "a_Images.partial"})
+    {
+        const std::string file = dir_ / (std::string(folder) + "/notes.txt");
+        std::filesystem::create_directories(dir_ / folder);
+        test::writeBytes(file, "mine");
+        const auto before = filesIn(dir_ / "");
+        try
+        {
+            const ScanWriter writer(path_, "RGBD", true);
+            FAIL() << "no error";
+        }
+        catch (const EnvironmentError& e)
+        {
+            EXPECT_THAT(e.what(), testing::HasSubstr(dir_ / folder));
+            EXPECT_THAT(e.what(), testing::HasSubstr("notes.txt"));
+        }
+        EXPECT_EQ(filesIn(dir_ / ""), before);
+        std::filesystem::remove(file);
+    }
+}
+
+TEST_F(ExternalImages, stayWhereALinkLeads)
+{
+    std::filesystem::create_directory(dir_ / "disk");
+    std::filesystem::create_directory_symlink(dir_ / "disk", dir_ / "a_Images");
+    writeComplete(10);
+    expectShows(10);
+    EXPECT_TRUE(std::filesystem::is_symlink(dir_ / "a_Images"));
+    EXPECT_EQ(filesIn(dir_ / "disk").size(), 2U);
+}
+
+TEST_F(ExternalImages, areNotTakenAwayWhereTheyAreTheInput)
+{
+    ScanWriter writer(path_, "RGBD", true);
+    scan_.colourFile = dir_ / "a_Images.partial/1000.250000000_rgb.png";
+    ASSERT_TRUE(cv::imwrite(scan_.colourFile, scan_.colour));
+    const std::string bytes = test::readBytes(scan_.colourFile);
+    writer.write(scan_);
+    EXPECT_EQ(test::readBytes(scan_.colourFile), bytes);
+}
+
+TEST(DepthUnits, areThoseOfACamera)
+{
+    for (const double units : {1.0, 1000.0, 5000.0, 1e6})
+    {
+        EXPECT_EQ(problemOfDepthUnits(units), "");
+    }
+    const double kNan = std::numeric_limits<double>::quiet_NaN();
+    for (const double units : {0.0, -1000.0, 1e-300, 1e300, 0.999, 1.1e6, kNan, 1 / 0.0})
+    {
+        EXPECT_NE(problemOfDepthUnits(units), "");
+    }
+    EXPECT_EQ(problemOfDepthUnits(1e300), "1e+300 is not a number from 1 to 1e+06");
 }
 
 TEST(ScanWriter, embeddedColourIsUnchanged)

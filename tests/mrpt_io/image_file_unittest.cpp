@@ -5,6 +5,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include <filesystem>
+
 #include "SmallDisk.h"
 #include "TempDir.h"
 #include <gmock/gmock.h>
@@ -47,6 +49,15 @@ class ImageFile : public testing::Test
     TempDir dir_;
     cv::Mat image_{24, 32, CV_8UC1, cv::Scalar(100)};
 };
+
+/** OpenCV says so by a result that is easily overlooked. */
+TEST_F(ImageFile, whatAFormatCannotHoldIsNotWritten)
+{
+    const std::string path = dir_ / "wide.webp";
+    const cv::Mat wide(1, 20000, CV_8UC3, cv::Scalar(1, 2, 3));  // 16383 are the most
+    EXPECT_THROW(writeImageFile(path, wide), EnvironmentError);
+    EXPECT_FALSE(std::filesystem::exists(path));
+}
 
 TEST_F(ImageFile, aCutOrDamagedPngIsNotAnImage)
 {

@@ -3,6 +3,9 @@
 #include <pointplane/mrpt_io/ObservationConverter.h>
 #include <pointplane/mrpt_io/RawlogReader.h>
 #include <pointplane/mrpt_io/errors.h>
+#include <pointplane/mrpt_io/image_file.h>
+
+#include <opencv2/imgcodecs.hpp>
 
 #include <cstdlib>
 #include <functional>
@@ -66,6 +69,16 @@ TEST(ShortMemory, isNoDamageOfARawlog)
         }
     };
     EXPECT_EQ(withoutMemory(readAll), kToldTheMachine);
+}
+
+TEST(ShortMemory, isNoDamageOfAnImage)
+{
+    const test::TempDir dir;
+    const std::string path = dir / "large.png";
+    writeImageFile(path, cv::Mat(6000, 8000, CV_8UC1, cv::Scalar(7)));
+    (void)readImageFile(path, cv::IMREAD_UNCHANGED);  // OpenCV's decoders start
+    EXPECT_EQ(
+        withoutMemory([&] { (void)readImageFile(path, cv::IMREAD_UNCHANGED); }), kToldTheMachine);
 }
 
 TEST(ShortMemory, isNoProblemOfAFrame)

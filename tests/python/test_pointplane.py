@@ -6,6 +6,7 @@ import pathlib
 import re
 import sys
 import tempfile
+import threading
 import unittest
 
 import numpy as np
@@ -40,6 +41,13 @@ class Rawlogs(unittest.TestCase):
     def test_a_missing_file_is_named(self):
         with self.assertRaisesRegex(pointplane.InputError, "none.rawlog"):
             pointplane.read_rawlog("none.rawlog")
+
+    def test_an_unknown_label_is_told_with_those_there_are(self):
+        self.assertGreaterEqual(len(list(pointplane.read_rawlog(RAWLOG, "RGBD"))), 10)
+        with self.assertRaisesRegex(
+            pointplane.InputError, r"corner.rawlog: no frames of camera 'typo'.*\d+ of 'RGBD'"
+        ):
+            list(pointplane.read_rawlog(RAWLOG, "typo"))
 
 
 class Odometry(unittest.TestCase):
@@ -104,6 +112,40 @@ class Odometry(unittest.TestCase):
             odometry.process(frame.depth[:, ::2], None, frame.camera, 1.0)
         with self.assertRaisesRegex(ValueError, "focal"):
             pointplane.Camera(0, 500, 320, 240, 640, 480)
+
+    def test_units_of_depth_that_no_camera_has_are_refused(self):
+        frame = next(iter(pointplane.read_rawlog(RAWLOG)))
+        millimetres = np.nan_to_num(frame.depth * 1000).astype(np.uint16)
+        odometry = pointplane.VisualOdometry()
+        for unit in (0, -0.001, float("nan"), float("inf"), 1e-300, 1e300, 1000):
+            with self.assertRaisesRegex(ValueError, "depth_unit"):
+                odometry.process(millimetres, None, frame.camera, 1.0, depth_unit=unit)
+
+    def test_threads_may_share_one_object(self):
+        frames = list(pointplane.read_rawlog(RAWLOG))
+        odometry = pointplane.VisualOdometry()
+        statuses, errors = [], []
+
+        def work():
+            try:
+                for frame in frames * 2:
+                    statuses.append(odometry.process(frame).status)
+                odometry.reset()
+            except Exception as error:
+                errors.append(error)
+
+        threads = [threading.Thread(target=work) for _ in range(3)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(errors, [])
+        self.assertEqual(len(statuses), 6 * len(frames))
+        self.assertLessEqual(set(statuses), {"first", "tracked", "predicted", "lost"})
+        # What the threads left behind does no harm.
+        odometry.reset()
+        self.assertEqual(odometry.process(frames[0]).status, "first")
+        self.assertEqual(odometry.process(frames[1]).status, "tracked")
 
     def test_configuration(self):
         pointplane.VisualOdometry(settings=["PoseSolver.alpha=7"])

@@ -243,6 +243,10 @@ TEST(SimulateApp, badUsageIsNamedAndLeavesNoFile)
         {{"cave", "-o", path}, "cave"},
         {{"corner", "-o", path, "--set", "fpss=3"}, "fpss"},
         {{"corner", "-o", path, "--set", "fps=fast"}, "fps"},
+        {{"corner", "-o", path, "--set", "a"}, "--set a: expected key=value (see --list-settings)"},
+        {{"corner", "-o", path, "--set", "foo=1"},
+         "--set foo=1: unknown key 'foo' (see --list-settings)"},
+        {{"corner", "-o", path, "--label", "a\nb"}, "new line or another control character"},
         {{"corner", "-o", path, "--set", "fps=0"}, "fps"},
         {{"corner", "-o", path, "--size", "640"}, "--size"},
         {{"corner", "-o", path, "--size", "640x480px"}, "--size"},
@@ -290,6 +294,23 @@ TEST(SimulateApp, nothingIsWrittenBesideAPipe)
     }
     const std::filesystem::directory_iterator first(dir / ""), end;
     EXPECT_EQ(std::distance(first, end), 1);
+}
+
+TEST(SimulateApp, groundTruthOfAnotherRawlogIsNotReplaced)
+{
+    const test::TempDir dir;
+    std::vector<std::string> args{
+        "corner", "--size", "32x24", "--duration", "0.1", "--quiet", "-o", dir / "b.rawlog"};
+    ASSERT_EQ(run(args).code, 0);
+    const std::string truth = dir / "b.groundtruth.txt", before = test::readBytes(truth);
+    ASSERT_EQ(run(args).code, 0);  // its own
+    args.back() += ".gz";
+    args[0] = "room";
+    const Finished refused = run(args);
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_THAT(refused.err, HasSubstr(truth + ", which is that of " + (dir / "b.rawlog")));
+    EXPECT_EQ(test::readBytes(truth), before);
+    EXPECT_FALSE(std::filesystem::exists(dir / "b.rawlog.gz"));
 }
 
 TEST(SimulateApp, unwritableOutputIsTheEnvironmentsFault)

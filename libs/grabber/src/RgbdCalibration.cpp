@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/grabber/RgbdCalibration.h>
+#include <pointplane/mrpt_io/camera_ini.h>
+#include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/ini_file.h>
 
 #include <mrpt/containers/yaml.h>
 #include <mrpt/core/bits_math.h>
-#include <mrpt/img/TStereoCamera.h>
+#include <mrpt/math/TPose3DQuat.h>
 #include <mrpt/poses/CPose3DQuat.h>
 
 #include <cmath>
@@ -15,9 +17,6 @@ namespace pointplane
 {
 namespace
 {
-/** Keys of a section that tells one camera. */
-const std::vector<std::string> kCameraKeys{"resolution", "fx", "fy", "cx", "cy", "dist"};
-
 // Of a Kinect or Xtion, when a driver does not state its field of view.
 constexpr double kTypicalFocalPerWidth = 525.0 / 640.0;
 
@@ -43,42 +42,6 @@ void makeRegistered(RgbdCalibration& calibration)
     calibration.depth = calibration.colour;
     calibration.depth.dist.fill(0);
     calibration.colourWrtDepth = opticalAxes();
-}
-
-void requireKeys(
-    const mrpt::config::CConfigFile& file,
-    const std::string& path,
-    const std::string& section,
-    const std::vector<std::string>& keys)
-{
-    for (const auto& key : keys)
-    {
-        if (!file.sectionExists(section) || !file.keyExists(section, key))
-        {
-            throw InputError(path + ": section [" + section + "] has no key '" + key + "'");
-        }
-    }
-}
-
-/** MRPT ignores `dist` in files from before it had `distortion_model`: those mean plumb bob. */
-void readOldDistortion(
-    const mrpt::config::CConfigFile& file,
-    const std::string& path,
-    const std::string& section,
-    mrpt::img::TCamera& camera)
-{
-    if (file.keyExists(section, "distortion_model"))
-    {
-        return;
-    }
-    std::vector<double> dist;
-    file.read_vector(section, "dist", std::vector<double>(), dist);
-    if (dist.size() != 4 && dist.size() != 5)
-    {
-        throw InputError(path + ": section [" + section + "]: dist must be [k1 k2 p1 p2 k3]");
-    }
-    dist.resize(5, 0.0);
-    camera.setDistortionPlumbBob(dist[0], dist[1], dist[2], dist[3], dist[4]);
 }
 
 /** Checks a camera and brings it to the resolution in use. */
@@ -107,15 +70,6 @@ void fitToMode(mrpt::img::TCamera& camera, const VideoMode& mode, const std::str
     }
     camera.scaleToResolution(width, height);
 }
-/** Colour camera alone: what there is to know if the driver registers depth to it. */
-mrpt::img::TCamera colourFromIni(
-    const mrpt::config::CConfigFile& file, const std::string& path, const std::string& section)
-{
-    mrpt::img::TCamera camera;
-    camera.loadFromConfigFile(section, file);
-    readOldDistortion(file, path, section, camera);
-    return camera;
-}
 
 /** Of both cameras, and where they are to each other. */
 void readBoth(
@@ -124,14 +78,20 @@ void readBoth(
     const std::string& path,
     const std::string& section)
 {
-    requireKeys(file, path, section + "_LEFT", kCameraKeys);
-    requireKeys(file, path, section + "_LEFT2RIGHT_POSE", {"pose_quaternion"});
-    mrpt::img::TStereoCamera stereo;
-    stereo.loadFromConfigFile(section, file);
-    readOldDistortion(file, path, section + "_LEFT", stereo.leftCamera);
-    calibration.depth = stereo.leftCamera;
+    calibration.depth = cameraInIni(file, path, section + "_LEFT");
+    const std::string poseSection = section + "_LEFT2RIGHT_POSE", key = "pose_quaternion";
+    const std::vector<double> p = numbersInIni(file, path, poseSection, key, 7);
+    constexpr double kRounding = 0.01;
+    const double length = std::hypot(std::hypot(p[3], p[4]), std::hypot(p[5], p[6]));
+    if (!(std::abs(length - 1) < kRounding))
+    {
+        throw InputError(
+            path + ": section [" + poseSection + "]: " + key +
+            " is not [x y z qr qx qy qz] with a quaternion of length 1");
+    }
     calibration.colourWrtDepth =
-        opticalAxes() + mrpt::poses::CPose3D(mrpt::poses::CPose3DQuat(stereo.rightCameraPose));
+        opticalAxes() + mrpt::poses::CPose3D(mrpt::poses::CPose3DQuat(
+                            mrpt::math::TPose3DQuat(p[0], p[1], p[2], p[3], p[4], p[5], p[6])));
 }
 
 RgbdCalibration fromIni(
@@ -139,27 +99,14 @@ RgbdCalibration fromIni(
 {
     const auto ini = openIniFile(path);
     const mrpt::config::CConfigFile& file = *ini;
-    requireKeys(file, path, section + "_RIGHT", kCameraKeys);
-
     RgbdCalibration calibration;
     calibration.source = "'" + path + "', section [" + section + "_RIGHT]";
-    try
+    calibration.colour = cameraInIni(file, path, section + "_RIGHT");
+    if (!facts.registered)
     {
-        calibration.colour = colourFromIni(file, path, section + "_RIGHT");
-        if (!facts.registered)
-        {
-            readBoth(calibration, file, path, section);
-            calibration.source = "'" + path + "', sections [" + section + "_LEFT], [" + section +
-                                 "_RIGHT], [" + section + "_LEFT2RIGHT_POSE]";
-        }
-    }
-    catch (const InputError&)
-    {
-        throw;
-    }
-    catch (const std::exception& e)
-    {
-        throw InputError(path + ": calibration [" + section + "_...]: " + oneLine(e));
+        readBoth(calibration, file, path, section);
+        calibration.source = "'" + path + "', sections [" + section + "_LEFT], [" + section +
+                             "_RIGHT], [" + section + "_LEFT2RIGHT_POSE]";
     }
     fitToMode(calibration.colour, facts.mode, path + ": section [" + section + "_RIGHT]");
     if (facts.registered)
@@ -170,7 +117,7 @@ RgbdCalibration fromIni(
     {
         fitToMode(calibration.depth, facts.mode, path + ": section [" + section + "_LEFT]");
     }
-    const auto number = [&](const char* key) { return file.read_double(section, key, 0.0); };
+    const auto number = [&](const char* key) { return numberInIni(file, path, section, key, 0.0); };
     calibration.sensorPose = mrpt::poses::CPose3D(
         number("pose_x"),
         number("pose_y"),

@@ -227,6 +227,9 @@ const DepthRegistration& ObservationConverter::Impl::registration(
 void ObservationConverter::Impl::fill(
     const CObservation3DRangeScan& scan, ConvertedFrame& out) const
 {
+    requireUsable(
+        scan.timestamp != INVALID_TIMESTAMP,
+        "has no time stamp (MRPT's INVALID_TIMESTAMP); the program that recorded it must set it");
     requireUsable(scan.hasRangeImage, "observation has no range image");
     const Eigen::Isometry3d T_robot_body = fromMrpt(scan.sensorPose);
     requirePose(T_robot_body, "sensorPose");

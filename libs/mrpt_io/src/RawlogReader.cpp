@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/mrpt_io/RawlogReader.h>
 #include <pointplane/mrpt_io/errors.h>
+#include <pointplane/mrpt_io/rawlog_names.h>
 #include <pointplane/mrpt_io/recording_marks.h>
 
 #include <mrpt/obs/CObservation3DRangeScan.h>
@@ -27,8 +28,16 @@ namespace
  * first name is the one to tell. */
 [[nodiscard]] std::string imagesDirectory(const std::string& rawlog)
 {
-    const std::string stem = std::filesystem::path(rawlog).replace_extension().string();
-    const std::string shared = (std::filesystem::path(rawlog).parent_path() / "Images").string();
+    const std::filesystem::path path(rawlog);
+    if (path.extension() == ".partial")  // of a run that was killed, its images as well
+    {
+        const std::string folder = imagesFolderOf(std::filesystem::path(path).replace_extension());
+        const std::string partial = partialFolderOf(folder);
+        std::error_code error;
+        return std::filesystem::is_directory(partial, error) ? partial : folder;
+    }
+    const std::string stem = std::filesystem::path(path).replace_extension().string();
+    const std::string shared = (path.parent_path() / "Images").string();
     for (const std::string& name : {stem + "_Images", stem + "_images", stem + "_IMAGES", shared})
     {
         std::error_code error;
@@ -38,6 +47,20 @@ namespace
         }
     }
     return stem + "_Images";
+}
+
+/** As by `gzip a.rawlog`, although rawlogs are compressed. */
+[[nodiscard]] bool isCompressedTwice(const std::string& path)
+{
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(path, error))
+    {
+        return false;  // what was read from a pipe is gone
+    }
+    GzInput in(path);
+    std::uint8_t head[2] = {0, 0};
+    return in.isCompressed() && in.read(head, sizeof(head)) == sizeof(head) && head[0] == 0x1f &&
+           head[1] == 0x8b;
 }
 
 /** Puts the depth cameras' resolutions back, which the scanner had exchanged. */
@@ -243,7 +266,8 @@ RawlogReader::RawlogReader(const std::string& path, RawlogClasses classes)
     {
         const std::string type = otherFileType(path);
         throw InputError(
-            !type.empty()                   ? path + ": is " + type + ", not a rawlog"
+            isCompressedTwice(path)         ? path + ": is compressed twice; run gunzip on it once"
+            : !type.empty()                 ? path + ": is " + type + ", not a rawlog"
             : impl_->ending.message.empty() ? path + ": contains no objects"
             : impl_->ending.kind == RawlogEnd::NotSupported
                 ? impl_->ending.message

@@ -18,6 +18,10 @@
 #include <cstring>
 #include <filesystem>
 #include <limits>
+#include <locale>
+#include <sstream>
+
+#include "ImagesFolder.h"
 
 namespace pointplane
 {
@@ -88,11 +92,14 @@ std::string writeColourFile(
         writeImageFile(path, scan.colour, {cv::IMWRITE_PNG_COMPRESSION, 1});
         return name;
     }
-    std::error_code error;
+    std::error_code error, ignored;
+    if (fs::equivalent(scan.colourFile, path, ignored))
+    {
+        return name;  // it is there, and to remove it after a failure would be to lose it
+    }
     fs::copy_file(scan.colourFile, path, fs::copy_options::overwrite_existing, error);
     if (error)
     {
-        std::error_code ignored;
         fs::remove(path, ignored);
         throw EnvironmentError("cannot write " + path + ": " + error.message());
     }
@@ -103,15 +110,50 @@ std::string writeColourFile(
 ScanWriter::ScanWriter(const std::string& path, std::string label, bool external)
     : writer_(path), label_(std::move(label))
 {
-    if (external)
+    if (!external)
     {
-        imagesFolder_ = imagesFolderOf(path);
-        std::error_code error;
-        fs::create_directories(imagesFolder_, error);
-        if (error)
-        {
-            throw EnvironmentError("cannot create " + imagesFolder_ + ": " + error.message());
-        }
+        return;
+    }
+    try
+    {
+        // After the rawlog: who writes that has its images to himself.
+        images_ = std::make_unique<ImagesFolder>(imagesFolderOf(path));
+    }
+    catch (...)
+    {
+        writer_.discard();
+        throw;
+    }
+}
+
+ScanWriter::~ScanWriter() = default;
+
+void ScanWriter::close()
+{
+    if (!images_)
+    {
+        writer_.close();
+        return;
+    }
+    images_->exchange();
+    try
+    {
+        writer_.close();
+    }
+    catch (...)
+    {
+        images_->exchange();  // the earlier rawlog is still there
+        throw;
+    }
+    images_->removePartial();
+}
+
+void ScanWriter::discard() noexcept
+{
+    writer_.discard();
+    if (images_)
+    {
+        images_->removePartial();
     }
 }
 
@@ -139,17 +181,30 @@ void ScanWriter::write(const RegisteredScan& scan)
     setDepth(out, scan);
     out.hasIntensityImage = true;
     out.intensityImageChannel = CObservation3DRangeScan::CH_VISIBLE;
-    if (imagesFolder_.empty())
+    if (!images_)
     {
         out.intensityImage = mrpt::img::CImage(scan.colour, mrpt::img::DEEP_COPY);
     }
     else
     {
         const std::string stamp = stampText(scan.stamp);
-        out.intensityImage.setExternalStorage(writeColourFile(scan, imagesFolder_, stamp));
-        moveRangeToFile(out, imagesFolder_, stamp + "_depth.bin");
+        out.intensityImage.setExternalStorage(writeColourFile(scan, images_->partialPath(), stamp));
+        moveRangeToFile(out, images_->partialPath(), stamp + "_depth.bin");
     }
     writer_.write(out);
+}
+
+std::string problemOfDepthUnits(double unitsPerMetre)
+{
+    if (unitsPerMetre >= kLeastDepthUnits && unitsPerMetre <= kMostDepthUnits)
+    {
+        return "";
+    }
+    std::ostringstream out;
+    out.imbue(std::locale::classic());
+    out << unitsPerMetre << " is not a number from " << kLeastDepthUnits << " to "
+        << kMostDepthUnits;
+    return out.str();
 }
 
 cv::Mat depthInUnits(const cv::Mat& depth, double unitsPerMetre)

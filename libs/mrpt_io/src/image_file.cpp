@@ -160,6 +160,10 @@ cv::Mat readImageFile(const std::string& path, int flags)
     }
     catch (const cv::Exception& e)
     {
+        if (isOutOfMemory(e))
+        {
+            throw;  // says nothing about the image
+        }
         throw InputError(path + ": " + e.err);
     }
     if (image.empty())
@@ -192,11 +196,15 @@ void writeImageFile(const std::string& path, const cv::Mat& image, const std::ve
     Bytes bytes;
     try
     {
-        cv::imencode(fs::path(path).extension().string(), image, bytes, options);
+        if (!cv::imencode(fs::path(path).extension().string(), image, bytes, options))
+        {
+            throw EnvironmentError("cannot write " + path + ": the image does not fit this format");
+        }
     }
     catch (const cv::Exception& e)
     {
-        throw EnvironmentError("cannot write " + path + ": " + e.err);
+        throw EnvironmentError(
+            "cannot write " + path + ": " + (isOutOfMemory(e) ? oneLine(e) : e.err));
     }
     writeBytes(path, bytes);
 }

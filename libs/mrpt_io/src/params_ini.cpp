@@ -14,19 +14,13 @@
 #include <sstream>
 
 #include "numbers.h"
+#include "trimmed.h"
 
 namespace pointplane
 {
 namespace
 {
 constexpr const char* kExpert = "the insides of each stage. Few recordings need another value.";
-
-[[nodiscard]] std::string trimmed(const std::string& text)
-{
-    const auto first = text.find_first_not_of(" \t\r");
-    const auto last = text.find_last_not_of(" \t\r");
-    return first == std::string::npos ? "" : text.substr(first, last - first + 1);
-}
 
 /** Levenshtein distance: insertions, deletions and exchanges from a to b. */
 [[nodiscard]] std::size_t editDistance(const std::string& a, const std::string& b)

@@ -13,6 +13,8 @@ std::string imagesFolderOf(const std::string& rawlog)
     return fs::path(rawlog).replace_extension().string() + "_Images";
 }
 
+std::string partialFolderOf(const std::string& imagesFolder) { return imagesFolder + ".partial"; }
+
 std::string groundTruthOf(const std::string& rawlog)
 {
     fs::path name(rawlog);

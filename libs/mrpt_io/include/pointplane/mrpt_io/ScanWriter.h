@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 #include <opencv2/core/mat.hpp>
 
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -33,6 +34,8 @@ struct RegisteredScan
     std::string colourFile;      //!< what colour was read from; copied where images are external
 };
 
+class ImagesFolder;
+
 /** Writes images to a rawlog as CObservation3DRangeScan, pixels and readings unchanged.
  * Axes are MRPT's, sensorPose is the identity. Complete and partial files are as RawlogWriter says.
  * All members throw EnvironmentError naming the file that cannot be written. */
@@ -40,20 +43,31 @@ class ScanWriter
 {
  public:
     /** \param label sensorLabel of all scans
-     * \param external images as files in imagesFolderOf(path) */
+     * \param external images as files in imagesFolderOf(path), which is partialFolderOf() that
+     * until close() */
     ScanWriter(const std::string& path, std::string label, bool external);
+    ~ScanWriter();
+    ScanWriter(const ScanWriter&) = delete;
+    ScanWriter& operator=(const ScanWriter&) = delete;
 
     void writeComment(mrpt::Clock::time_point stamp, const std::string& text);
     void write(const RegisteredScan& scan);
-    void close() { writer_.close(); }
-    /** Removes the partial rawlog. */
-    void discard() noexcept { writer_.discard(); }
+    void close();
+    /** Removes the partial rawlog and its images. */
+    void discard() noexcept;
 
  private:
     RawlogWriter writer_;
     std::string label_;
-    std::string imagesFolder_;  //!< empty: embedded
+    std::unique_ptr<ImagesFolder> images_;  //!< none: embedded
 };
+
+/** Fewest and most units per metre: metres, micrometres. */
+constexpr double kLeastDepthUnits = 1, kMostDepthUnits = 1e6;
+
+/** \return why no camera's depth has so many units per metre, or empty: 16 bits of them would show
+ * nothing or span less than a hand, and floats cannot hold what is far beyond that */
+[[nodiscard]] std::string problemOfDepthUnits(double unitsPerMetre);
 
 /** Depth as 16 bit readings (CV_16UC1, 0 = none). \param depth CV_32FC1 [m], NaN = none; what is
  * farther than 16 bits reach becomes none */

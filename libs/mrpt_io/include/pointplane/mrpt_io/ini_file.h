@@ -8,7 +8,8 @@
 
 namespace pointplane
 {
-/** An ini file as MRPT reads it, which takes a missing one for an empty one. \throws InputError
- * that names the file, also for what MRPT cannot evaluate: `$eval{`, `@if` */
+/** An ini file as MRPT reads it, which takes a missing one for an empty one, and the last of
+ * several equal keys. \throws InputError that names the file, also for such keys and for what MRPT
+ * cannot evaluate: `$eval{`, `@if` */
 [[nodiscard]] std::unique_ptr<const mrpt::config::CConfigFile> openIniFile(const std::string& path);
 }  // namespace pointplane

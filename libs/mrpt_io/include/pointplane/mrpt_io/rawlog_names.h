@@ -9,6 +9,9 @@ namespace pointplane
  * and "_Images". */
 [[nodiscard]] std::string imagesFolderOf(const std::string& rawlog);
 
+/** Where such a folder is until its rawlog is complete. */
+[[nodiscard]] std::string partialFolderOf(const std::string& imagesFolder);
+
 /** Ground truth of a rawlog, as TUM text: NAME.groundtruth.txt beside NAME.rawlog (or
  * NAME.rawlog.gz). */
 [[nodiscard]] std::string groundTruthOf(const std::string& rawlog);
