@@ -172,6 +172,10 @@ TEST(PinholeCamera, problemNamesWhatIsWrong)
     using testing::HasSubstr;
     EXPECT_EQ(PinholeCamera{}.problem(), "");
     PinholeCamera camera;
+    camera.fx = -525;
+    EXPECT_THAT(camera.problem(), HasSubstr("negative"));
+    camera.fx = 20;
+    EXPECT_THAT(camera.problem(), HasSubstr("too short"));
     camera.fx = std::numeric_limits<double>::quiet_NaN();
     EXPECT_THAT(camera.problem(), HasSubstr("not finite"));
     camera = {};

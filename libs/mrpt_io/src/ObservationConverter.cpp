@@ -254,6 +254,11 @@ void ObservationConverter::Impl::fill(
             " but cameraParamsIntensity is for " + sizeText(camera.width, camera.height));
     const Eigen::Isometry3d T_body_cam = fromMrpt(scan.relativePoseIntensityWRTDepth);
     requirePose(T_body_cam, "relativePoseIntensityWRTDepth");
+    requireUsable(
+        !T_body_cam.isApprox(Eigen::Isometry3d::Identity(), 1e-6),
+        "relativePoseIntensityWRTDepth is not set: as the identity, it has the colour camera look "
+        "up; "
+        "where it coincides with the depth camera it is 0 0 0 -90 0 -90 deg");
     const Eigen::Isometry3d T_cam_depth = T_body_cam.inverse() * opticalInBody();
     const bool registered = T_cam_depth.isApprox(Eigen::Isometry3d::Identity(), 1e-6) &&
                             sameProjection(depthCamera, camera) && !depthCamera.isDistorted();

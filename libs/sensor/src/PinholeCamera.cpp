@@ -3,6 +3,7 @@
 
 #include <Eigen/LU>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -13,6 +14,9 @@ namespace
 {
 /** In image sizes: no lens looks that far aside, not even one whose image has been cropped. */
 constexpr double kFarPrincipalPoint = 10;
+
+/** Size of the image over the focal length: a pinhole camera does not see 170 degrees. */
+constexpr double kWidestView = 23;
 
 // Of the inversion of the lens' polynomial.
 constexpr int kMostSteps = 20;
@@ -62,6 +66,15 @@ std::string PinholeCamera::problem() const
     else if (std::abs(fx) < 1e-3 || std::abs(fy) < 1e-3)
     {
         out << "focal length is zero (fx=" << fx << " fy=" << fy << ")";
+    }
+    else if (fx < 0)
+    {
+        out << "focal length is negative (fx=" << fx << "): the image would be mirrored";
+    }
+    else if (std::max(width / fx, height / std::abs(fy)) > kWidestView)
+    {
+        out << "focal length is too short for a pinhole camera (fx=" << fx << " fy=" << fy
+            << ", image " << width << "x" << height << ")";
     }
     else if (width < 1 || height < 1)
     {
