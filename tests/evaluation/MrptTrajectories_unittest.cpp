@@ -567,6 +567,12 @@ TEST(MrptTrajectories, marksOfLostFramesInARawlogAreReadAndSaid)
     const auto json = nlohmann::json::parse(
         run({"nees", truthFile, dir / "a.rawlog", "--interval", "1f", "--json", "-"}).out);
     EXPECT_EQ(json["coverage"][0]["frames"]["lost"], 10);
+    for (const auto& [percent, code] : {std::pair("48", 0), std::pair("49", 1)})  // 19 of 39 steps
+    {
+        const test::AppRun gate = run(
+            {"nees", truthFile, dir / "a.rawlog", "--interval", "1f", "--min-coverage", percent});
+        EXPECT_EQ(gate.code, code) << gate.err;
+    }
 }
 
 /** A regular expression would take the stack. */
