@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <iomanip>
 #include <map>
 #include <sstream>
 
@@ -349,7 +350,8 @@ std::string FolderRecording::noteOfSteps() const
         return "";
     }
     std::ostringstream out;
-    out << "numbers rise by " << step << ", so frames are " << step / fps_ << " s apart";
+    out << std::setprecision(9) << "numbers rise by " << step << ", so frames are " << step / fps_
+        << " s apart";
     if (step / fps_ > kLong)
     {
         out << ": are they times? Then give how many of them are a second by --fps, 1000 for "

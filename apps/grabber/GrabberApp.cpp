@@ -12,6 +12,7 @@
 #include "GrabberOptions.h"
 #include "GrabberRun.h"
 #include "device_list.h"
+#include "label_check.h"
 #include "number_checks.h"
 #include "run_program.h"
 #include "standard_streams.h"
@@ -84,6 +85,7 @@ void addCameraOptions(CLI::App& app, GrabberOptions& o, Words& words)
         ->capture_default_str()
         ->group(group);
     app.add_option("--label", o.label, "Sensor label (default: the ini file's, or OPENNI2)")
+        ->check(isLabel())
         ->group(group);
 }
 

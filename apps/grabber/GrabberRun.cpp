@@ -2,6 +2,7 @@
 #include "GrabberRun.h"
 
 #include <pointplane/mrpt_io/errors.h>
+#include <pointplane/mrpt_io/params_ini.h>
 #include <pointplane/mrpt_io/rawlog_names.h>
 
 #include <chrono>
@@ -31,6 +32,7 @@ GrabberRun::~GrabberRun() = default;
 
 int GrabberRun::run()
 {
+    checkFiles();
     installStopSignals();
     drivers_ = makeCameraDrivers(options_.driver);
     if (!openCameraOrWait())
@@ -90,7 +92,8 @@ void GrabberRun::calibrate()
 void GrabberRun::keepFilesApart() const
 {
     OutputGuard guard;
-    if (camera_->facts().isFile)
+    std::error_code error;
+    if (fs::is_regular_file(options_.device, error))
     {
         guard.addInput(options_.device);
     }
@@ -112,16 +115,36 @@ void GrabberRun::keepFilesApart() const
     guard.addOutput("--live-output", options_.liveOdometry.poseRawlog);
 }
 
-void GrabberRun::openOutputs()
+void GrabberRun::checkFiles()
 {
     keepFilesApart();
+    std::error_code error;
+    if (!options_.calibration.empty() && !fs::is_regular_file(options_.calibration, error))
+    {
+        throw InputError("--calibration " + options_.calibration + ": no such file");
+    }
+    if (!options_.liveOdometry.config.empty())
+    {
+        (void)loadOdometryParams(options_.liveOdometry.config, {});
+    }
+    if (options_.output.empty())
+    {
+        return;
+    }
+    const bool splits = options_.recordsRawlog() && options_.recording.splitAfter > 0.0;
+    const std::string first = splits ? segmentPath(options_.output, 0) : options_.output;
+    if (fs::exists(first, error))
+    {
+        throw InputError("'" + first + "' exists already; recordings never overwrite");
+    }
+    // Now: later, the working folder may be gone.
+    diskFolder_ = fs::absolute(options_.output, error).parent_path();
+}
+
+void GrabberRun::openOutputs()
+{
     if (options_.recordsOni())
     {
-        if (fs::exists(options_.output))
-        {
-            throw InputError(
-                "'" + options_.output + "' exists already; recordings never overwrite");
-        }
         options_.capture.oniPath = options_.output;
     }
     if (!options_.preview.empty())
@@ -181,6 +204,20 @@ CaptureEnd GrabberRun::captureWithStatus()
             end = capture_->run(stop_);
             done = true;
         });
+    // Whatever happens here, the recording gets its end.
+    struct Joiner
+    {
+        std::thread& thread;
+        std::atomic<bool>& stop;
+        ~Joiner()
+        {
+            if (thread.joinable())
+            {
+                stop = true;
+                thread.join();
+            }
+        }
+    } const joiner{thread, stop_};
     StatusLine status(err_, standardErrorIsTerminal());
     while (!done)
     {
@@ -203,9 +240,8 @@ void GrabberRun::watchDisk()
     {
         return;
     }
-    const auto folder = fs::absolute(options_.output).parent_path();
     std::error_code error;
-    const auto space = fs::space(folder, error);
+    const auto space = fs::space(diskFolder_, error);
     if (error)
     {
         return;

@@ -4,6 +4,7 @@
 #include <pointplane/grabber/Preview.h>
 
 #include <atomic>
+#include <filesystem>
 #include <iosfwd>
 #include <memory>
 #include <optional>
@@ -29,6 +30,8 @@ class GrabberRun
  private:
     [[nodiscard]] bool openCameraOrWait();
     void calibrate();
+    /** Before there is a camera: a typo should not have to wait for one. */
+    void checkFiles();
     void keepFilesApart() const;
     void openOutputs();
     [[nodiscard]] bool consume(const ImagePair& pair);
@@ -52,6 +55,7 @@ class GrabberRun
     std::unique_ptr<Capture> capture_;
     std::atomic<bool> stop_{false};
     std::atomic<std::uint64_t> queueDrops_{0};
+    std::filesystem::path diskFolder_;  //!< of what is recorded
     double freeBytes_{0};
     int exitCode_{0};
 };

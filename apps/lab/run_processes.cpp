@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <mutex>
@@ -61,26 +62,39 @@ void runProcesses(
 {
     std::atomic<std::size_t> next{0};
     std::mutex mutex;
+    std::exception_ptr problem;
     const auto work = [&]
     {
         for (std::size_t k = next++; k < jobs.size(); k = next++)
         {
             const int exitCode = runOne(jobs[k]);
             const std::lock_guard<std::mutex> lock(mutex);
-            if (onDone)
+            try
             {
-                onDone(k, exitCode);
+                if (onDone)
+                {
+                    onDone(k, exitCode);
+                }
+            }
+            catch (...)  // a thread that throws ends the program
+            {
+                problem = problem ? problem : std::current_exception();
+                next = jobs.size();
             }
         }
     };
     std::vector<std::thread> threads;
-    for (std::size_t k = 0; k < std::clamp<std::size_t>(parallel, 1, jobs.size()); ++k)
+    for (std::size_t k = 0; k < std::min(std::max<std::size_t>(parallel, 1), jobs.size()); ++k)
     {
         threads.emplace_back(work);
     }
     for (std::thread& thread : threads)
     {
         thread.join();
+    }
+    if (problem)
+    {
+        std::rethrow_exception(problem);
     }
 }
 

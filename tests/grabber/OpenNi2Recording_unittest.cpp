@@ -183,6 +183,7 @@ TEST_F(OpenNi2Recording, unregisteredDepthIsStoredAsSuch)
     EXPECT_EQ(record("noRegistration 1", {"--frames", "3"}), 0) << err_;
     EXPECT_THAT(err_, HasSubstr("depth not registered"));
     EXPECT_FALSE(readRawlog(out_).front()->doDepthAndIntensityCamerasCoincide());
+    fs::remove(out_);
     EXPECT_EQ(record("noRegistration 1", {"--registration", "on"}), 2);
     EXPECT_THAT(err_, HasSubstr("cannot register depth to colour"));
 }
@@ -196,11 +197,34 @@ TEST_F(OpenNi2Recording, noCameraExplainsItself)
     EXPECT_FALSE(fs::exists(out_));
 }
 
+TEST_F(OpenNi2Recording, mistakesInFilesAreToldBeforeACameraIsThere)
+{
+    writeBytes(dir_ / "there.rawlog", "precious");
+    writeBytes(dir_ / "typo.ini", "[PoseSolver]\nalpa = 7\n");
+    const std::vector<std::pair<Args, std::string>> mistakes{
+        {{"-o", out_, "--calibration", dir_ / "none.ini"}, "none.ini: no such file"},
+        {{"--live", "--live-config", dir_ / "typo.ini"}, "alpa"},
+        {{"-o", dir_ / "there.rawlog"}, "exists already; recordings never overwrite"},
+        {{"-o", out_, "--preview", out_}, "would write over"}};
+    const auto virtualCamera = camera("noDevice 1");
+    for (const auto& [args, words] : mistakes)
+    {
+        Args all{"--wait"};
+        all.insert(all.end(), args.begin(), args.end());
+        const auto process = start(virtualCamera, all);
+        EXPECT_EQ(process->wait(), 2) << words;
+        EXPECT_THAT(process->err(), HasSubstr(words));
+        EXPECT_THAT(process->err(), ::testing::Not(HasSubstr("camera")));
+    }
+    EXPECT_EQ(readBytes(dir_ / "there.rawlog"), "precious");
+}
+
 TEST_F(OpenNi2Recording, waitsForACameraToAppear)
 {
     EXPECT_EQ(record("appearAfterMs 1500", {"--wait", "--frames", "5"}), 0) << err_;
     EXPECT_THAT(err_, HasSubstr("waiting for a camera"));
     EXPECT_EQ(readRawlog(out_).size(), 5U);
+    fs::remove(out_);
     EXPECT_EQ(record("noDevice 1", {"--wait=1"}), 3);
     for (const char* value : {"-1", "nan", "inf", "abc"})
     {

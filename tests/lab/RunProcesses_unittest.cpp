@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <filesystem>
 #include <map>
+#include <new>
 #include <sstream>
 
 #include "LabApp.h"
@@ -73,6 +74,15 @@ TEST(RunProcesses, runsAllAndReportsExitCodes)
     EXPECT_EQ(codes, (std::map<std::size_t, int>{{0, 0}, {1, 3}, {2, 137}, {3, 127}}));
     EXPECT_EQ(lastLine(dir / "log0"), "a");
     EXPECT_EQ(lastLine(dir / "none"), "");
+}
+
+TEST(RunProcesses, anErrorInWhoIsToldIsPassedOn)
+{
+    test::TempDir dir;
+    const std::vector<ProcessJob> jobs(4, {{"true"}, dir / "log"});
+    const auto fails = [](std::size_t, int) { throw std::bad_alloc(); };
+    EXPECT_THROW(runProcesses(jobs, 2, fails), std::bad_alloc);
+    runProcesses({}, 2, fails);  // nothing to do
 }
 
 TEST_F(FakePrograms, sweepScoresEveryValue)
