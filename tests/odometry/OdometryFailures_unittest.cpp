@@ -502,6 +502,7 @@ TEST(OdometryFailures, imagesOfAnySize)
                 (void)odometry.process(next);
                 next.stamp = 101.03;
                 next.gray.row(0).setTo(0);  // not frozen
+                next.depth.at<float>(0, 0) = 1.5F;
                 EXPECT_EQ(odometry.process(next).status, TrackingStatus::Tracked);
             }
         }
