@@ -121,6 +121,20 @@ TEST(OdometryFailures, sequenceThatBeginsWithoutDepth)
     EXPECT_EQ(odometry.process(good(5)).status, TrackingStatus::Tracked);
 }
 
+TEST(OdometryFailures, depthThatIsNoiseIsNone)
+{
+    CheckedOdometry odometry;
+    cv::RNG random(1);
+    for (int i = 0; i < 4; ++i)
+    {
+        RgbdFrame frame = good(i);
+        random.fill(frame.depth, cv::RNG::UNIFORM, 0.5, 5);
+        const OdometryResult result = odometry.process(frame);
+        EXPECT_EQ(result.status, TrackingStatus::Lost);
+        EXPECT_THAT(result.reason, testing::HasSubstr("its depth image is noise"));
+    }
+}
+
 /** One of two streams hangs, at one image or at two in turns. */
 TEST(OdometryFailures, aStreamThatHangsCountsAsMissing)
 {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <functional>
 #include <future>
+#include <limits>
 
 #include "Judge.h"
 #include "Stopwatch.h"
@@ -11,6 +12,29 @@
 
 namespace pointplane
 {
+namespace
+{
+/** Of a reading: with a larger standard deviation it tells no distance. */
+constexpr double kMostNoise = 0.25;
+
+/** Whether most readings tell no distance. */
+bool isNoise(const cv::Mat& depth, const DepthNoise& noise)
+{
+    constexpr int kStep = 16;
+    int numReadings = 0, numNoise = 0;
+    for (int v = kStep / 2; v < depth.rows; v += kStep)
+    {
+        for (int u = kStep / 2; u < depth.cols; u += kStep)
+        {
+            const double z = static_cast<double>(depth.at<float>(v, u));
+            numReadings += z > 0 ? 1 : 0;
+            numNoise += z > 0 && noise.sigmaZ(z) > kMostNoise * z ? 1 : 0;
+        }
+    }
+    return 2 * numNoise > numReadings;
+}
+}  // namespace
+
 FrontEnd::FrontEnd(const OdometryParams& params)
     : params_(params.pipeline),
       depthNoise_(params.depthNoise),
@@ -32,13 +56,19 @@ Features FrontEnd::extract(const RgbdFrame& frame, FrameDiagnostics& diagnostics
 {
     Features out;
     out.frame = frame;
-    out.hasDepth = hasDepth(frame);
     if (camera_ && !sameCamera(*camera_, frame.camera))
     {
         depthNoise_.reset();
     }
     camera_ = frame.camera;
     depthNoise_.update(frame.depth);
+    out.depthIsNoise = isNoise(frame.depth, depthNoise_.noise());
+    if (out.depthIsNoise)
+    {
+        out.frame.depth = cv::Mat(
+            frame.depth.size(), frame.depth.type(), std::numeric_limits<float>::quiet_NaN());
+    }
+    out.hasDepth = hasDepth(out.frame);
     planeExtractor_.setNoise(depthNoise_.noise());
     pointStage_.setNoise(depthNoise_.noise());
     imageAligner_.setNoise(depthNoise_.noise());
@@ -49,7 +79,7 @@ Features FrontEnd::extract(const RgbdFrame& frame, FrameDiagnostics& diagnostics
         const Stopwatch watch;
         if (params_.usePoints)
         {
-            out.points = pointStage_.prepare(frame);
+            out.points = pointStage_.prepare(out.frame);
         }
         return watch.ms();
     };
@@ -58,7 +88,7 @@ Features FrontEnd::extract(const RgbdFrame& frame, FrameDiagnostics& diagnostics
     const Stopwatch watch;
     if (params_.usePlanes)
     {
-        out.planes = planeExtractor_.extract(frame.depth, frame.camera);
+        out.planes = planeExtractor_.extract(out.frame.depth, frame.camera);
     }
     diagnostics.msPlanes = watch.ms();
     diagnostics.msPoints = pointsMs.get();

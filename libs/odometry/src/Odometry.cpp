@@ -138,12 +138,14 @@ void Odometry::Impl::place(const RgbdFrame& frame, OdometryResult& result)
         return;
     }
     const Features current = frontEnd.extract(own, result.diagnostics);
+    addReason(current.depthIsNoise ? "its depth image is noise" : "", result);
     shown = shownPlanes(current);
     const std::string interruption =
         track.isEmpty() ? "" : track.interruption(frame.stamp, frame.camera);
     if (track.isEmpty() && !current.hasDepth)
     {
-        return lose(frame.stamp, "no depth yet: there is nothing to begin with", result);
+        addReason("no depth yet: there is nothing to begin with", result);
+        return lose(frame.stamp, result.reason, result);
     }
     if (track.isEmpty() || !interruption.empty())
     {

@@ -16,6 +16,7 @@ struct Features
     RgbdFrame frame;  //!< its pixels are shared, not copied
     double bend{0};   //!< smooth error of depth, as a fraction of it (DepthNoise::sigmaRelative)
     bool hasDepth{true};
+    bool depthIsNoise{false};  //!< it had readings, but they tell no distance: they were left out
     PlaneSet planes;
     PreparedPoints points;                             //!< ready for correspondences
     mutable std::optional<DescribedPoints> described;  //!< made when they are needed first
