@@ -213,19 +213,35 @@ TEST_F(OdometryApp, theSummaryGroupsTheFramesThatWereNotTracked)
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
 }
 
-/** As of depth whose units are wrong by a thousand: every frame can be used, and none tells
- * anything. */
+/** Depth whose units are wrong by a thousand, and a camera that hangs. */
 TEST_F(OdometryApp, aRunThatMeasuresNothingIsNotWell)
 {
     const auto unitsOf = [](float units)
     { return [units](int, CObservation3DRangeScan& scan) { scan.rangeUnits = units; }; };
     const Outcome outcome = runOn(5, unitsOf(1e-6F));
-    EXPECT_THAT(outcome.out, HasSubstr("5 frames: 1 tracked, 4 predicted, 0 lost"));
+    EXPECT_THAT(outcome.out, HasSubstr("5 frames: 0 tracked, 0 predicted, 5 lost"));
+    EXPECT_THAT(outcome.out, HasSubstr("none from PointLifter.minDepth to maxDepth"));
     EXPECT_EQ(outcome.code, kExitIncomplete);
-    EXPECT_THAT(outcome.err, HasSubstr("most of the motion is predicted, not measured: "));
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
     EXPECT_EQ(runOn(5, unitsOf(1e-3F)).code, kExitOk);
-    EXPECT_EQ(runOn(1, unitsOf(1e-6F)).code, kExitOk);  // has no motion
+    EXPECT_EQ(runOn(1, unitsOf(1e-3F)).code, kExitOk);  // has no motion
+
+    // One frame, and the same again: nothing is measured.
+    const cv::Mat images =
+        sampleScan(0, 64, 48)->intensityImage.asCvMat<cv::Mat>(mrpt::img::DEEP_COPY);
+    const Outcome frozen = runOn(
+        5,
+        [&](int, CObservation3DRangeScan& scan)
+        {
+            scan.intensityImage = mrpt::img::CImage(images, mrpt::img::DEEP_COPY);
+            scan.rangeImage = sampleScan(0, 64, 48)->rangeImage;
+        });
+    EXPECT_THAT(frozen.out, HasSubstr("5 frames: 1 tracked, 4 predicted, 0 lost"));
+    EXPECT_EQ(frozen.code, kExitIncomplete);
+    EXPECT_THAT(
+        frozen.err,
+        HasSubstr("most of the motion is predicted, not measured: 1 of 5 frames were tracked"));
+    EXPECT_EQ(std::count(frozen.err.begin(), frozen.err.end(), '\n'), 1) << frozen.err;
 }
 
 /** Two rawlogs in the wrong order: one frame is late, then the clock has been set back. */

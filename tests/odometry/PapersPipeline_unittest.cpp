@@ -118,7 +118,8 @@ TEST(PapersPipeline, nothingElseGates)
 /** Points and planes count as one each. */
 TEST(PapersPipeline, fewerThanThreeMatchesAreNotSolvedFor)
 {
-    const OdometryResult none = secondOf(paper(), withoutDepth);
+    const OdometryResult none =
+        secondOf(paper(), [](int i) { return i == 0 ? wholeFrame(i) : withoutDepth(i); });
     EXPECT_EQ(none.status, TrackingStatus::Predicted);
     EXPECT_THAT(none.reason, testing::HasSubstr("found again: 0"));
     EXPECT_EQ(none.diagnostics.iterations, 0);

@@ -174,7 +174,7 @@ TEST(PinholeCamera, problemNamesWhatIsWrong)
     PinholeCamera camera;
     camera.fx = -525;
     EXPECT_THAT(camera.problem(), HasSubstr("negative"));
-    camera.fx = 20;
+    camera.fx = 0.5;
     EXPECT_THAT(camera.problem(), HasSubstr("too short"));
     camera.fx = std::numeric_limits<double>::quiet_NaN();
     EXPECT_THAT(camera.problem(), HasSubstr("not finite"));

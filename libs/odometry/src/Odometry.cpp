@@ -144,7 +144,9 @@ void Odometry::Impl::place(const RgbdFrame& frame, OdometryResult& result)
         track.isEmpty() ? "" : track.interruption(frame.stamp, frame.camera);
     if (track.isEmpty() && !current.hasDepth)
     {
-        addReason("no depth yet: there is nothing to begin with", result);
+        addReason(
+            "no depth yet, or none from PointLifter.minDepth to maxDepth: nothing to begin with",
+            result);
         return lose(frame.stamp, result.reason, result);
     }
     if (track.isEmpty() || !interruption.empty())

@@ -15,8 +15,8 @@ namespace
 /** In image sizes: no lens looks that far aside, not even one whose image has been cropped. */
 constexpr double kFarPrincipalPoint = 10;
 
-/** Size of the image over the focal length: a pinhole camera does not see 170 degrees. */
-constexpr double kWidestView = 23;
+/** Size of the image over the focal length: a pinhole camera does not see 178 degrees. */
+constexpr double kWidestView = 100;
 
 // Of the inversion of the lens' polynomial.
 constexpr int kMostSteps = 20;

@@ -24,6 +24,9 @@ constexpr double kPush = 0.05;
  * as large; but where they shake, what lies between two increments errs, too. */
 constexpr double kWander = 0.01;
 
+/** Times that one step may be as long as the next, where they tell an acceleration. */
+constexpr double kUnequal = 8;
+
 /** Of a velocity that decays, all that can become unknown of it in the end [s]. */
 constexpr double kLongestCoasting = 1.0;
 
@@ -151,18 +154,17 @@ void MotionModel::learnAcceleration(const Increment& next)
     {
         return;
     }
-    const double dt = 0.5 * (next.dt + increment_->dt);
-    const Vector6d a = (next.velocity - increment_->velocity) / dt;
-    // What the noise of the poses makes of it, which is much if they are soon after each other.
-    const Vector6d noise = (next.variance / (next.dt * next.dt) +
-                            increment_->variance / (increment_->dt * increment_->dt)) /
-                           (dt * dt);
-    const Vector6d a2 = a.cwiseAbs2() - noise;
+    // Over a step that is much shorter than another, noise of the pose looks like a jerk.
+    if (next.dt > kUnequal * increment_->dt || increment_->dt > kUnequal * next.dt)
+    {
+        return;
+    }
+    const Vector6d a = 2 * (next.velocity - increment_->velocity) / (next.dt + increment_->dt);
     ++numAccelerations_;
     const double rate =
         std::max(1.0 / numAccelerations_, 1 - std::exp(-next.dt / params_.timeConstant));
-    acceleration2_ +=
-        rate * (perAxis(a2.head<3>().mean(), a2.tail<3>().mean()).cwiseMax(0) - acceleration2_);
+    const Vector6d a2 = perAxis(a.head<3>().squaredNorm() / 3, a.tail<3>().squaredNorm() / 3);
+    acceleration2_ += rate * (a2 - acceleration2_);
 }
 
 void MotionModel::followIncrements()
