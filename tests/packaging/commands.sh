@@ -111,7 +111,8 @@ programs() {
 program() {
     case $1 in
         pointplane-simulate*) run 0 "$(sed -E 's/ --duration [0-9.]+//' <<<"$1") --duration 1.5 --size 320x240" ;;
-        pointplane-grabber*) [[ -e /dev/bus/usb ]] || run 3 "$1" ;;  # no camera here
+        # No camera here. The recordings of other commands are not in its way.
+        pointplane-grabber*) [[ -e /dev/bus/usb ]] || run 3 "mkdir -p camera && cd camera && $1" ;;
         pointplane-convert\ tum* | *fr1_xyz*) [[ -z ${POINTPLANE_DATA:-} ]] || run 0 "$1" ;;
         pointplane-convert\ bag*) [[ $(bash -c "$1" 2>&1) == *"built without"* ]] || run 0 "$1" ;;
         pointplane-* | for\ *) run 0 "$1" ;;

@@ -27,14 +27,21 @@ bool isSame(const cv::Mat& a, const cv::Mat& b)
     return true;
 }
 
-/** Leaves the memory so far to those who share it. */
-void copy(const cv::Mat& from, cv::Mat& to)
+/** Leaves the memory so far to those who share it. \return whether the image is new; it becomes a
+ * copy */
+bool renewCopy(cv::Mat& image, cv::Mat& latest)
 {
-    if (to.u != nullptr && to.u->refcount > 1)
+    const bool isNew = !isSame(latest, image);
+    if (isNew)
     {
-        to.release();
+        if (latest.u != nullptr && latest.u->refcount > 1)
+        {
+            latest.release();
+        }
+        image.copyTo(latest);
     }
-    from.copyTo(to);
+    image = latest;
+    return isNew;
 }
 
 void keepReadings(const cv::Mat& depth, float least, float most, cv::Mat& out)
@@ -58,29 +65,13 @@ LatestImages::LatestImages(double minDepth, double maxDepth)
 {
 }
 
-bool LatestImages::Stream::renew(cv::Mat& image)
-{
-    for (const cv::Mat& before : images_)
-    {
-        if (isSame(before, image))
-        {
-            image = before;
-            return false;
-        }
-    }
-    copy(image, images_[older_]);
-    image = images_[older_];
-    older_ = 1 - older_;
-    return true;
-}
-
 LatestImages::Novelty LatestImages::renew(RgbdFrame& frame)
 {
     keepReadings(frame.depth, minDepth_, maxDepth_, readings_);
     frame.depth = readings_;
     Novelty out;
-    out.depth = depth_.renew(frame.depth);
-    out.gray = frame.gray.empty() || gray_.renew(frame.gray);
+    out.depth = renewCopy(frame.depth, depth_);
+    out.gray = frame.gray.empty() || renewCopy(frame.gray, gray_);
     return out;
 }
 }  // namespace pointplane

@@ -3,9 +3,6 @@
 
 #include <pointplane/sensor/RgbdFrame.h>
 
-#include <array>
-#include <cstddef>
-
 namespace pointplane
 {
 /** Keeps copies of the latest images, so that the caller may reuse its buffers. Key frames share
@@ -16,7 +13,7 @@ class LatestImages
     /** \param minDepth, maxDepth readings outside of these [m] are none */
     LatestImages(double minDepth, double maxDepth);
 
-    /** Which images of a frame differ, be it by a byte, from those of the two frames before. */
+    /** Which images of a frame differ, be it by a byte, from those of the frame before. */
     struct Novelty
     {
         bool depth{true}, gray{true};
@@ -26,20 +23,7 @@ class LatestImages
     [[nodiscard]] Novelty renew(RgbdFrame& frame);
 
  private:
-    /** The latest two of a stream: some buffers that hang give the same two in turns. */
-    class Stream
-    {
-     public:
-        /** \return whether the image is new; it becomes a copy */
-        bool renew(cv::Mat& image);
-
-     private:
-        std::array<cv::Mat, 2> images_;
-        std::size_t older_{0};
-    };
-
     float minDepth_, maxDepth_;
-    cv::Mat readings_;
-    Stream depth_, gray_;
+    cv::Mat readings_, depth_, gray_;
 };
 }  // namespace pointplane

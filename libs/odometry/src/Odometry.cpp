@@ -108,9 +108,9 @@ std::string leaveOutRepeated(const LatestImages::Novelty& isNew, RgbdFrame& fram
         frame.gray.release();
     }
     const bool showsNothing = !isNew.depth && frame.gray.empty();
-    return showsNothing   ? "its images are those of an earlier frame, byte for byte"
-           : repeatsDepth ? "its depth image is that of an earlier frame, byte for byte"
-           : !isNew.gray  ? "its colour image is that of an earlier frame, byte for byte"
+    return showsNothing   ? "its images are those of the frame before, byte for byte"
+           : repeatsDepth ? "its depth image is that of the frame before, byte for byte"
+           : !isNew.gray  ? "its colour image is that of the frame before, byte for byte"
                           : "";
 }
 }  // namespace
