@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 namespace pointplane
 {
@@ -27,21 +28,13 @@ bool isSame(const cv::Mat& a, const cv::Mat& b)
     return true;
 }
 
-/** Leaves the memory so far to those who share it. \return whether the image is new; it becomes a
- * copy */
-bool renewCopy(cv::Mat& image, cv::Mat& latest)
+/** Leaves the memory to those who share it. */
+void makeOwn(cv::Mat& image)
 {
-    const bool isNew = !isSame(latest, image);
-    if (isNew)
+    if (image.u != nullptr && image.u->refcount > 1)
     {
-        if (latest.u != nullptr && latest.u->refcount > 1)
-        {
-            latest.release();
-        }
-        image.copyTo(latest);
+        image.release();
     }
-    image = latest;
-    return isNew;
 }
 
 void keepReadings(const cv::Mat& depth, float least, float most, cv::Mat& out)
@@ -67,11 +60,22 @@ LatestImages::LatestImages(double minDepth, double maxDepth)
 
 LatestImages::Novelty LatestImages::renew(RgbdFrame& frame)
 {
-    keepReadings(frame.depth, minDepth_, maxDepth_, readings_);
-    frame.depth = readings_;
     Novelty out;
-    out.depth = renewCopy(frame.depth, depth_);
-    out.gray = frame.gray.empty() || renewCopy(frame.gray, gray_);
+    makeOwn(readings_);
+    keepReadings(frame.depth, minDepth_, maxDepth_, readings_);
+    out.depth = !isSame(depth_, readings_);
+    if (out.depth)
+    {
+        std::swap(depth_, readings_);
+    }
+    frame.depth = depth_;
+    out.gray = frame.gray.empty() || !isSame(gray_, frame.gray);
+    if (out.gray)
+    {
+        makeOwn(gray_);
+        frame.gray.copyTo(gray_);
+    }
+    frame.gray = gray_;
     return out;
 }
 }  // namespace pointplane

@@ -24,6 +24,7 @@ class LatestImages
 
  private:
     float minDepth_, maxDepth_;
-    cv::Mat readings_, depth_, gray_;
+    cv::Mat depth_, gray_;
+    cv::Mat readings_;  //!< memory of the next depth image
 };
 }  // namespace pointplane

@@ -136,6 +136,7 @@ class Track
     PinholeCamera camera_;
     double latestStamp_{0};
     std::optional<double> lateStamp_;  //!< of the latest frame, when it was not after latestStamp_
-    bool started_{false}, wasLost_{false};  //!< there were frames before the first good one
+    bool started_{false};              //!< there was a good frame
+    bool wasLost_{false};              //!< there were others before it
 };
 }  // namespace pointplane

@@ -10,9 +10,8 @@
 
 namespace pointplane
 {
-/** @name Calibrations in ini files. MRPT's own reader takes `abc` for 0, `318,5` for 318 and `5e`
- * for
- * 5. \throws InputError naming file, section and key
+/** @name Calibrations in ini files. MRPT's own reader takes `abc` for 0 and `318,5` for 318.
+ * \throws InputError naming file, section and key
  * @{ */
 
 /** \param file from openIniFile(path) \return as many numbers as asked for, of `[1 2 3]` or `1` */

@@ -35,9 +35,8 @@ class PointStage
             v("method",
               method,
               "-",
-              "track (corners, searched for around the predicted position; [PointTracker]) or "
-              "match (key points, by their descriptors; [PointDetector] and [PointMatcher], which "
-              "have no effect otherwise)");
+              "track: corners near where they should be ([PointTracker]); "
+              "match: key points by their descriptors ([PointDetector], [PointMatcher])");
         }
         /** \throws std::invalid_argument naming the key */
         void check() const;
