@@ -10,7 +10,7 @@ fi
 rm -rf "$work"
 mkdir -p "$work"
 cd "$work"
-failures=0
+failures=0 found=0
 
 # folder NAME PART AWK: a copy of a part with the lines of rgb.txt for which AWK is true of n, their number.
 folder() {
@@ -21,9 +21,9 @@ folder() {
 }
 
 # check NAME PART AWK METRES DEGREES UNTRACKED OPTIONS...: at most this RPE over 1 s, at most so many frames
-# not tracked, by pointplane-odometry with these options.
+# not tracked (then in $found), by pointplane-odometry with these options.
 check() {
-    local name=$1 metres=$4 degrees=$5 untracked=$6 found
+    local name=$1 metres=$4 degrees=$5 untracked=$6
     folder "$name" "$2" "$3"
     "$bin/pointplane-convert" tum "$name" -o "$name.rawlog" > "$name.convert" 2>&1 ||
         { cat "$name.convert"; failures=$((failures + 1)); return; }
@@ -49,8 +49,17 @@ check xyz_6Hz $xyz 'n % 5 == 1' 0.015 1.0 0
 check xyz_3Hz $xyz 'n % 10 == 1' 0.030 2.0 0
 check xyz_2Hz $xyz 'n % 15 == 1' 0.060 4.0 0
 check xyz_gap $xyz 'n < 150 || n > 165' 0.012 0.8 0
-# It turns fast at its start and at frame 118, where two motions may explain as much surface each.
-check rpy tum_fr1_rpy_part 1 0.018 1.5 2
+# In its fast turns, two motions may explain as much surface each. In which frames is a matter of chance,
+# so three starts are counted together.
+untracked=0
+for first in 0 1 2; do
+    check "rpy_from_$first" tum_fr1_rpy_part 1 0.018 1.5 2 --first "$first"
+    untracked=$((untracked + found))
+done
+if ((untracked > 2)); then
+    echo "rpy: $untracked frames of three starts not tracked, more than 2"
+    failures=$((failures + 1))
+fi
 check notexture tum_fr3_structure_notexture_far_part 1 0.004 0.5 0
 check notexture_3Hz tum_fr3_structure_notexture_far_part 'n % 10 == 1' 0.010 0.7 0
 check icl icl_living_room_kt0_part 1 0.002 0.06 0

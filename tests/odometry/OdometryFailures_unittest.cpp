@@ -409,6 +409,27 @@ TEST(OdometryFailures, badFrameHoursLater)
     }
 }
 
+/** Stamps of a damaged file are any numbers; what follows from them is finite. */
+TEST(OdometryFailures, stampsBeyondAnyTime)
+{
+    for (const double stamp : {1e9, 1e100, 1e160, 1e300})
+    {
+        CheckedOdometry odometry;
+        (void)odometry.run(0, 3);
+        for (int i = 4; i < 7; ++i)
+        {
+            RgbdFrame bad = good(i);
+            bad.stamp = stamp * i;
+            bad.depth.setTo(kNaN);
+            bad.gray.setTo(0);
+            EXPECT_EQ(odometry.process(bad).status, TrackingStatus::Predicted) << stamp;
+        }
+        RgbdFrame back = good(7);
+        back.stamp = stamp * 7;
+        EXPECT_EQ(odometry.process(back).status, TrackingStatus::Tracked) << stamp;
+    }
+}
+
 TEST(OdometryFailures, nothingButBadFrames)
 {
     CheckedOdometry odometry;

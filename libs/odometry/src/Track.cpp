@@ -17,6 +17,12 @@ namespace
 {
 /** Two exposures are not sooner after each other [s], whatever their stamps say. */
 constexpr double kShortestStep = 1e-3;
+
+/** From one stamp to another [s]. Those of a damaged file may be any numbers. */
+double stepBetween(double earlier, double later)
+{
+    return std::clamp(later - earlier, kShortestStep, MotionModel::kLongestStep);
+}
 }  // namespace
 
 Track::Track(const OdometryParams& params)
@@ -63,7 +69,7 @@ bool Track::isLate(double stamp)
 Prediction Track::prediction(double stamp)
 {
     Prediction out;
-    out.dt = std::max(stamp - previous().stamp, kShortestStep);
+    out.dt = stepBetween(previous().stamp, stamp);
     out.followsMeasured = latestStamp_ <= previous().stamp;
     if (out.dt > maxGap_)
     {
@@ -157,9 +163,8 @@ Vector6d Track::follow(const MotionGaussian& motion, double dt)
 
 PoseGaussian Track::predict(double stamp, std::optional<Reference> unmatched)
 {
-    const double step = stamp - latestStamp_;
-    const bool known = started_ && step >= 0 && std::isfinite(step);
-    const double dt = known ? std::max(step, kShortestStep) : MotionModel::kUsualStep;
+    const bool known = started_ && stamp >= latestStamp_ && std::isfinite(stamp);
+    const double dt = known ? stepBetween(latestStamp_, stamp) : MotionModel::kUsualStep;
     JointCovariance::Prediction errors;
     errors.dt = dt;
     errors.isVelocityNew = dt > maxGap_;

@@ -13,9 +13,6 @@ namespace pointplane
 {
 namespace
 {
-/** After a longer time nothing more can become unknown; stamps may be any number. */
-constexpr double kLongestStep = 24 * 3600.0;
-
 /** For so long hands push one way [s]. An unknown velocity is what a sudden acceleration makes in
  * this time. */
 constexpr double kPush = 0.05;

@@ -56,6 +56,9 @@ class MotionModel
     /** Between frames whose stamps do not tell, and the time that `decay` is given for [s]. */
     static constexpr double kUsualStep = 1.0 / 30;
 
+    /** After a longer time [s] nothing more can become unknown. */
+    static constexpr double kLongestStep = 24 * 3600.0;
+
     /** \throws std::invalid_argument naming the key */
     explicit MotionModel(const TParams& params);
 
