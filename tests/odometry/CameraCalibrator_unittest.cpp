@@ -115,14 +115,14 @@ struct DeskRun
 
 /** Runs over a desk, seen by a camera that nobody calibrated. Motions count from the middle on.
  * \param told what is told of the camera's focal length, over the true one */
-DeskRun runDesk(double told, bool learns)
+DeskRun runDesk(double told, bool learns, unsigned seed = 31)
 {
     constexpr int kInterval = 30;
     SimulationParams simulation;
     simulation.width = 320;
     simulation.height = 240;
     simulation.duration = 4;
-    const SimulatedSequence sequence("desk", simulation, 31);
+    const SimulatedSequence sequence("desk", simulation, seed);
     OdometryParams params;
     params.lens.nominal = true;
     params.lens.selfCalibrate = learns;
@@ -483,13 +483,19 @@ TEST(CameraCalibrator, findsTheFocalLength)
  * length, whatever is seen. */
 TEST(CameraCalibrator, aRightLensStays)
 {
-    const DeskRun given = runDesk(1, false);
-    const DeskRun learnt = runDesk(1, true);
-    EXPECT_LT(learnt.error, 1.2 * given.error);
-    EXPECT_LT(learnt.nees, 3);
-    for (int k = 0; k < learnt.lens.errors.size(); ++k)
+    double errorsOfGiven = 0, errorsOfLearnt = 0;  // squared: of one run they are much of a chance
+    for (unsigned seed = 31; seed < 35; ++seed)
     {
-        EXPECT_LT(std::abs(learnt.lens.errors[k]), 3 * learnt.lens.sigmas[k]) << k;
+        const DeskRun given = runDesk(1, false, seed);
+        const DeskRun learnt = runDesk(1, true, seed);
+        errorsOfGiven += given.error * given.error;
+        errorsOfLearnt += learnt.error * learnt.error;
+        EXPECT_LT(learnt.nees, 3);
+        for (int k = 0; k < learnt.lens.errors.size(); ++k)
+        {
+            EXPECT_LT(std::abs(learnt.lens.errors[k]), 3 * learnt.lens.sigmas[k]) << k;
+        }
     }
+    EXPECT_LT(std::sqrt(errorsOfLearnt), 1.2 * std::sqrt(errorsOfGiven));
 }
 }  // namespace pointplane

@@ -44,7 +44,7 @@ Matrix12d ofPose(const Matrix6d& cov)
 JointCovariance::Measurement against(int reference)
 {
     JointCovariance::Measurement out;
-    out.references[reference] << Matrix6d::Identity(), Matrix6d::Zero();
+    out.references[reference] = ofPose(Matrix6d::Identity());
     out.referencePoints = out.references;
     out.noise = ofPose(Matrix6d::Identity());
     return out;
@@ -150,7 +150,7 @@ TEST(JointCovariance, aFramesOwnErrorIsNotAveragedByManyReferences)
         measurement.views.correlation << 1, betweenReferences, betweenReferences, 1;
         measurement.referencePoints = measurement.references;
         joint.measure(2, kAtRest, kFrame, measurement);
-        measurement.references[1] << 0.5 * Matrix6d::Identity(), Matrix6d::Zero();
+        measurement.references[1] = ofPose(0.5 * Matrix6d::Identity());
         measurement.references[2] = measurement.references[1];
         measurement.views.frames = {1, 2};
         measurement.views.correlation = Eigen::Matrix3d::Identity();
@@ -170,7 +170,7 @@ TEST(JointCovariance, aFramesOwnErrorIsNotAveragedByManyReferences)
 JointCovariance::Measurement bentAgainst(int reference)
 {
     JointCovariance::Measurement out;
-    out.references[reference] << Matrix6d::Identity(), Matrix6d::Zero();
+    out.references[reference] = ofPose(Matrix6d::Identity());
     out.bendVariance = 0.25;
     out.patches(0, 3) = 2;
     out.referencePatches[reference] = -out.patches;
@@ -448,15 +448,48 @@ JointCovariance::Views viewsOf(const std::vector<int>& references, int frame)
 }
 
 /** Errors of variance 1 with these correlations. */
-std::vector<Vector6d> sampledViews(int n, test::GaussianSampler& sampler)
+template <int kSize>
+std::vector<Eigen::Matrix<double, kSize, 1>> sampledViews(int n, test::GaussianSampler& sampler)
 {
-    std::vector<Vector6d> out{sampler.vector<6>()};
+    std::vector<Eigen::Matrix<double, kSize, 1>> out{sampler.vector<kSize>()};
     for (int k = 1; k < n; ++k)
     {
         const double kept = correlationOf(k - 1, k);
-        out.emplace_back(kept * out.back() + std::sqrt(1 - kept * kept) * sampler.vector<6>());
+        out.emplace_back(kept * out.back() + std::sqrt(1 - kept * kept) * sampler.vector<kSize>());
     }
     return out;
+}
+/** Any linear dependence. */
+MotionModel::Smoothed smoothing(test::GaussianSampler& sampler)
+{
+    const auto any = [&sampler]() -> Matrix6d
+    { return 0.3 * sampler.vector<6>() * sampler.vector<6>().transpose(); };
+    MotionModel::Smoothed out;
+    out.byVelocity = any();
+    out.byNextVelocity = any();
+    out.byNextMotion = any();
+    out.byPreviousMotion = any();
+    return out;
+}
+
+/** Corrects the error of the last but one velocity. */
+void smooth(
+    const MotionModel::Smoothed& by,
+    const std::vector<Eigen::Isometry3d>& poses,
+    const std::vector<Vector6d>& errors,
+    std::vector<Vector6d>& velocity)
+{
+    const size_t k = velocity.size() - 1, previous = k - 1;
+    Vector6d& corrected = velocity[previous];
+    corrected =
+        (by.byVelocity * corrected + by.byNextVelocity * velocity[k] +
+         by.byNextMotion * adjoint(poses[previous].inverse()) * (errors[k] - errors[previous]))
+            .eval();
+    if (k >= 2)
+    {
+        corrected += by.byPreviousMotion * adjoint(poses[k - 2].inverse()) *
+                     (errors[previous] - errors[k - 2]);
+    }
 }
 }  // namespace
 
@@ -480,15 +513,16 @@ TEST(JointCovariance, monteCarlo)
         JointCovariance::Measurement m;
         for (const int reference : {0, k - 1})
         {
-            Matrix126d& change = m.references.emplace(reference, Matrix126d::Zero()).first->second;
-            change += 0.3 * Matrix126d::Identity() +
-                      0.1 * setup.vector<12>() * setup.vector<6>().transpose();
+            Matrix12d& change = m.references.emplace(reference, Matrix12d::Zero()).first->second;
+            change += 0.3 * Matrix12d::Identity() +
+                      0.1 * setup.vector<12>() * setup.vector<12>().transpose();
             m.referencePoints[reference] = 0.6 * change;
         }
         m.prior = 0.4 * Matrix12d::Identity();
         m.noise = setup.covariance<12>(0.1, 1);
         m.priorNoise = setup.covariance<12>(0.1, 1);
-        m.viewSigma = Vector6d::LinSpaced(0.3, 0.8);
+        m.viewSigma = Vector12d::LinSpaced(0.3, 0.8);
+        m.previousVelocity = smoothing(setup);
         m.views = viewsOf(k == 1 ? std::vector<int>{0} : std::vector<int>{0, k - 1}, k);
         m.views.ofPlanes = m.views.correlation;
         m.planeViewRoot = setup.covariance<6>(0.1, 0.5);
@@ -514,14 +548,14 @@ TEST(JointCovariance, monteCarlo)
     for (int run = 0; run < kRuns; ++run)
     {
         std::vector<Vector6d> pose{sampler.sample(startCov)};
-        const std::vector<Vector6d> view = sampledViews(kFrames, sampler);
-        const std::vector<Vector6d> planeView = sampledViews(kFrames, sampler);
+        const std::vector<Vector12d> view = sampledViews<12>(kFrames, sampler);
+        const std::vector<Vector6d> planeView = sampledViews<6>(kFrames, sampler);
         std::vector<PatchVector> bends;
         for (int k = 0; k < kFrames; ++k)
         {
             bends.emplace_back(std::sqrt(0.3) * sampler.vector<kNumPatches>());
         }
-        Vector6d velocity = Vector6d::Zero();
+        std::vector<Vector6d> velocity{Vector6d::Zero()};
         CameraVector camera = sampler.sample(cameraCov);
         for (int k = 1; k < kFrames; ++k)
         {
@@ -530,15 +564,17 @@ TEST(JointCovariance, monteCarlo)
             const Matrix6d toBase = test::inverse(Ad);
             const Vector6d before = toBase * pose.back();
             Vector12d predicted;
-            predicted << before + 0.5 * velocity, velocity;
+            predicted << before + 0.5 * velocity.back(), velocity.back();
             Vector12d shared = m.prior * predicted + sampler.sample(m.priorNoise);
             shared += m.camera * camera;
             for (const auto& [frame, change] : m.references)
             {
                 const auto reference = static_cast<size_t>(frame);
-                shared += change * (toBase * pose[reference] +
-                                    m.planeViewRoot *
-                                        (planeView[static_cast<size_t>(k)] - planeView[reference]));
+                shared +=
+                    change.leftCols<6>() *
+                    (toBase * pose[reference] +
+                     m.planeViewRoot * (planeView[static_cast<size_t>(k)] - planeView[reference]));
+                shared += change.rightCols<6>() * velocity[reference];
             }
             for (const auto& [frame, change] : m.referencePoints)
             {
@@ -553,7 +589,8 @@ TEST(JointCovariance, monteCarlo)
             }
             shared += sampler.sample(m.noise);
             pose.push_back(Ad * shared.head<6>());
-            velocity = shared.tail<6>();
+            velocity.emplace_back(shared.tail<6>());
+            smooth(*m.previousVelocity, poses, pose, velocity);
             camera = m.cameraGain * camera + sampler.sample(m.cameraNoise);
         }
         latest.push_back(pose.back());

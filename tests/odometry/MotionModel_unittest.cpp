@@ -159,11 +159,11 @@ TEST(MotionModel, theVelocityBeforeLiesBetweenTheIncrements)
     measured.cov.topLeftCorner<6, 6>() = 1e-14 * Matrix6d::Identity();
     MotionModel surprised = model;
     // (dt1 v2 + dt2 v1) / (dt1 + dt2) of v1 over dt1 = 1 and v2 = 1.2 v1 over dt2 = 1/2.
-    const Vector6d between = model.update(measured, kFrame / 2);
+    const Vector6d between = model.update(measured, kFrame / 2).velocity;
     EXPECT_TRUE(between.isApprox(1.7 / 1.5 * velocity(), 0.01)) << between.transpose();
     // Where they are not, it is the smoother's.
     measured.cov.topLeftCorner<6, 6>() = Matrix6d::Identity();
-    const Vector6d smoothed = surprised.update(measured, kFrame / 2);
+    const Vector6d smoothed = surprised.update(measured, kFrame / 2).velocity;
     EXPECT_FALSE(smoothed.isApprox(between, 0.02)) << smoothed.transpose();
 }
 
@@ -200,9 +200,58 @@ TEST(MotionModel, theVelocityBeforeIsSmoothed)
     Eigen::Matrix2d S;
     S << predicted.cov(0, 0), predicted.cov(0, 6), predicted.cov(6, 0), predicted.cov(6, 6);
     const Eigen::Vector2d gain = S.inverse() * Eigen::Vector2d(kFrame * 1e-4, 1e-4);
-    const Vector6d smoothed = model.update(measured, kFrame);
+    const Vector6d smoothed = model.update(measured, kFrame).velocity;
     EXPECT_NEAR(smoothed[0] - velocity()[0], gain[1] * 0.03, 1e-9);
     EXPECT_NEAR(smoothed[1], velocity()[1], 1e-9);
+}
+
+/** Against finite differences in all that the velocity before was made from. */
+TEST(MotionModel, howTheVelocityBeforeErrs)
+{
+    MotionModel::TParams params;
+    params.timeConstant = 1000;  // what is learnt on the way must not change with the differences
+    const auto measured = [](double scale)
+    {
+        MotionGaussian out = measuredMotion();
+        out.mean.T_prev_cur = se3Exp(scale * velocity() * kFrame);
+        out.cov.topLeftCorner<6, 6>() = 1e-7 * Matrix6d::Identity();
+        return out;
+    };
+    const double next_s = 0.6 * kFrame;
+    struct Changes
+    {
+        Vector6d velocity{Vector6d::Zero()}, nextVelocity{Vector6d::Zero()};
+        Vector6d motion{Vector6d::Zero()}, nextMotion{Vector6d::Zero()};
+    };
+    const auto smoothed = [&](const Changes& by)
+    {
+        MotionGaussian previous = measured(1), next = measured(0.65);
+        previous.mean.velocity += by.velocity;
+        next.mean.velocity += by.nextVelocity;
+        previous.mean.T_prev_cur = se3Exp(by.motion) * previous.mean.T_prev_cur;
+        next.mean.T_prev_cur = se3Exp(by.nextMotion) * next.mean.T_prev_cur;
+        MotionModel model(params);
+        model.update(previous, kFrame);
+        return model.update(next, next_s);
+    };
+    const MotionModel::Smoothed out = smoothed({});
+    const auto expectSlope = [&](Vector6d Changes::*part, const Matrix6d& slope, double step)
+    {
+        for (int axis = 0; axis < 6; ++axis)
+        {
+            Changes by;
+            by.*part = step * Vector6d::Unit(axis);
+            const Vector6d difference = (smoothed(by).velocity - out.velocity) / step;
+            EXPECT_THAT(
+                difference, test::IsMatrixNear(Vector6d(slope.col(axis)), 0.02 * slope.norm()))
+                << axis;
+        }
+        EXPECT_GT(slope.norm(), 0.01);
+    };
+    expectSlope(&Changes::velocity, out.byVelocity, 1e-4);
+    expectSlope(&Changes::nextVelocity, out.byNextVelocity, 1e-4);
+    expectSlope(&Changes::motion, out.byPreviousMotion, 1e-6);
+    expectSlope(&Changes::nextMotion, out.byNextMotion, 1e-6);
 }
 
 TEST(MotionModel, followsHowTheCameraMoves)

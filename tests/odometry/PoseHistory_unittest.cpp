@@ -80,11 +80,12 @@ TEST(PoseHistory, covariancesStayPositiveDefiniteWhereNothingIsKnown)
     variances << 1e4, 1e-12, 1e4, 1e-14, 1e2, 1e-14;
     const Matrix6d cov = propagate(adjoint(elsewhere()), Matrix6d(variances.asDiagonal()));
     measurement.noise.topLeftCorner<6, 6>() = cov;
-    measurement.viewSigma = 0.03 * variances.cwiseSqrt();
+    measurement.viewSigma.head<6>() = 0.03 * variances.cwiseSqrt();
     for (int frame = 2; frame <= 40; ++frame)
     {
         measurement.references.clear();
-        measurement.references[1] << Matrix6d::Identity(), Matrix6d::Zero();
+        measurement.references[1].setZero();
+        measurement.references[1].topLeftCorner<6, 6>().setIdentity();
         measurement.referencePoints = measurement.references;
         history.measure(history.latest(), elsewhere(), kFrame, measurement);
         history.keep({1}, {});

@@ -53,10 +53,15 @@ TEST(viewSigma, byHand)
 {
     Matrix6d information = Matrix6d::Identity();
     information.bottomRightCorner<3, 3>() *= 8;  // as of features 2 m away
-    const Vector6d sigma = viewSigma(0.01, information);
+    const Vector12d sigma = viewSigma(0.01, information, 0.03);
     EXPECT_NEAR(sigma[0], 0.02, 1e-12);
     EXPECT_NEAR(sigma[2], 0.02, 1e-12);
     EXPECT_NEAR(sigma[5], 0.01, 1e-12);
-    EXPECT_NEAR(viewSigma(0.01, Matrix6d::Zero())[0], 0.01, 1e-12) << "of nothing, 1 m";
+    // Rows are exposed within 30 ms: 8.66 ms of standard deviation.
+    EXPECT_NEAR(sigma[6], 0.02 / 0.00866025, 1e-5);
+    EXPECT_NEAR(sigma[11], 0.01 / 0.00866025, 1e-5);
+    EXPECT_TRUE(viewSigma(0.01, information, -0.03).isApprox(sigma)) << "from below";
+    EXPECT_TRUE(viewSigma(0.01, information, 0).tail<6>().isZero(0)) << "all at once";
+    EXPECT_NEAR(viewSigma(0.01, Matrix6d::Zero(), 0)[0], 0.01, 1e-12) << "of nothing, 1 m";
 }
 }  // namespace pointplane

@@ -43,10 +43,12 @@ PoseProblem makeProblem(unsigned seed)
     {
         out.points[i].reference = i % 2 == 0 ? 1 : 2;
         out.points[i].dCur_dV = 0.01 * world.sampler().uniform(-1, 1) * Matrix36d::Ones();
+        out.points[i].dRef_dV = 0.01 * world.sampler().vector<3>() * Vector6d::Ones().transpose();
     }
     for (size_t i = 0; i < out.planes.size(); ++i)
     {
         out.planes[i].reference = i % 2 == 0 ? 1 : 2;
+        out.planes[i].dRef_dV = 0.01 * world.sampler().vector<3>() * Vector6d::Ones().transpose();
     }
     MotionGaussian predicted;
     predicted.mean.T_prev_cur = world.T_prev_cur;
@@ -115,12 +117,45 @@ TEST(Sensitivity, toTheReferences)
             pair.ref.theta_m =
                 pair.reference == 2 ? transformed(se3Exp(xi), pair.ref).theta_m : pair.ref.theta_m;
         }
-        const Vector12d expected = solved.analysis.sensitivity.references.at(2) * xi;
+        const Vector12d expected = solved.analysis.sensitivity.references.at(2).leftCols<6>() * xi;
         EXPECT_THAT(
             change(solved.estimate, solve(moved).estimate), test::IsMatrixNear(expected, 4e-5))
             << axis;
         EXPECT_GT(expected.norm(), 2e-4);
     }
+}
+
+/** A rolling shutter has moved their features by it. */
+TEST(Sensitivity, toTheVelocityOfTheReferences)
+{
+    const PoseProblem problem = makeProblem(81);
+    const Solved solved = solve(problem);
+    const Sensitivity& sensitivity = solved.analysis.sensitivity;
+    PoseProblem moved = problem, pointsAlone = problem;
+    const Vector6d dV = 0.01 * Vector6d::LinSpaced(0.5, 1);
+    const auto move = [&dV](auto& pair, Eigen::Vector3d& feature)
+    {
+        if (pair.reference == 2)
+        {
+            feature += pair.dRef_dV * dV;
+        }
+    };
+    for (size_t i = 0; i < problem.points.size(); ++i)
+    {
+        move(moved.points[i], moved.points[i].ref.mean);
+        move(pointsAlone.points[i], pointsAlone.points[i].ref.mean);
+    }
+    for (PlanePair& pair : moved.planes)
+    {
+        move(pair, pair.ref.theta_m);
+    }
+    const Vector12d expected = sensitivity.references.at(2).rightCols<6>() * dV;
+    EXPECT_THAT(change(solved.estimate, solve(moved).estimate), test::IsMatrixNear(expected, 1e-6));
+    EXPECT_GT(expected.norm(), 1e-4);
+    const Vector12d byPoints = sensitivity.referencePoints.at(2).rightCols<6>() * dV;
+    EXPECT_THAT(
+        change(solved.estimate, solve(pointsAlone).estimate), test::IsMatrixNear(byPoints, 1e-6));
+    EXPECT_GT((expected - byPoints).norm(), 1e-5);
 }
 
 TEST(Sensitivity, toWherePointsAndPlanesAre)
@@ -338,7 +373,7 @@ TEST(Sensitivity, toAllTogetherIsOne)
     Matrix6d sum = solved.analysis.sensitivity.prior.topLeftCorner<6, 6>();
     for (const auto& [reference, gain] : solved.analysis.sensitivity.references)
     {
-        sum += gain.topRows<6>();
+        sum += gain.topLeftCorner<6, 6>();
     }
     EXPECT_THAT(sum, test::IsMatrixNear(Matrix6d(Matrix6d::Identity()), 1e-6));
 }

@@ -46,10 +46,11 @@ DepthMotion depthMotion(
                                         reference.T_world_cam;
     const Eigen::Isometry3d T_depth_cur =
         untilDepth(motion.velocity, camera.complete(current.shutter).depthDelay).inverse();
+    const Vector6d ofReference = reference.velocity.value_or(motion.velocity);
     const Eigen::Isometry3d T_ref_depth =
-        untilDepth(reference.velocity, camera.complete(reference.shutter).depthDelay);
-    const double speed = motion.velocity.head<3>().norm() + reference.velocity.head<3>().norm();
-    const double rate = motion.velocity.tail<3>().norm() + reference.velocity.tail<3>().norm();
+        untilDepth(ofReference, camera.complete(reference.shutter).depthDelay);
+    const double speed = motion.velocity.head<3>().norm() + ofReference.head<3>().norm();
+    const double rate = motion.velocity.tail<3>().norm() + ofReference.tail<3>().norm();
     const double time = camera.sigmaPrior();
     return {T_depth_cur * T_cur_ref * T_ref_depth, time * speed, time * rate};
 }

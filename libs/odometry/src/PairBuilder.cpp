@@ -39,6 +39,25 @@ int patchOf(const Eigen::Vector2d& uv_px, const PinholeCamera& camera)
     return kPatchesPerSide * part(uv_px.y(), camera.height) + part(uv_px.x(), camera.width);
 }
 
+/** Moves a feature of a reference to where it is at the frame's instant. If nobody knows how fast
+ * the reference was, it was as fast as the current frame: then their difference depends on V.
+ * \param byVelocity how the feature moves with the velocity */
+void applyVelocity(
+    const Reference& reference,
+    const Matrix36d& byVelocity,
+    Eigen::Vector3d& feature,
+    Matrix36d& dCur_dV)
+{
+    if (reference.velocity)
+    {
+        feature += byVelocity * *reference.velocity;
+    }
+    else
+    {
+        dCur_dV -= byVelocity;
+    }
+}
+
 /** A pair of points as both views together put it: its noise has nothing to do with the residual.
  * With the measured ones, a camera that shrinks all residuals would seem right. */
 struct FusedPoint
@@ -76,13 +95,15 @@ void PairBuilder::build(
             const PlaneFeature& ref = reference.planes.planes[static_cast<size_t>(match.ref)];
             const PlaneFeature& cur = current_.planes.planes[static_cast<size_t>(match.cur)];
             PlaneGaussian past_ref = ref.plane_cam;
-            past_ref.theta_m += past.planeJacobian(ref) * reference.velocity;
-            correct(past_ref.theta_m, planeByCamera);
+            const Matrix36d byVelocity = past.planeJacobian(ref);
             PlanePair pair;
+            pair.dCur_dV = current.planeJacobian(cur);
+            applyVelocity(reference, byVelocity, past_ref.theta_m, pair.dCur_dV);
+            correct(past_ref.theta_m, planeByCamera);
+            pair.dRef_dV = transformJacobian(T_prev_ref, past_ref.theta_m) * byVelocity;
             pair.ref = transformed(T_prev_ref, past_ref);
             pair.cur = cur.plane_cam;
             correct(pair.cur.theta_m, planeByCamera);
-            pair.dCur_dV = current.planeJacobian(cur);
             pair.reference = reference.id;
             pair.feature = match.cur;
             planes.push_back(pair);
@@ -92,14 +113,16 @@ void PairBuilder::build(
             const PointFeature& ref = reference.points.points[static_cast<size_t>(track.ref)];
             const PointFeature& cur = track.cur;
             PointPair pair;
-            Eigen::Vector3d past_ref =
-                ref.p_cam.mean + past.pointJacobian(ref) * reference.velocity;
+            const Matrix36d byVelocity = past.pointJacobian(ref);
+            Eigen::Vector3d past_ref = ref.p_cam.mean;
+            pair.dCur_dV = current.pointJacobian(cur);
+            applyVelocity(reference, byVelocity, past_ref, pair.dCur_dV);
             correct(past_ref, pointByCamera);
+            pair.dRef_dV = T_prev_ref.linear() * byVelocity;
             pair.ref.mean = T_prev_ref * past_ref;
             pair.ref.cov = propagate(T_prev_ref.linear(), ref.p_cam.cov);
             pair.cur = cur.p_cam;
             correct(pair.cur.mean, pointByCamera);
-            pair.dCur_dV = current.pointJacobian(cur);
             pair.reference = reference.id;
             pair.feature = cellOf(cur.uv_px);
             pair.hasDepth = cur.hasDepth;
@@ -133,14 +156,15 @@ void PairBuilder::addCameraErrors(
         const Eigen::Isometry3d T_prev_ref =
             previous_.T_world_cam.inverse() * reference.T_world_cam;
         const Eigen::Isometry3d T_ref_prev = T_prev_ref.inverse();
+        const Vector6d velocity = reference.velocity.value_or(motion.velocity);
         for (const PlaneMatch& match : association.planes)
         {
             const PlaneFeature& ref = reference.planes.planes[static_cast<size_t>(match.ref)];
             const PlaneFeature& cur = current_.planes.planes[static_cast<size_t>(match.cur)];
             const Eigen::Vector3d theta_m =
-                ref.plane_cam.theta_m + past.planeJacobian(ref) * reference.velocity;
+                ref.plane_cam.theta_m + past.planeJacobian(ref) * velocity;
             ByCamera ofRef = planeByCamera(theta_m, camera);
-            ofRef.rightCols<3>() = past.planeByShutter(ref, reference.velocity) * ofReference;
+            ofRef.rightCols<3>() = past.planeByShutter(ref, velocity) * ofReference;
             plane->dRef_dCamera = transformJacobian(T_prev_ref, theta_m) * ofRef;
             plane->dCur_dCamera = planeByCamera(cur.plane_cam.theta_m, camera);
             plane->dCur_dCamera.rightCols<3>() =
@@ -152,7 +176,7 @@ void PairBuilder::addCameraErrors(
             const PointFeature& ref = reference.points.points[static_cast<size_t>(track.ref)];
             const FusedPoint fused(*point, motion);
             ByCamera ofRef = pointByCamera(T_ref_prev * fused.inPrevious, camera);
-            ofRef.rightCols<3>() = past.pointByShutter(ref, reference.velocity) * ofReference;
+            ofRef.rightCols<3>() = past.pointByShutter(ref, velocity) * ofReference;
             point->dRef_dCamera = T_prev_ref.linear() * ofRef;
             point->dCur_dCamera = pointByCamera(fused.inCurrent, camera);
             point->dCur_dCamera.col(kVignetting) = track.cur.ofVignetting_m;

@@ -132,8 +132,10 @@ PoseGaussian Track::restart(Reference frame)
 
 void Track::measure(Measured measured)
 {
-    const Vector6d previousVelocity = follow(measured.motion, measured.dt);
-    window_.refinePreviousVelocity(previousVelocity);
+    measured.errors.previousVelocity = follow(measured.motion, measured.dt);
+    window_.refinePreviousVelocity(
+        measured.errors.previousVelocity ? measured.errors.previousVelocity->velocity
+                                         : motion_.velocity());
     for (const Association& association : measured.associations)
     {
         window_.notePoints(association);
@@ -146,14 +148,14 @@ void Track::measure(Measured measured)
     add(std::move(measured.frame), measured.isKeyframe);
 }
 
-Vector6d Track::follow(const MotionGaussian& motion, double dt)
+std::optional<MotionModel::Smoothed> Track::follow(const MotionGaussian& motion, double dt)
 {
     if (!fuses_)
     {
         motion_.follow(motion.mean.T_prev_cur, dt);
-        return motion_.velocity();
+        return {};
     }
-    const Vector6d previousVelocity = motion_.update(motion, dt);
+    const MotionModel::Smoothed previousVelocity = motion_.update(motion, dt);
     if (isFrameToFrame_)
     {
         motion_.followIncrements();

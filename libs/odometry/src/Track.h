@@ -122,7 +122,7 @@ class Track
     [[nodiscard]] MotionPrior priorFrom(
         const MotionGaussian& motion, const PoseGaussian& pose) const;
     /** \return velocity of the previous frame */
-    Vector6d follow(const MotionGaussian& motion, double dt);
+    std::optional<MotionModel::Smoothed> follow(const MotionGaussian& motion, double dt);
     void add(Reference frame, bool isKeyframe);
     [[nodiscard]] std::vector<int> placeIds() const;
     void forgetOthers();

@@ -77,19 +77,45 @@ Sensitivity SolutionAnalysis::sensitivity() const
     // Moving a reference one way, or the frame the other way, is the same.
     for (const auto& [reference, group] : pointGroups_)
     {
-        const Matrix126d change = (H_inverse_ * group.H).leftCols<6>();
-        out.references[reference] = out.referencePoints[reference] = change;
-        out.pointsMoved -= change;
+        out.pointsMoved -= (H_inverse_ * group.H).leftCols<6>();
     }
     for (const auto& [reference, group] : planeGroups_)
     {
-        const Matrix126d change = (H_inverse_ * group.H).leftCols<6>();
-        out.references.emplace(reference, Matrix126d::Zero()).first->second += change;
-        out.planesMoved -= change;
+        out.planesMoved -= (H_inverse_ * group.H).leftCols<6>();
+    }
+    out.references = out.referencePoints = withReferences(pointGroups_, problem_.points, 0);
+    for (const auto& [reference, change] :
+         withReferences(planeGroups_, problem_.planes, problem_.points.size()))
+    {
+        out.references.emplace(reference, Matrix12d::Zero()).first->second += change;
     }
     addPatches(out);
     out.points = propagate(H_inverse_, currentNoise(problem_.points, 0));
     out.planes = propagate(H_inverse_, currentNoise(problem_.planes, problem_.points.size()));
+    return out;
+}
+
+/** Change of the solution with pose and velocity of each reference, by these pairs. */
+template <class Pairs>
+std::map<int, Matrix12d> SolutionAnalysis::withReferences(
+    const Groups& groups, const Pairs& pairs, size_t offset) const
+{
+    std::map<int, Matrix12d> out;
+    for (const auto& [reference, group] : groups)
+    {
+        Matrix12d& change = out[reference] = group.H;
+        change.rightCols<6>().setZero();
+    }
+    for (size_t i = 0; i < pairs.size(); ++i)
+    {
+        Matrix12d& change = out[pairs[i].reference];
+        change.rightCols<6>() -=
+            equations_.influence(offset + i) * equations_.residual(offset + i).ofReferenceVelocity;
+    }
+    for (auto& [reference, change] : out)
+    {
+        change = (H_inverse_ * change).eval();
+    }
     return out;
 }
 

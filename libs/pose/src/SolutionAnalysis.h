@@ -55,6 +55,9 @@ class SolutionAnalysis
     [[nodiscard]] Groups byReference(const Pairs& pairs, size_t offset) const;
     [[nodiscard]] CameraInformation withoutMotion(
         int reference, const NormalEquations::CameraColumns& columns) const;
+    template <class Pairs>
+    [[nodiscard]] std::map<int, Matrix12d> withReferences(
+        const Groups& groups, const Pairs& pairs, size_t offset) const;
     void addPatches(Sensitivity& out) const;
     template <class Pairs>
     [[nodiscard]] Matrix12d currentNoise(const Pairs& pairs, size_t offset) const;

@@ -55,6 +55,7 @@ Residual pointResidual(const PointPair& pair, const Motion& motion)
     out.cov = pair.ref.cov + out.curCov;  // [P17, after Eq. 10]
     out.J << -Eigen::Matrix3d::Identity(), hat(p_prev);
     out.J_V = -R * pair.dCur_dV;
+    out.ofReferenceVelocity = pair.dRef_dV;
     out.ofCamera = pair.dRef_dCamera - R * pair.dCur_dCamera;
     return out;
 }
@@ -79,6 +80,7 @@ Residual planeResidualMinimal(const PlanePair& pair, const Motion& motion)
     out.cov = pair.ref.cov_m + out.curCov;
     out.J = -jacobianOfTransform(cur.theta);
     out.J_V = -cur.J * pair.dCur_dV;
+    out.ofReferenceVelocity = pair.dRef_dV;
     out.ofCamera = pair.dRef_dCamera - cur.J * pair.dCur_dCamera;
     return out;
 }
@@ -97,6 +99,7 @@ Residual planeResidualClosestPoint(const PlanePair& pair, const Motion& motion)
     // T_cur_prev exp(-xi) moves the reference.
     out.J = -byReference * jacobianOfTransform(pair.ref.theta_m);
     out.J_V = -cur.J * pair.dCur_dV;
+    out.ofReferenceVelocity = byReference * pair.dRef_dV;
     out.ofCamera = byReference * pair.dRef_dCamera - cur.J * pair.dCur_dCamera;
     return out;
 }

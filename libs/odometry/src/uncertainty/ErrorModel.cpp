@@ -139,7 +139,8 @@ JointCovariance::Measurement ErrorModel::errorsOf(const Measured& frame) const
     {
         out.viewSigma = viewSigma(
             params_.viewSigma * std::sqrt(level),
-            frame.estimate.infoPoints + frame.estimate.infoPlanes);
+            frame.estimate.infoPoints + frame.estimate.infoPlanes,
+            frame.shutter.readoutColour);
     }
     out.planeViewRoot = rootOf(planes_.byView() * Matrix6d(of.planes.topLeftCorner<6, 6>()));
     return out;

@@ -42,7 +42,7 @@ JointCovariance::JointCovariance(const TParams& params) : params_(params) { para
 
 void JointCovariance::start(int frame, const Matrix6d& cov)
 {
-    blocks_ = {{Kind::Pose, frame}, {Kind::Velocity, 0}, {Kind::Camera, 0}};
+    blocks_ = {{Kind::Pose, frame}, {Kind::Velocity, frame}, {Kind::Camera, 0}};
     cov_ = Eigen::MatrixXd::Zero(2 * kSize + kNumCameraErrors, 2 * kSize + kNumCameraErrors);
     cov_.topLeftCorner<kSize, kSize>() = cov;
     restart(frame);
@@ -97,8 +97,16 @@ void JointCovariance::restart(int frame, const std::vector<int>& poses)
 {
     std::vector<int> kept = poses;
     kept.push_back(frame);
-    keep({}, kept);
+    for (Block& block : blocks_)
+    {
+        if (block.kind == Kind::Velocity && block.frame == previous_)
+        {
+            block.frame = frame;
+        }
+    }
     previous_ = frame;
+    earlier_.reset();
+    keep({}, kept);
     addView(Kind::View, {frame}, 0, Eigen::MatrixXd::Identity(1, 1));
 }
 
@@ -109,21 +117,26 @@ Eigen::MatrixXd JointCovariance::dependence(
 {
     const Matrix6d Ad_inverse = Ad.inverse();
     Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * kSize, cov_.cols());
-    const auto addView = [&](Kind kind, int reference, const Matrix126d& change)
+    const auto addView = [&](Kind kind, int reference, const Eigen::MatrixXd& change)
     {
-        A.middleCols<kSize>(find(kind, reference)) -= change;
-        A.middleCols<kSize>(find(kind, frame)) += change;
+        A.middleCols(find(kind, reference), change.cols()) -= change;
+        A.middleCols(find(kind, frame), change.cols()) += change;
     };
     const auto prior = measurement.prior.leftCols<kSize>();
     A.middleCols<kSize>(find(Kind::Pose, previous_)) += prior * Ad_inverse;
-    A.middleCols<kSize>(find(Kind::Velocity, 0)) +=
+    A.middleCols<kSize>(find(Kind::Velocity, previous_)) +=
         dt * prior + measurement.prior.rightCols<kSize>();
     for (const auto& [reference, change] : measurement.references)
     {
-        A.middleCols<kSize>(find(Kind::Pose, reference)) += change * Ad_inverse;
+        const Matrix126d byPose = change.leftCols<6>();
+        A.middleCols<kSize>(find(Kind::Pose, reference)) += byPose * Ad_inverse;
+        if (has(Kind::Velocity, reference))
+        {
+            A.middleCols<kSize>(find(Kind::Velocity, reference)) += change.rightCols<6>();
+        }
         if (has(Kind::PlaneView, frame))
         {
-            addView(Kind::PlaneView, reference, change * measurement.planeViewRoot);
+            addView(Kind::PlaneView, reference, byPose * measurement.planeViewRoot);
         }
     }
     for (const auto& [reference, change] : measurement.referencePoints)
@@ -164,7 +177,7 @@ void JointCovariance::measure(
     Q.topLeftCorner<2 * kSize, 2 * kSize>() =
         propagate(toWorld, Matrix12d(measurement.noise + measurement.priorNoise));
     Q.block<kNumCameraErrors, kNumCameraErrors>(camera, camera) = measurement.cameraNoise;
-    std::vector<Block> added{{Kind::Pose, frame}, {Kind::Velocity, 0}, {Kind::Camera, 0}};
+    std::vector<Block> added{{Kind::Pose, frame}, {Kind::Velocity, frame}, {Kind::Camera, 0}};
     if (measurement.bendVariance > 0)
     {
         added.push_back({Kind::Bend, frame});
@@ -178,15 +191,44 @@ void JointCovariance::measure(
     for (std::size_t k = 0; k < blocks_.size(); ++k)
     {
         const Kind kind = blocks_[k].kind;
-        const bool isReplaced = kind == Kind::Velocity || kind == Kind::Camera;
-        if (k < added.size() || !isReplaced)
+        if (k < added.size() || kind != Kind::Camera)
         {
             kept.push_back(k);
         }
     }
     select(kept);
+    if (measurement.previousVelocity)
+    {
+        smooth(frame, Ad, *measurement.previousVelocity);
+    }
+    earlier_ = {previous_, Ad};
     previous_ = frame;
     dropCoasting();
+}
+
+/** The velocity of the previous frame is corrected. \param frame the new one \param Ad adjoint of
+ * the pose of the previous one */
+void JointCovariance::smooth(int frame, const Matrix6d& Ad, const MotionModel::Smoothed& velocity)
+{
+    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(kSize, cov_.cols());
+    A.middleCols<kSize>(find(Kind::Velocity, previous_)) = velocity.byVelocity;
+    A.middleCols<kSize>(find(Kind::Velocity, frame)) = velocity.byNextVelocity;
+    const auto addMotion = [&](int from, int to, const Matrix6d& change)
+    {
+        A.middleCols<kSize>(find(Kind::Pose, from)) -= change;
+        A.middleCols<kSize>(find(Kind::Pose, to)) += change;
+    };
+    addMotion(previous_, frame, velocity.byNextMotion * Ad.inverse());
+    if (earlier_ && has(Kind::Pose, earlier_->frame))
+    {
+        addMotion(earlier_->frame, previous_, velocity.byPreviousMotion * earlier_->Ad.inverse());
+    }
+    const Eigen::Index row = find(Kind::Velocity, previous_);
+    const Eigen::MatrixXd cross = A * cov_;
+    const Matrix6d own = cross * A.transpose();
+    cov_.middleRows<kSize>(row) = cross;
+    cov_.middleCols<kSize>(row) = cross.transpose();
+    cov_.block<kSize, kSize>(row, row) = 0.5 * (own + own.transpose());
 }
 
 /** Of a new frame, and of places that were recalled. */
@@ -232,7 +274,10 @@ void JointCovariance::addView(
             known.push_back(k);
         }
     }
-    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(kSize, cov_.cols());
+    const Block block{kind, frames[added]};
+    const Eigen::Index size = block.size();
+    const auto I = Eigen::MatrixXd::Identity(size, size);
+    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(size, cov_.cols());
     double isNew = 1;
     if (!known.empty())
     {
@@ -240,12 +285,12 @@ void JointCovariance::addView(
         const Eigen::VectorXd weights = C(known, known).ldlt().solve(shared);
         for (std::size_t k = 0; k < known.size(); ++k)
         {
-            A.middleCols<kSize>(find(kind, frames[known[k]])) =
-                weights[static_cast<Eigen::Index>(k)] * Matrix6d::Identity();
+            A.middleCols(find(kind, frames[known[k]]), size) =
+                weights[static_cast<Eigen::Index>(k)] * I;
         }
         isNew = std::max(0.0, 1 - weights.dot(shared));
     }
-    prepend({{kind, frames[added]}}, A, isNew * Matrix6d::Identity());
+    prepend({block}, A, isNew * I);
 }
 
 void JointCovariance::keep(const std::vector<int>& references, const std::vector<int>& poses)
@@ -263,6 +308,10 @@ void JointCovariance::keep(const std::vector<int>& references, const std::vector
         {
             isWanted = numPoses++ <= params_.history || frame == previous_ || isReference ||
                        contains(poses, frame);
+        }
+        else if (kind == Kind::Velocity)
+        {
+            isWanted = isReference || frame == previous_;
         }
         else if (kind == Kind::View || kind == Kind::PlaneView || kind == Kind::Bend)
         {

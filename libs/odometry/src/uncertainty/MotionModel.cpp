@@ -21,6 +21,10 @@ constexpr double kPush = 0.05;
  * as large; but where they shake, what lies between two increments errs, too. */
 constexpr double kWander = 0.01;
 
+/** By so much the velocity changes in a second before that is learnt [m/s, rad/s]: as hands move
+ * a Kinect (0.3 to 0.4 m/s, 0.9 to 1.2 rad/s), and somewhat more. */
+constexpr double kFirstChange = 0.45, kFirstTurn = 3.35;
+
 /** Times that one step may be as long as the next, where they tell an acceleration. */
 constexpr double kUnequal = 8;
 
@@ -101,7 +105,7 @@ void MotionModel::follow(const Eigen::Isometry3d& T_prev_cur, double dt)
     decayed_.setZero();
 }
 
-Vector6d MotionModel::update(const MotionGaussian& measured, double dt)
+MotionModel::Smoothed MotionModel::update(const MotionGaussian& measured, double dt)
 {
     const double t = std::min(dt, kLongestStep);
     const MotionGaussian predicted = predictFromEstimate(t);
@@ -113,7 +117,12 @@ Vector6d MotionModel::update(const MotionGaussian& measured, double dt)
     // Rauch-Tung-Striebel: covariance of the predicted motion with the velocity before it.
     Matrix126d covWithStart = cov_.rightCols<6>();
     covWithStart.topRows<6>() += t * cov_.bottomRightCorner<6, 6>();
-    const Vector6d smoothed = velocity_ + covWithStart.transpose() * solver.solve(innovation);
+    const Eigen::Matrix<double, 6, 12> smoother = solver.solve(covWithStart).transpose();
+    Smoothed out;
+    out.velocity = velocity_ + smoother * innovation;
+    out.byNextMotion = smoother.leftCols<6>();
+    out.byNextVelocity = smoother.rightCols<6>();
+    out.byVelocity -= t * out.byNextMotion + out.byNextVelocity;
 
     // And with the change of velocity on the way.
     const Matrix6d Q = density_.asDiagonal();
@@ -134,7 +143,7 @@ Vector6d MotionModel::update(const MotionGaussian& measured, double dt)
     const Increment increment{
         se3Log(measured.mean.T_prev_cur) / t, t, measured.cov.diagonal().head<6>()};
     learnAcceleration(increment);
-    const Vector6d out = betweenIncrements(increment, smoothed);
+    betweenIncrements(increment, out);
     atIncrementsEnd_.reset();
     if (increment_ && increment_->dt + t < 4 * kPush)
     {
@@ -175,27 +184,34 @@ void MotionModel::followIncrements()
 /** Velocity between the latest increment and this one, by constant acceleration. Weighed with the
  * smoothed one by their variances, unless the increments are too long for that or the camera
  * has jerked. */
-Vector6d MotionModel::betweenIncrements(const Increment& next, const Vector6d& smoothed) const
+void MotionModel::betweenIncrements(const Increment& next, Smoothed& smoothed) const
 {
     if (!increment_ || increment_->dt + next.dt > 4 * kPush)
     {
-        return smoothed;
+        return;
     }
     const Increment& last = *increment_;
     const double dt = last.dt + next.dt;
     const Vector6d between = (next.dt * last.velocity + last.dt * next.velocity) / dt;
-    const Vector6d apart = between - smoothed;
+    const Vector6d apart = between - smoothed.velocity;
     if (apart.head<3>().norm() > next.dt * params_.sigmaAcceleration ||
         apart.tail<3>().norm() > next.dt * params_.sigmaAngularAcceleration)
     {
-        return smoothed;
+        return;
     }
     const double ratio = next.dt / last.dt;
     const Vector6d variances =
         (ratio * ratio * last.variance + next.variance / (ratio * ratio)) / (dt * dt);
     const Vector6d wander = Vector6d::Constant(kWander * kWander);
     const Vector6d noise = perAxis(variances.head<3>().mean(), variances.tail<3>().mean());
-    return smoothed + wander.cwiseQuotient(wander + noise).cwiseProduct(apart);
+    const Vector6d share = wander.cwiseQuotient(wander + noise);
+    smoothed.velocity += share.cwiseProduct(apart);
+    const Matrix6d kept = (Vector6d::Ones() - share).asDiagonal();
+    smoothed.byVelocity = (kept * smoothed.byVelocity).eval();
+    smoothed.byNextVelocity = (kept * smoothed.byNextVelocity).eval();
+    smoothed.byNextMotion = (kept * smoothed.byNextMotion).eval();
+    smoothed.byNextMotion.diagonal() += share / (ratio * dt);
+    smoothed.byPreviousMotion = (share * (ratio / dt)).asDiagonal();
 }
 
 /** One step of expectation maximisation, averaged over time. */
@@ -252,7 +268,7 @@ void MotionModel::reset()
     const Vector6d velocity = kPush * sudden();
     cov_.setZero();
     cov_.bottomRightCorner<6, 6>() = velocity.cwiseAbs2().asDiagonal();
-    density_ = (velocity.cwiseAbs2() / kPush).cwiseMax(smallestDensity());
+    density_ = perAxis(kFirstChange, kFirstTurn).cwiseAbs2().cwiseMax(smallestDensity());
     measuredCov_.setZero();
 }
 }  // namespace pointplane

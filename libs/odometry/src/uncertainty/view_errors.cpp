@@ -39,11 +39,15 @@ double planeViewCorrelation(const Eigen::Isometry3d& motion, double time)
     return viewCorrelation(motion, time) * std::exp(-angle / kPlaneAngle);
 }
 
-Vector6d viewSigma(double sigma, const Matrix6d& information)
+Vector12d viewSigma(double sigma, const Matrix6d& information, double readout)
 {
-    Vector6d out;
-    out << Eigen::Vector3d::Constant(sigma * distanceOf(information)),
+    Vector6d ofPose;
+    ofPose << Eigen::Vector3d::Constant(sigma * distanceOf(information)),
         Eigen::Vector3d::Constant(sigma);
+    // Standard deviation of when rows are exposed, all rows alike.
+    const double spread = std::abs(readout) / std::sqrt(12.0);
+    Vector12d out;
+    out << ofPose, (spread > 0 ? 1 / spread : 0.0) * ofPose;
     return out;
 }
 }  // namespace pointplane

@@ -38,8 +38,6 @@ class PairBuilder
         std::vector<PointPair>& points,
         std::vector<PlanePair>& planes) const;
 
-    /** Orientation of the previous frame. */
-
  private:
     const Reference& previous_;
     const Features& current_;

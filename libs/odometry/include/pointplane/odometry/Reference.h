@@ -30,8 +30,9 @@ struct Reference
     int id{0};        //!< number of the frame
     double stamp{0};  //!< [s]
     Eigen::Isometry3d T_world_cam{Eigen::Isometry3d::Identity()};
-    Vector6d velocity{Vector6d::Zero()};  //!< body velocity at stamp [m/s, rad/s]
-    ShutterModel shutter;                 //!< as far as the source knows it
+    /** Body velocity at stamp [m/s, rad/s]. Unknown: as that of the frame it is compared with. */
+    std::optional<Vector6d> velocity;
+    ShutterModel shutter;  //!< as far as the source knows it
     PlaneSet planes;
     std::vector<InlierRatio> surfaces;       //!< of the planes' points so far; empty: not known
     PointReference points;                   //!< empty for a frame that is not a key frame

@@ -23,10 +23,11 @@ struct Disagreement
  * rad/s. */
 struct Sensitivity
 {
-    /** Change with the pose of each reference frame (left perturbation in the previous frame). */
-    std::map<int, Matrix126d> references;
+    /** Change with the pose of each reference frame (left perturbation in the previous frame) and
+     * with its body velocity, by which its features were moved (rolling shutter). */
+    std::map<int, Matrix12d> references;
     /** The part of that by points, for the references that have some. */
-    std::map<int, Matrix126d> referencePoints;
+    std::map<int, Matrix12d> referencePoints;
     /** Change if all points, or all planes, of the current frame moved (left perturbation in the
      * previous frame). */
     Matrix126d pointsMoved{Matrix126d::Zero()}, planesMoved{Matrix126d::Zero()};

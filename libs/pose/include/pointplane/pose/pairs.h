@@ -39,6 +39,7 @@ struct PointPair
     PointGaussian ref;                        //!< from a reference frame, in the previous frame [m]
     PointGaussian cur;                        //!< in the current camera, were it at rest [m]
     Matrix36d dCur_dV{Matrix36d::Zero()};     //!< rolling shutter: cur is at cur.mean + dCur_dV V
+    Matrix36d dRef_dV{Matrix36d::Zero()};     //!< error of ref with that of its frame's velocity
     ByCamera dRef_dCamera{ByCamera::Zero()};  //!< error of ref with those of the camera [m]
     ByCamera dCur_dCamera{ByCamera::Zero()};  //!< of cur, likewise
     int reference{0};                         //!< which of the frames that cur is compared with
@@ -57,6 +58,7 @@ struct PlanePair
     PlaneGaussian ref;                        //!< from a reference frame, in the previous frame
     PlaneGaussian cur;                        //!< in the current camera, were it at rest
     Matrix36d dCur_dV{Matrix36d::Zero()};     //!< rolling shutter: cur is at theta_m + dCur_dV V
+    Matrix36d dRef_dV{Matrix36d::Zero()};     //!< error of ref with that of its frame's velocity
     ByCamera dRef_dCamera{ByCamera::Zero()};  //!< error of ref with those of the camera [1/m]
     ByCamera dCur_dCamera{ByCamera::Zero()};  //!< of cur, likewise
     int reference{0};                         //!< which of the frames that cur is compared with

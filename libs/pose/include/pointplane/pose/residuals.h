@@ -17,6 +17,7 @@ struct Residual
     Matrix36d J;                          //!< dr / dxi
     Matrix36d J_V;                        //!< dr / dV
     ByCamera ofCamera{ByCamera::Zero()};  //!< change with errors of the camera
+    Matrix36d ofReferenceVelocity{Matrix36d::Zero()};  //!< with that of the reference's velocity
 };
 
 /** r = P' - (R P + t) [P17 Eq. 8]: P' in the previous frame, P in the current camera [m]. */

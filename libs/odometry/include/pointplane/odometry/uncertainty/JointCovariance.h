@@ -3,9 +3,11 @@
 
 #include <pointplane/core/Parameters.h>
 #include <pointplane/core/types.h>
+#include <pointplane/odometry/uncertainty/MotionModel.h>
 #include <pointplane/pose/pairs.h>
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -101,18 +103,19 @@ class JointCovariance
      * frame depend on. */
     struct Measurement
     {
-        std::map<int, Matrix126d> references;       //!< by id: change with a reference's pose
-        std::map<int, Matrix126d> referencePoints;  //!< likewise with where its points see it
-        Matrix12d prior{Matrix12d::Zero()};         //!< change with that of the predicted motion
-        Matrix12d noise{Matrix12d::Zero()};         //!< of the frame's own features
+        std::map<int, Matrix12d> references;  //!< by id: change with a reference's pose, velocity
+        std::map<int, Matrix12d> referencePoints;  //!< likewise with what its points say of these
+        Matrix12d prior{Matrix12d::Zero()};        //!< change with that of the predicted motion
+        Matrix12d noise{Matrix12d::Zero()};        //!< of the frame's own features
         Matrix12d priorNoise{Matrix12d::Zero()};  //!< of the predicted motion, without the velocity
         MotionByCamera camera{MotionByCamera::Zero()};  //!< change with errors of the camera
-        Vector6d viewSigma{Vector6d::Zero()};           //!< of errors by the view (viewSigma())
+        Vector12d viewSigma{Vector12d::Zero()};         //!< of errors by the view (viewSigma())
         Matrix6d planeViewRoot{Matrix6d::Zero()};  //!< those of the planes are this * unit noise
         Views views;
         double bendVariance{0};  //!< of the scale of depth in each patch of an image
-        MotionByPatches patches{MotionByPatches::Zero()};   //!< change with that of this image
-        std::map<int, MotionByPatches> referencePatches;    //!< with that of the references
+        MotionByPatches patches{MotionByPatches::Zero()};       //!< change with that of this image
+        std::map<int, MotionByPatches> referencePatches;        //!< with that of the references
+        std::optional<MotionModel::Smoothed> previousVelocity;  //!< of the previous frame, now
         CameraMatrix cameraGain{CameraMatrix::Identity()};  //!< the camera's errors after the frame
         CameraMatrix cameraNoise{CameraMatrix::Zero()};     //!< are gain * before + noise
     };
@@ -186,11 +189,15 @@ class JointCovariance
         int frame;
         [[nodiscard]] Eigen::Index size() const
         {
-            return kind == Kind::Camera ? kNumCameraErrors : kind == Kind::Bend ? kNumPatches : 6;
+            return kind == Kind::Camera ? kNumCameraErrors
+                   : kind == Kind::Bend ? kNumPatches
+                   : kind == Kind::View ? 12
+                                        : 6;
         }
     };
 
     void dropCoasting(int kept = 0);
+    void smooth(int frame, const Matrix6d& Ad, const MotionModel::Smoothed& velocity);
     [[nodiscard]] Eigen::Index newest() const;
     [[nodiscard]] bool has(Kind kind, int frame) const;
     [[nodiscard]] Eigen::Index find(Kind kind, int frame) const;
@@ -210,5 +217,12 @@ class JointCovariance
     std::vector<Block> blocks_;  //!< poses newest first
     Eigen::MatrixXd cov_;        //!< of the blocks in this order
     int previous_{0};
+    /** The measured frame before that, and the adjoint of its pose. */
+    struct Earlier
+    {
+        int frame;
+        Matrix6d Ad;
+    };
+    std::optional<Earlier> earlier_;
 };
 }  // namespace pointplane

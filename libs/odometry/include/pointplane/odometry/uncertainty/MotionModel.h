@@ -15,6 +15,17 @@ namespace pointplane
 class MotionModel
 {
  public:
+    /** Velocity of a frame, now that the next one is known, and how it errs with what it was made
+     * from. */
+    struct Smoothed
+    {
+        Vector6d velocity{Vector6d::Zero()};
+        Matrix6d byVelocity{Matrix6d::Identity()};    //!< what was taken for the velocity before
+        Matrix6d byNextVelocity{Matrix6d::Zero()};    //!< velocity of the next frame
+        Matrix6d byNextMotion{Matrix6d::Zero()};      //!< motion to the next frame
+        Matrix6d byPreviousMotion{Matrix6d::Zero()};  //!< motion from the frame before
+    };
+
     struct TParams
     {
         double decay{0.9};
@@ -94,7 +105,7 @@ class MotionModel
      * their variances, because they err for different reasons. The smoother's (Rauch-Tung-Striebel)
      * goes by the rows of the shutter, which tell only how velocities differ from those of the
      * references, and wanders with these. That of the increments before and after misses jerks. */
-    Vector6d update(const MotionGaussian& measured, double dt);
+    Smoothed update(const MotionGaussian& measured, double dt);
 
     /** Moves the velocity half way to what the latest two increments say of it, by constant
      * acceleration. For odometry from frame to frame: the next frame measures its velocity against
@@ -135,7 +146,7 @@ class MotionModel
         Vector6d variance;  //!< of the pose at its end
     };
     void learnAcceleration(const Increment& next);
-    [[nodiscard]] Vector6d betweenIncrements(const Increment& next, const Vector6d& smoothed) const;
+    void betweenIncrements(const Increment& next, Smoothed& smoothed) const;
 
     TParams params_;
     Vector6d velocity_;

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/se3.h>
+#include <pointplane/odometry/PairBuilder.h>
+#include <pointplane/odometry/ShutterCorrection.h>
+#include <pointplane/odometry/uncertainty/CameraCalibrator.h>
+
+#include <vector>
+
+#include "matchers.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace pointplane
+{
+namespace
+{
+/** A camera with a rolling shutter has seen a point and a plane twice. */
+class PairBuilderTest : public testing::Test
+{
+ protected:
+    PairBuilderTest() : calibrator({}, {})
+    {
+        PinholeCamera& camera = current.frame.camera;
+        camera.width = 640;
+        camera.height = 480;
+        camera.fx = camera.fy = 525;
+        camera.cx = 319.5;
+        camera.cy = 239.5;
+        calibrator.start(camera);
+        current.frame.shutter = reference.shutter = {0.03, 0.03, 0};
+        PointFeature point;
+        point.uv_px = {400, 100};
+        point.p_cam.mean << 0.3, -0.5, 2;
+        point.p_cam.cov = 1e-4 * Eigen::Matrix3d::Identity();
+        point.theta_m << 0, 0, -0.5;
+        reference.points.points.push_back(point);
+        PlaneFeature plane;
+        plane.plane_cam = {{0.1, 0.2, -0.5}, 1e-4 * Eigen::Matrix3d::Identity()};
+        plane.rowLever = 0.1 * Eigen::Matrix3d::Identity();
+        reference.planes.planes.push_back(plane);
+        current.planes.planes.push_back(plane);
+        PointTrack track;
+        track.cur = point;
+        association.points.push_back(track);
+        association.planes.push_back({0, 0});
+        association.reference = &reference;
+    }
+
+    void build()
+    {
+        PairBuilder(previous, current, calibrator).build({association}, points, planes);
+    }
+
+    Reference previous, reference;
+    Features current;
+    CameraCalibrator calibrator;
+    Association association;
+    std::vector<PointPair> points;
+    std::vector<PlanePair> planes;
+};
+}  // namespace
+
+TEST_F(PairBuilderTest, movesTheReferenceByItsVelocity)
+{
+    Vector6d velocity;
+    velocity << 0.4, -0.3, 0.25, 0.6, 0.8, -0.5;
+    reference.velocity = velocity;
+    build();
+    const ShutterCorrection shutter(reference.shutter, 480);
+    const PointFeature& point = reference.points.points.front();
+    const PlaneFeature& plane = reference.planes.planes.front();
+    EXPECT_THAT(points.front().dRef_dV, test::IsMatrixNear(shutter.pointJacobian(point), 1e-12));
+    EXPECT_THAT(
+        points.front().ref.mean,
+        test::IsMatrixNear(
+            Eigen::Vector3d(point.p_cam.mean + shutter.pointJacobian(point) * velocity), 1e-12));
+    EXPECT_THAT(points.front().dCur_dV, test::IsMatrixNear(shutter.pointJacobian(point), 1e-12));
+    EXPECT_THAT(
+        planes.front().ref.theta_m,
+        test::IsMatrixNear(
+            Eigen::Vector3d(plane.plane_cam.theta_m + shutter.planeJacobian(plane) * velocity),
+            1e-12));
+    EXPECT_THAT(planes.front().dCur_dV, test::IsMatrixNear(shutter.planeJacobian(plane), 1e-12));
+}
+
+/** By finite differences: of where the reference is, in the previous frame. */
+TEST_F(PairBuilderTest, knowsHowTheReferenceChangesWithItsVelocity)
+{
+    reference.T_world_cam = se3Exp((Vector6d() << 0.1, 0, -0.2, 0.3, 0.1, 0.2).finished());
+    reference.velocity = Vector6d::Zero();
+    build();
+    const PointPair point = points.front();
+    const PlanePair plane = planes.front();
+    constexpr double kStep = 1e-5;
+    for (int axis = 0; axis < 6; ++axis)
+    {
+        reference.velocity = kStep * Vector6d::Unit(axis);
+        build();
+        const Eigen::Vector3d ofPoint = (points.front().ref.mean - point.ref.mean) / kStep;
+        const Eigen::Vector3d ofPlane = (planes.front().ref.theta_m - plane.ref.theta_m) / kStep;
+        EXPECT_THAT(ofPoint, test::IsMatrixNear(Eigen::Vector3d(point.dRef_dV.col(axis)), 1e-6));
+        EXPECT_THAT(ofPlane, test::IsMatrixNear(Eigen::Vector3d(plane.dRef_dV.col(axis)), 1e-6));
+    }
+}
+
+/** Two images of a camera that moves on as before, in the same rows: they do not show how fast. To
+ * take an unknown velocity for none would say that the camera has just started. */
+TEST_F(PairBuilderTest, aReferenceOfUnknownVelocityWasAsFastAsTheFrame)
+{
+    build();
+    EXPECT_TRUE(points.front().dCur_dV.isZero(1e-15));
+    EXPECT_TRUE(planes.front().dCur_dV.isZero(1e-15));
+    EXPECT_EQ(points.front().ref.mean, reference.points.points.front().p_cam.mean);
+}
+
+/** Nor do they show how long the shutter takes. */
+TEST_F(PairBuilderTest, thenTheShutterIsNotLearntEither)
+{
+    current.frame.shutter = reference.shutter = ShutterModel{};
+    Motion motion;
+    motion.velocity << 0.4, -0.3, 0.25, 0.6, 0.8, -0.5;
+    const auto byShutter = [&]() -> Eigen::Matrix3d
+    {
+        build();
+        PairBuilder(previous, current, calibrator)
+            .addCameraErrors({association}, motion, points, planes);
+        return (points.front().dRef_dCamera - points.front().dCur_dCamera).rightCols<3>();
+    };
+    EXPECT_TRUE(byShutter().isZero(1e-12));
+    reference.velocity = Vector6d::Zero();
+    EXPECT_FALSE(byShutter().isZero(1e-3));
+}
+}  // namespace pointplane
