@@ -15,19 +15,20 @@ namespace pointplane
 {
 /** Where errors of a measured pose come from, and how large they are. To first order
  *
- *     x = sum_r (K_r (X_r + z - z_r) + P_r (v - v_r) + C_r s_r) + C s + K_0 (predicted motion) + B
- * k + e
+ *     x = sum_r (K_r X_r + P_r (v - v_r) + Z_r (z - z_r) + C_r s_r) + C s + K_0 (predicted motion)
+ *         + B k + e
  *
  * x is the error of pose and velocity; K_r, P_r (by points), K_0 and B are how the solution follows
  * each term (Sensitivity in PoseAnalysis). The terms:
  *
- * - X_r: error of the pose of reference r.
+ * - X_r: errors of pose and velocity of reference r. A rolling shutter has moved its features by
+ * the velocity.
  * - v, v_r: what all points of this frame, and of reference r, err by together, because depth,
  *   lens and scene are not quite what they are modelled as. A Gaussian field over views:
  *   view_errors. Its size follows the residuals of points: NoiseScale.
  * - z, z_r: what the planes of this frame, and of reference r, err by, because they are bent and
- * cut out as the view is. A field like v; it moves the pose as the noise of planes does. Its size
- * is learnt from how residuals grow between unlike views: PlaneErrors.
+ *   cut out as the view is. A field like v; it moves the pose as the noise of planes does. Its size
+ *   is learnt from how residuals grow between unlike views: PlaneErrors.
  * - s, s_r: smooth error of the depth images, by which neighbouring points err together: a scale of
  *   depth in each patch, new in each image. None with structured light.
  * - Predicted motion: the previous pose and velocity, and white acceleration: MotionModel, which

@@ -9,8 +9,6 @@
 #include <Eigen/Cholesky>
 
 #include <algorithm>
-#include <stdexcept>
-#include <string>
 #include <utility>
 
 namespace pointplane
@@ -42,18 +40,17 @@ JointCovariance::JointCovariance(const TParams& params) : params_(params) { para
 
 void JointCovariance::start(int frame, const Matrix6d& cov)
 {
-    blocks_ = {{Kind::Pose, frame}, {Kind::Velocity, frame}, {Kind::Camera, 0}};
-    cov_ = Eigen::MatrixXd::Zero(2 * kSize + kNumCameraErrors, 2 * kSize + kNumCameraErrors);
-    cov_.topLeftCorner<kSize, kSize>() = cov;
+    constexpr Eigen::Index size = 2 * kSize + kNumCameraErrors;
+    Eigen::MatrixXd all = Eigen::MatrixXd::Zero(size, size);
+    all.topLeftCorner<kSize, kSize>() = cov;
+    errors_.start({{Kind::Pose, frame}, {Kind::Velocity, frame}, {Kind::Camera, 0}}, all);
+    previous_ = frame;
     restart(frame);
 }
 
 void JointCovariance::changeCamera(const CameraMatrix& cov)
 {
-    const Eigen::Index at = find(Kind::Camera, 0);
-    cov_.middleRows<kNumCameraErrors>(at).setZero();
-    cov_.middleCols<kNumCameraErrors>(at).setZero();
-    cov_.block<kNumCameraErrors, kNumCameraErrors>(at, at) = cov;
+    errors_.makeIndependent(Kind::Camera, 0, cov);
 }
 
 void JointCovariance::predict(
@@ -63,47 +60,35 @@ void JointCovariance::predict(
     if (!isCoasting)
     {
         dropCoasting();
-        prepend(
-            {{Kind::Coasting, 0}}, Eigen::MatrixXd::Zero(kSize, cov_.cols()), prediction.velocity);
+        errors_.prepend(
+            {{Kind::Coasting, 0}},
+            Eigen::MatrixXd::Zero(kSize, errors_.size()),
+            prediction.velocity);
     }
     const Matrix6d Ad = adjoint(T_world_latest);
     const Eigen::Index velocity = find(Kind::Coasting, 0);
-    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * kSize, cov_.cols());
+    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * kSize, errors_.size());
     A.block<kSize, kSize>(0, newest()).setIdentity();
     A.block<kSize, kSize>(0, velocity) = prediction.dt * Ad;
     A.block<kSize, kSize>(kSize, velocity).setIdentity();
     Eigen::MatrixXd Q = Eigen::MatrixXd::Zero(2 * kSize, 2 * kSize);
     Q.topLeftCorner<kSize, kSize>() = propagate(Ad, prediction.motion);
     Q.bottomRightCorner<kSize, kSize>() = prediction.velocityGain.asDiagonal();
-    prepend({{Kind::Pose, frame}, {Kind::Coasting, 0}}, A, Q);
+    errors_.prepend({{Kind::Pose, frame}, {Kind::Coasting, 0}}, A, Q);
     dropCoasting(1);
 }
 
 /** All but the first `kept` of the velocities since the latest measured frame. */
 void JointCovariance::dropCoasting(int kept)
 {
-    std::vector<std::size_t> others;
-    for (std::size_t k = 0; k < blocks_.size(); ++k)
-    {
-        if (blocks_[k].kind != Kind::Coasting || kept-- > 0)
-        {
-            others.push_back(k);
-        }
-    }
-    select(others);
+    errors_.keepIf([&](const Block& block) { return block.kind != Kind::Coasting || kept-- > 0; });
 }
 
 void JointCovariance::restart(int frame, const std::vector<int>& poses)
 {
     std::vector<int> kept = poses;
     kept.push_back(frame);
-    for (Block& block : blocks_)
-    {
-        if (block.kind == Kind::Velocity && block.frame == previous_)
-        {
-            block.frame = frame;
-        }
-    }
+    errors_.rename(Kind::Velocity, previous_, frame);
     previous_ = frame;
     earlier_.reset();
     keep({}, kept);
@@ -116,7 +101,7 @@ Eigen::MatrixXd JointCovariance::dependence(
     int frame, const Matrix6d& Ad, double dt, const Measurement& measurement) const
 {
     const Matrix6d Ad_inverse = Ad.inverse();
-    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * kSize, cov_.cols());
+    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * kSize, errors_.size());
     const auto addView = [&](Kind kind, int reference, const Eigen::MatrixXd& change)
     {
         A.middleCols(find(kind, reference), change.cols()) -= change;
@@ -167,7 +152,7 @@ void JointCovariance::measure(
     // Pose and velocity, camera, and the smooth error of the depth image, if there is one.
     constexpr Eigen::Index camera = 2 * kSize, bend = camera + kNumCameraErrors;
     const Eigen::Index size = bend + (measurement.bendVariance > 0 ? kNumPatches : 0);
-    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(size, cov_.cols());
+    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(size, errors_.size());
     A.topRows<2 * kSize>() = dependence(frame, Ad, dt, measurement);
     A.block<kNumCameraErrors, kNumCameraErrors>(camera, find(Kind::Camera, 0)) =
         measurement.cameraGain;
@@ -186,17 +171,11 @@ void JointCovariance::measure(
         ofBend.bottomRows<kNumPatches>().setIdentity();
         Q += measurement.bendVariance * ofBend * ofBend.transpose();
     }
-    prepend(added, A, Q);
-    std::vector<std::size_t> kept;
-    for (std::size_t k = 0; k < blocks_.size(); ++k)
-    {
-        const Kind kind = blocks_[k].kind;
-        if (k < added.size() || kind != Kind::Camera)
-        {
-            kept.push_back(k);
-        }
-    }
-    select(kept);
+    errors_.prepend(added, A, Q);
+    // The camera's errors after the frame take the place of those before.
+    int numCameras = 0;
+    errors_.keepIf([&](const Block& block)
+                   { return block.kind != Kind::Camera || numCameras++ == 0; });
     if (measurement.previousVelocity)
     {
         smooth(frame, Ad, *measurement.previousVelocity);
@@ -210,7 +189,7 @@ void JointCovariance::measure(
  * the pose of the previous one */
 void JointCovariance::smooth(int frame, const Matrix6d& Ad, const MotionModel::Smoothed& velocity)
 {
-    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(kSize, cov_.cols());
+    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(kSize, errors_.size());
     A.middleCols<kSize>(find(Kind::Velocity, previous_)) = velocity.byVelocity;
     A.middleCols<kSize>(find(Kind::Velocity, frame)) = velocity.byNextVelocity;
     const auto addMotion = [&](int from, int to, const Matrix6d& change)
@@ -223,12 +202,7 @@ void JointCovariance::smooth(int frame, const Matrix6d& Ad, const MotionModel::S
     {
         addMotion(earlier_->frame, previous_, velocity.byPreviousMotion * earlier_->Ad.inverse());
     }
-    const Eigen::Index row = find(Kind::Velocity, previous_);
-    const Eigen::MatrixXd cross = A * cov_;
-    const Matrix6d own = cross * A.transpose();
-    cov_.middleRows<kSize>(row) = cross;
-    cov_.middleCols<kSize>(row) = cross.transpose();
-    cov_.block<kSize, kSize>(row, row) = 0.5 * (own + own.transpose());
+    errors_.replace(Kind::Velocity, previous_, A);
 }
 
 /** Of a new frame, and of places that were recalled. */
@@ -253,9 +227,9 @@ void JointCovariance::addBends(const Measurement& measurement)
     {
         if (!has(Kind::Bend, frame))
         {
-            prepend(
+            errors_.prepend(
                 {{Kind::Bend, frame}},
-                Eigen::MatrixXd::Zero(kNumPatches, cov_.cols()),
+                Eigen::MatrixXd::Zero(kNumPatches, errors_.size()),
                 measurement.bendVariance * Eigen::MatrixXd::Identity(kNumPatches, kNumPatches));
         }
     }
@@ -277,7 +251,7 @@ void JointCovariance::addView(
     const Block block{kind, frames[added]};
     const Eigen::Index size = block.size();
     const auto I = Eigen::MatrixXd::Identity(size, size);
-    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(size, cov_.cols());
+    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(size, errors_.size());
     double isNew = 1;
     if (!known.empty())
     {
@@ -290,39 +264,33 @@ void JointCovariance::addView(
         }
         isNew = std::max(0.0, 1 - weights.dot(shared));
     }
-    prepend({block}, A, isNew * I);
+    errors_.prepend({block}, A, isNew * I);
 }
 
 void JointCovariance::keep(const std::vector<int>& references, const std::vector<int>& poses)
 {
     const auto contains = [](const std::vector<int>& frames, int frame)
     { return std::count(frames.begin(), frames.end(), frame) > 0; };
-    std::vector<std::size_t> kept;
     int numPoses = 0;
-    for (std::size_t k = 0; k < blocks_.size(); ++k)
-    {
-        const auto& [kind, frame] = blocks_[k];
-        const bool isReference = contains(references, frame);
-        bool isWanted = true;
-        if (kind == Kind::Pose)
+    errors_.keepIf(
+        [&](const Block& block)
         {
-            isWanted = numPoses++ <= params_.history || frame == previous_ || isReference ||
-                       contains(poses, frame);
-        }
-        else if (kind == Kind::Velocity)
-        {
-            isWanted = isReference || frame == previous_;
-        }
-        else if (kind == Kind::View || kind == Kind::PlaneView || kind == Kind::Bend)
-        {
-            isWanted = isReference;
-        }
-        if (isWanted)
-        {
-            kept.push_back(k);
-        }
-    }
-    select(kept);
+            const bool isReference = contains(references, block.frame);
+            switch (block.kind)
+            {
+                case Kind::Pose:
+                    return numPoses++ <= params_.history || block.frame == previous_ ||
+                           isReference || contains(poses, block.frame);
+                case Kind::Velocity:
+                    return isReference || block.frame == previous_;
+                case Kind::View:
+                case Kind::PlaneView:
+                case Kind::Bend:
+                    return isReference;
+                default:
+                    return true;
+            }
+        });
 }
 
 Matrix6d JointCovariance::latest() const { return at(newest(), newest()); }
@@ -336,78 +304,17 @@ Matrix6d JointCovariance::relative(int from, const Eigen::Isometry3d& T_world_fr
         adjoint(T_world_from.inverse()), (at(n, n) - at(n, k) - at(k, n) + at(k, k)).eval());
 }
 
-bool JointCovariance::has(Kind kind, int frame) const
-{
-    return std::any_of(
-        blocks_.begin(),
-        blocks_.end(),
-        [&](const Block& b) { return b.kind == kind && b.frame == frame; });
-}
-
 /** First row of the latest pose. */
 Eigen::Index JointCovariance::newest() const
 {
+    const auto& blocks = errors_.blocks();
     const auto it = std::find_if(
-        blocks_.begin(), blocks_.end(), [](const Block& b) { return b.kind == Kind::Pose; });
+        blocks.begin(), blocks.end(), [](const Block& b) { return b.kind == Kind::Pose; });
     return find(Kind::Pose, it->frame);
-}
-
-/** First row of the first such block. */
-Eigen::Index JointCovariance::find(Kind kind, int frame) const
-{
-    Eigen::Index row = 0;
-    for (const Block& block : blocks_)
-    {
-        if (block.kind == kind && block.frame == frame)
-        {
-            return row;
-        }
-        row += block.size();
-    }
-    throw std::invalid_argument("frame " + std::to_string(frame) + " is not in the window");
 }
 
 Matrix6d JointCovariance::at(Eigen::Index row, Eigen::Index column) const
 {
-    return cov_.block<kSize, kSize>(row, column);
-}
-
-/** Adds blocks whose errors are A times those of the others plus noise of covariance Q. */
-void JointCovariance::prepend(
-    const std::vector<Block>& blocks, const Eigen::MatrixXd& A, const Eigen::MatrixXd& Q)
-{
-    const Eigen::Index n = cov_.rows(), m = A.rows();
-    Eigen::MatrixXd out(m + n, m + n);
-    out.bottomRightCorner(n, n) = cov_;
-    out.topRightCorner(m, n) = A * cov_;
-    out.topLeftCorner(m, m) = out.topRightCorner(m, n) * A.transpose() + Q;
-    out.bottomLeftCorner(n, m) = out.topRightCorner(m, n).transpose();
-    cov_ = 0.5 * (out + out.transpose());
-    blocks_.insert(blocks_.begin(), blocks.begin(), blocks.end());
-}
-
-/** \param kept in ascending order */
-void JointCovariance::select(const std::vector<std::size_t>& kept)
-{
-    std::vector<Eigen::Index> rows;  // that are kept
-    Eigen::Index row = 0;
-    auto next = kept.begin();
-    std::vector<Block> blocks;
-    for (std::size_t k = 0; k < blocks_.size(); ++k)
-    {
-        const Eigen::Index end = row + blocks_[k].size();
-        if (next != kept.end() && *next == k)
-        {
-            ++next;
-            blocks.push_back(blocks_[k]);
-            for (Eigen::Index i = row; i < end; ++i)
-            {
-                rows.push_back(i);
-            }
-        }
-        row = end;
-    }
-    cov_ = cov_(rows, rows).eval();
-    blocks_ = std::move(blocks);
+    return errors_.cov().block<kSize, kSize>(row, column);
 }
 }  // namespace pointplane

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
 
 namespace pointplane
@@ -17,6 +18,9 @@ constexpr double kTime = 10;       // [s]
 
 /** A turn that moves planes to other parts of the image: a third of a Kinect's view. */
 constexpr double kPlaneAngle = 0.3;  // [rad]
+
+/** Faster rows [s] do not show how fast a camera is. */
+constexpr double kShortestReadout = 1e-3;
 
 /** How far away [m] the features are: where a rotation moves them as far as a translation of that
  * distance times the angle. */
@@ -45,9 +49,9 @@ Vector12d viewSigma(double sigma, const Matrix6d& information, double readout)
     ofPose << Eigen::Vector3d::Constant(sigma * distanceOf(information)),
         Eigen::Vector3d::Constant(sigma);
     // Standard deviation of when rows are exposed, all rows alike.
-    const double spread = std::abs(readout) / std::sqrt(12.0);
+    const double spread = std::max(std::abs(readout), kShortestReadout) / std::sqrt(12.0);
     Vector12d out;
-    out << ofPose, (spread > 0 ? 1 / spread : 0.0) * ofPose;
+    out << ofPose, ofPose / spread;
     return out;
 }
 }  // namespace pointplane

@@ -3,6 +3,7 @@
 
 #include <pointplane/core/Parameters.h>
 #include <pointplane/core/types.h>
+#include <pointplane/odometry/uncertainty/JointGaussian.h>
 #include <pointplane/odometry/uncertainty/MotionModel.h>
 #include <pointplane/pose/pairs.h>
 
@@ -173,34 +174,17 @@ class JointCovariance
     [[nodiscard]] Matrix6d relative(int from, const Eigen::Isometry3d& T_world_from) const;
 
  private:
-    enum class Kind
-    {
-        Pose,
-        Velocity,
-        Coasting,  //!< velocity since the latest measured frame
-        Camera,
-        Bend,      //!< of a reference: scale of depth in each patch of its image
-        View,      //!< of a reference: error by its view, in units of Measurement::viewSigma
-        PlaneView  //!< likewise of its planes, in those of Measurement::planeViewRoot
-    };
-    struct Block
-    {
-        Kind kind;
-        int frame;
-        [[nodiscard]] Eigen::Index size() const
-        {
-            return kind == Kind::Camera ? kNumCameraErrors
-                   : kind == Kind::Bend ? kNumPatches
-                   : kind == Kind::View ? 12
-                                        : 6;
-        }
-    };
+    using Kind = JointGaussian::Kind;
+    using Block = JointGaussian::Block;
 
     void dropCoasting(int kept = 0);
     void smooth(int frame, const Matrix6d& Ad, const MotionModel::Smoothed& velocity);
     [[nodiscard]] Eigen::Index newest() const;
-    [[nodiscard]] bool has(Kind kind, int frame) const;
-    [[nodiscard]] Eigen::Index find(Kind kind, int frame) const;
+    [[nodiscard]] bool has(Kind kind, int frame) const { return errors_.has(kind, frame); }
+    [[nodiscard]] Eigen::Index find(Kind kind, int frame) const
+    {
+        return errors_.find(kind, frame);
+    }
     [[nodiscard]] Matrix6d at(Eigen::Index row, Eigen::Index column) const;
     void addViews(
         int frame, Kind kind, const std::vector<int>& references, const Eigen::MatrixXd& C);
@@ -209,13 +193,9 @@ class JointCovariance
         Kind kind, const std::vector<int>& frames, std::size_t added, const Eigen::MatrixXd& C);
     [[nodiscard]] Eigen::MatrixXd dependence(
         int frame, const Matrix6d& Ad, double dt, const Measurement& measurement) const;
-    void prepend(
-        const std::vector<Block>& blocks, const Eigen::MatrixXd& A, const Eigen::MatrixXd& Q);
-    void select(const std::vector<std::size_t>& kept);
 
     TParams params_;
-    std::vector<Block> blocks_;  //!< poses newest first
-    Eigen::MatrixXd cov_;        //!< of the blocks in this order
+    JointGaussian errors_;  //!< poses newest first
     int previous_{0};
     /** The measured frame before that, and the adjoint of its pose. */
     struct Earlier

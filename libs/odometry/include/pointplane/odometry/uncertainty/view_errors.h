@@ -19,11 +19,14 @@ namespace pointplane
  * them into another part of the image. \return viewCorrelation() * exp(-angle / 0.3 rad) */
 [[nodiscard]] double planeViewCorrelation(const Eigen::Isometry3d& motion, double time);
 
-/** Standard deviation of that error, as an error of pose (left perturbation) and velocity [m, rad,
- * m/s, rad/s]: sigma D per axis of the translation and sigma per axis of the rotation, which moves
- * the features as far. D is their distance, which `information` tells. From row to row, features
- * err as differently as from frame to frame. Where rows are exposed one after the other, this looks
- * like a velocity. \param information of the pose by all features, J^T W J \param readout from the
- * first to the last row [s]; zero: no error of the velocity */
+/** Standard deviation of that error, as one of the pose (left perturbation) [m, rad]: sigma D per
+ * axis of the translation and sigma per axis of the rotation, which moves the features as far. D is
+ * their distance, which `information` tells.
+ *
+ * From row to row, features err as differently as from frame to frame. Where rows are exposed one
+ * after the other, this looks like a velocity: the last six components [m/s, rad/s].
+ *
+ * \param information of the pose by all features, J^T W J
+ * \param readout from the first to the last row [s]; at least 1 ms counts */
 [[nodiscard]] Vector12d viewSigma(double sigma, const Matrix6d& information, double readout);
 }  // namespace pointplane
