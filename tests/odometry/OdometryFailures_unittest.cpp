@@ -343,6 +343,38 @@ TEST(OdometryFailures, equalAndSlightlyBackwardStamps)
     expectLost(frame, "time stamp");
 }
 
+TEST(OdometryFailures, shuttersThatNoCameraHas)
+{
+    for (const double time : {1.5, -1e300, kInf})
+    {
+        RgbdFrame frame = good(kBad);
+        frame.shutter.readoutColour = time;
+        expectLost(frame, "shutter");
+        frame.shutter = {0.02, 0.02, time};
+        expectLost(frame, "shutter");
+    }
+}
+
+/** What was unknown meanwhile must not drown what is measured after it. */
+TEST(OdometryFailures, motionsAfterDaysAreAsCertainAsBefore)
+{
+    CheckedOdometry odometry;
+    const Matrix6d before = odometry.run(0, 3).increment.cov;
+    for (int i = 4; i < 8; ++i)
+    {
+        RgbdFrame frame = good(i);
+        frame.stamp += 1e6;
+        frame.depth = i == 4 ? cv::Mat(frame.depth.size(), CV_32FC1, kNaN) : frame.depth;
+        frame.gray = i == 4 ? cv::Mat::zeros(frame.gray.size(), CV_8UC1) : frame.gray;
+        const OdometryResult result = odometry.process(frame);
+        if (i > 5)
+        {
+            EXPECT_EQ(result.status, TrackingStatus::Tracked);
+            EXPECT_LT(result.increment.cov.trace(), 10 * before.trace()) << i;
+        }
+    }
+}
+
 TEST(OdometryFailures, clockSetBackByAnHour)
 {
     CheckedOdometry odometry;

@@ -14,6 +14,18 @@ bool sameCamera(const PinholeCamera& a, const PinholeCamera& b)
            a.cx == b.cx && a.cy == b.cy && a.distortion == b.distortion;
 }
 
+namespace
+{
+/** NaN: unknown. */
+bool isPlausible(const ShutterModel& shutter)
+{
+    constexpr double kLongest = 1;  // [s]
+    return !(std::abs(shutter.readoutColour) > kLongest) &&
+           !(std::abs(shutter.readoutDepth) > kLongest) &&
+           !(std::abs(shutter.depthDelay) > kLongest);
+}
+}  // namespace
+
 std::string problemOf(const RgbdFrame& frame)
 {
     if (std::string problem = frame.camera.problem(); !problem.empty())
@@ -25,6 +37,10 @@ std::string problemOf(const RgbdFrame& frame)
     if (!std::isfinite(frame.stamp))
     {
         out << "the time stamp is not finite";
+    }
+    else if (!isPlausible(frame.shutter))
+    {
+        out << "its shutter takes longer than a second";
     }
     else if (frame.depth.empty())
     {

@@ -67,8 +67,9 @@ class MotionModel
     /** Between frames whose stamps do not tell, and the time that `decay` is given for [s]. */
     static constexpr double kUsualStep = 1.0 / 30;
 
-    /** After a longer time [s] nothing more can become unknown. */
-    static constexpr double kLongestStep = 24 * 3600.0;
+    /** After a longer time [s] nothing more can become unknown: the camera may be 500 m away. With
+     * larger variances, those of later motions would be lost in rounding. */
+    static constexpr double kLongestStep = 10;
 
     /** \throws std::invalid_argument naming the key */
     explicit MotionModel(const TParams& params);
