@@ -66,8 +66,6 @@ TEST(OdometryRates, pointsBeyondTheSearchRadiusAreFound)
 {
     SimulationParams params;
     params.duration = 1;
-    // Rows that are exposed one after the other would show that the camera has not turned.
-    params.readoutColour = params.readoutDepth = params.depthDelay = 0;
     const SimulatedSequence sequence("desk", params, 1);
     Odometry odometry{OdometryParams()};
     OdometryResult last;

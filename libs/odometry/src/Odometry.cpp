@@ -258,7 +258,13 @@ void Odometry::Impl::measure(const Features& current, Alignment& alignment, Odom
         showNewPoints(reference.points, shown);
     }
     track.measure(
-        {std::move(reference), isKeyframe, motion, dt, measurement, alignment.associations});
+        {std::move(reference),
+         isKeyframe,
+         Judge::isSurprising(motion.mean.T_prev_cur, alignment.predicted.pose),
+         motion,
+         dt,
+         measurement,
+         alignment.associations});
 }
 
 /** A usable frame that could not be measured. */

@@ -132,10 +132,18 @@ PoseGaussian Track::restart(Reference frame)
 
 void Track::measure(Measured measured)
 {
-    measured.errors.previousVelocity = follow(measured.motion, measured.dt);
-    window_.refinePreviousVelocity(
-        measured.errors.previousVelocity ? measured.errors.previousVelocity->velocity
-                                         : motion_.velocity());
+    if (measured.isJump)
+    {
+        motion_.reset();
+    }
+    else
+    {
+        measured.errors.previousVelocity = follow(measured.motion, measured.dt);
+        measured.frame.velocity = motion_.velocity();
+        window_.refinePreviousVelocity(
+            measured.errors.previousVelocity ? measured.errors.previousVelocity->velocity
+                                             : motion_.velocity());
+    }
     for (const Association& association : measured.associations)
     {
         window_.notePoints(association);
@@ -144,7 +152,6 @@ void Track::measure(Measured measured)
         previous().T_world_cam, measured.motion.mean.T_prev_cur, measured.dt, measured.errors);
     unmatched_.reset();
     latestStamp_ = measured.frame.stamp;
-    measured.frame.velocity = motion_.velocity();
     add(std::move(measured.frame), measured.isKeyframe);
 }
 

@@ -98,6 +98,8 @@ class Track
     {
         Reference frame;  //!< without id, pose and velocity
         bool isKeyframe{false};
+        /** It is not where any acceleration leads: the velocity is unknown. */
+        bool isJump{false};
         MotionGaussian motion;
         double dt{0};  //!< [s] since the previous frame
         JointCovariance::Measurement errors;

@@ -23,7 +23,7 @@ constexpr double kWander = 0.01;
 
 /** By so much the velocity changes in a second before that is learnt [m/s, rad/s]: as hands move
  * a Kinect (0.3 to 0.4 m/s, 0.9 to 1.2 rad/s), and somewhat more. */
-constexpr double kFirstChange = 0.45, kFirstTurn = 3.35;
+constexpr double kFirstChange = 0.45, kFirstTurn = 2.25;
 
 /** Times that one step may be as long as the next, where they tell an acceleration. */
 constexpr double kUnequal = 8;
