@@ -229,7 +229,8 @@ TEST_F(OdometryEnvelope, depthThatContradictsTheFeaturesIsNotTracked)
     EXPECT_FALSE(result.reason.empty());
 }
 
-/** Some motion always lays a wall over a few of the surfaces; it is far from the predicted one. */
+/** Some motion always lays a wall over surfaces, or brings a few points together: which of them
+ * fits best is chance, but none is convincing. */
 TEST_F(OdometryEnvelope, oneForeignDepthImageIsNoMotion)
 {
     for (int i = 22; i < 30; ++i)
@@ -240,7 +241,11 @@ TEST_F(OdometryEnvelope, oneForeignDepthImageIsNoMotion)
     frame.depth.setTo(2.0F);  // as from a wall
     const OdometryResult result = process(30, frame);
     EXPECT_EQ(result.status, TrackingStatus::Predicted);
-    EXPECT_THAT(result.reason, testing::HasSubstr("shows only 0 % of the surfaces"));
+    EXPECT_THAT(
+        result.reason,
+        testing::AnyOf(
+            testing::HasSubstr("shows only 0 % of the surfaces"),
+            testing::HasSubstr("standard deviations from the predicted one")));
     for (int i = 31; i < 35; ++i)
     {
         EXPECT_EQ(process(i).status, TrackingStatus::Tracked) << i;

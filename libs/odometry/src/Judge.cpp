@@ -236,7 +236,9 @@ void Judge::contradict(Alignment& alignment, const NoiseFactors& usual) const
     else if (isSurprising(T_prev_cur, alignment.predicted.pose) && !isConvincing(alignment, usual))
     {
         reason << "the motion is " << std::lround(surprise(T_prev_cur, alignment.predicted.pose))
-               << " standard deviations from the predicted one, and too little confirms it";
+               << " standard deviations from the predicted one, and too little confirms it: "
+               << alignment.estimate.numPointInliers << " of " << alignment.numSought
+               << " points and " << std::lround(100 * agreement) << " % of the surfaces in view";
     }
     else if (isOfDoubtfulPlanes(alignment))
     {
