@@ -98,7 +98,7 @@ FolderRecording::FolderRecording(const FolderOptions& options)
         checkStamps();
         if (options.evenStamps)
         {
-            evenOut();
+            evenOutStamps();
         }
         pairByStamp(options.maxDifference);
     }
@@ -175,23 +175,16 @@ void FolderRecording::checkStamps() const
     }
 }
 
-void FolderRecording::evenOut()
+void FolderRecording::evenOutStamps()
 {
     for (auto* images : {&layout_.depth, &layout_.colour})
     {
-        try
+        const char* const name = images == &layout_.colour ? ": colour" : ": depth";
+        const EvenedStamps even = evenOut(stampsOf(*images), folder_ + name);
+        evening_ = even.note;
+        for (std::size_t i = 0; i < images->size(); ++i)
         {
-            const std::vector<double> before = stampsOf(*images), even = evenStamps(before);
-            evening_ = describeEvening(before, even);
-            for (std::size_t i = 0; i < images->size(); ++i)
-            {
-                (*images)[i].stamp = even[i];
-            }
-        }
-        catch (const InputError& e)
-        {
-            throw InputError(
-                folder_ + ": " + (images == &layout_.colour ? "colour: " : "depth: ") + e.what());
+            (*images)[i].stamp = even.stamps[i];
         }
     }
 }

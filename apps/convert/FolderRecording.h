@@ -37,7 +37,7 @@ class FolderRecording : public Recording
  private:
     void checkNumbers(bool isRateAsked) const;
     void checkStamps() const;
-    void evenOut();
+    void evenOutStamps();
     void pairByStamp(double maxDifference);
     void pairByNumber();
     [[nodiscard]] double stampOf(const ImageRef& image) const;
