@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trajectory_report.h"
 
-#include <pointplane/evaluation/number_text.h>
+#include <pointplane/core/number_text.h>
 #include <pointplane/evaluation/trajectory_charts.h>
 #include <pointplane/evaluation/units.h>
 #include <pointplane/mrpt_io/errors.h>
