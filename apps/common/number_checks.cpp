@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "number_checks.h"
 
+#include <pointplane/core/number_text.h>
+
 #include <algorithm>
-#include <cerrno>
-#include <cmath>
-#include <cstdlib>
 #include <sstream>
 #include <string>
 
@@ -19,10 +18,8 @@ CLI::Validator numberThat(Good isGood, const std::string& what, const std::strin
     return {
         [isGood, what](const std::string& text)
         {
-            double value = 0;
-            const bool good =
-                CLI::detail::lexical_cast(text, value) && std::isfinite(value) && isGood(value);
-            return good ? std::string() : "'" + text + "' is not " + what;
+            const auto value = parseFinite(text);
+            return value && isGood(*value) ? std::string() : "'" + text + "' is not " + what;
         },
         name};
 }
@@ -77,10 +74,9 @@ CLI::Validator isWhole(bool isSigned)
                 return what + "not zero or a positive number";
             }
             text = (isNegative && isSigned ? "-" : "") + digits;
-            errno = 0;
-            isSigned ? (void)std::strtoll(text.c_str(), nullptr, 10)
-                     : (void)std::strtoull(text.c_str(), nullptr, 10);
-            return errno == ERANGE ? what + "too large a number" : std::string();
+            const bool fits = isSigned ? parseNumber<long long>(text).has_value()
+                                       : parseNumber<unsigned long long>(text).has_value();
+            return fits ? std::string() : what + "too large a number";
         },
         ""};
 }

@@ -5,17 +5,17 @@
 #include <pointplane/mrpt_io/mrpt_poses.h>
 
 #include <opencv2/imgcodecs.hpp>
-#include <opencv2/videoio.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <iomanip>
 #include <map>
 #include <sstream>
 
+#include "VideoFrames.h"
 #include "even_stamps.h"
+#include "folder_cameras.h"
 #include "frame_images.h"
 #include "quantile.h"
 
@@ -36,30 +36,29 @@ constexpr std::uint16_t kNoReading = 65535;  //!< 7-Scenes; farther than any cam
     }
     return out;
 }
-}  // namespace
 
-struct FolderRecording::Video
+[[nodiscard]] bool areStamped(const std::vector<ImageRef>& images)
 {
-    cv::VideoCapture capture;
-    long next{0};
-
-    /** Frame `key`, counted from 0, later than the one before. */
-    [[nodiscard]] cv::Mat frame(long key, const std::string& path)
-    {
-        cv::Mat image;
-        for (; next <= key; ++next)
-        {
-            if (!capture.read(image))
-            {
-                throw BadFrame(path + ": has no frame " + std::to_string(key));
-            }
-        }
-        return image;
-    }
-};
+    return std::all_of(
+        images.begin(), images.end(), [](const ImageRef& image) { return image.stamp; });
+}
+}  // namespace
 
 FolderRecording::FolderRecording(const FolderOptions& options)
     : folder_(options.folder), layout_(readFolderLayout(options.folder))
+{
+    chooseCamera(options);
+    pairImages(options);
+    if (!layout_.video.empty())
+    {
+        video_ = std::make_unique<VideoFrames>(layout_.video);
+    }
+}
+
+FolderRecording::~FolderRecording() = default;
+
+/** By --camera, camera.txt, or what the folder tells. */
+void FolderRecording::chooseCamera(const FolderOptions& options)
 {
     const bool hasFile = fs::exists(folder_ + "/camera.txt");
     unitsPerMetre_ = layout_.unitsPerMetre;
@@ -86,19 +85,18 @@ FolderRecording::FolderRecording(const FolderOptions& options)
         throw InputError(
             folder_ + ": depth units per metre: " + problem + "; give them by --depth-scale");
     }
+}
+
+void FolderRecording::pairImages(const FolderOptions& options)
+{
     fps_ = options.fps > 0 ? options.fps : layout_.fps.value_or(30);
-    const auto areStamped = [](const std::vector<ImageRef>& images)
-    {
-        return std::all_of(
-            images.begin(), images.end(), [](const ImageRef& image) { return image.stamp; });
-    };
     hasStamps_ = options.fps <= 0 && areStamped(layout_.colour) && areStamped(layout_.depth);
     if (hasStamps_)
     {
         checkStamps();
         if (options.evenStamps)
         {
-            evenOut();
+            evenOutStamps();
         }
         pairByStamp(options.maxDifference);
     }
@@ -126,20 +124,7 @@ FolderRecording::FolderRecording(const FolderOptions& options)
             folder_ + ": no colour image belongs to a depth image by its " +
             (hasStamps_ ? "time stamp" : "number"));
     }
-    if (!layout_.video.empty())
-    {
-        video_ = std::make_unique<Video>();
-        if (!fs::exists(layout_.video) || !video_->capture.open(layout_.video))
-        {
-            throw InputError(
-                "cannot open " + layout_.video +
-                "; extract its frames to a folder rgb: ffmpeg -i rgb.mp4 rgb/%06d.png "
-                "-start_number 0");
-        }
-    }
 }
-
-FolderRecording::~FolderRecording() = default;
 
 void FolderRecording::checkNumbers(bool isRateAsked) const
 {
@@ -175,23 +160,16 @@ void FolderRecording::checkStamps() const
     }
 }
 
-void FolderRecording::evenOut()
+void FolderRecording::evenOutStamps()
 {
     for (auto* images : {&layout_.depth, &layout_.colour})
     {
-        try
+        const char* const name = images == &layout_.colour ? ": colour" : ": depth";
+        const EvenedStamps even = evenOut(stampsOf(*images), folder_ + name);
+        evening_ = even.note;
+        for (std::size_t i = 0; i < images->size(); ++i)
         {
-            const std::vector<double> before = stampsOf(*images), even = evenStamps(before);
-            evening_ = describeEvening(before, even);
-            for (std::size_t i = 0; i < images->size(); ++i)
-            {
-                (*images)[i].stamp = even[i];
-            }
-        }
-        catch (const InputError& e)
-        {
-            throw InputError(
-                folder_ + ": " + (images == &layout_.colour ? "colour: " : "depth: ") + e.what());
+            (*images)[i].stamp = even.stamps[i];
         }
     }
 }
@@ -230,8 +208,7 @@ double FolderRecording::stampOf(const ImageRef& image) const
 
 cv::Mat FolderRecording::colourOf(const ImageRef& image)
 {
-    return video_ ? video_->frame(image.key, layout_.video)
-                  : readFrameImage(image.path, cv::IMREAD_COLOR);
+    return video_ ? video_->frame(image.key) : readFrameImage(image.path, cv::IMREAD_COLOR);
 }
 
 void FolderRecording::readDepth(const ImageRef& image, RegisteredScan& scan)
@@ -253,60 +230,6 @@ void FolderRecording::readDepth(const ImageRef& image, RegisteredScan& scan)
     scan.unitsPerMetre = unitsPerMetre_;
 }
 
-void FolderRecording::checkCamera(const PinholeCamera& camera, const char* which) const
-{
-    const std::string problem = camera.problem();
-    if (!problem.empty())
-    {
-        throw BadFrame(folder_ + ": calibration of the " + which + " camera: " + problem);
-    }
-}
-
-void FolderRecording::setCameras(RegisteredScan& scan, const std::string& name) const
-{
-    scan.camera = layout_.camera->camera;
-    if (scan.camera.width == 0)  // of a matrix without a size
-    {
-        scan.camera.width = scan.colour.cols;
-        scan.camera.height = scan.colour.rows;
-    }
-    // A calibration for another size of the same picture.
-    if (scan.colour.cols != scan.camera.width &&
-        std::int64_t{scan.colour.cols} * scan.camera.height ==
-            std::int64_t{scan.colour.rows} * scan.camera.width)
-    {
-        scan.camera = scan.camera.scaled(static_cast<double>(scan.colour.cols) / scan.camera.width);
-    }
-    if (scan.colour.cols != scan.camera.width || scan.colour.rows != scan.camera.height)
-    {
-        throw BadFrame(
-            name + ": is " + sizeText(scan.colour.size()) + ", but the camera is for " +
-            sizeText({scan.camera.width, scan.camera.height}));
-    }
-    checkCamera(scan.camera, "colour");
-    if (layout_.depthCamera)
-    {
-        scan.depthCamera = DepthCamera{*layout_.depthCamera, Eigen::Isometry3d::Identity()};
-        scan.depthCamera->camera.width = scan.depth.cols;
-        scan.depthCamera->camera.height = scan.depth.rows;
-        checkCamera(scan.depthCamera->camera, "depth");
-    }
-    else if (scan.depth.size() != scan.colour.size())
-    {
-        const PinholeCamera scaled =
-            scan.camera.scaled(static_cast<double>(scan.depth.cols) / scan.camera.width);
-        if (std::abs(scaled.height - scan.depth.rows) > 1)
-        {
-            throw BadFrame(
-                name + ": depth is " + sizeText(scan.depth.size()) + " and colour " +
-                sizeText(scan.colour.size()) + ", which are different views");
-        }
-        scan.depthCamera = DepthCamera{scaled, Eigen::Isometry3d::Identity()};
-        scan.depthCamera->camera.distortion = {};
-        scan.depthCamera->camera.height = scan.depth.rows;
-    }
-}
-
 std::optional<RecordedFrame> FolderRecording::next()
 {
     if (next_ == pairs_.size())
@@ -326,7 +249,7 @@ std::optional<RecordedFrame> FolderRecording::next()
     readDepth(depth, out.scan);
     out.scan.colour = colourOf(colour);
     out.scan.colourFile = colour.path;
-    setCameras(out.scan, colour.path.empty() ? depth.path : colour.path);
+    setCameras(out.scan, layout_, folder_, colour.path.empty() ? depth.path : colour.path);
     return out;
 }
 

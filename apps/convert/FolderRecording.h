@@ -11,6 +11,8 @@
 
 namespace pointplane
 {
+class VideoFrames;
+
 struct FolderOptions
 {
     std::string folder;
@@ -35,20 +37,19 @@ class FolderRecording : public Recording
     [[nodiscard]] std::vector<std::string> notes() const override;
 
  private:
+    void chooseCamera(const FolderOptions& options);
+    void pairImages(const FolderOptions& options);
     void checkNumbers(bool isRateAsked) const;
     void checkStamps() const;
-    void evenOut();
+    void evenOutStamps();
     void pairByStamp(double maxDifference);
     void pairByNumber();
     [[nodiscard]] double stampOf(const ImageRef& image) const;
     [[nodiscard]] cv::Mat colourOf(const ImageRef& image);
     void readDepth(const ImageRef& image, RegisteredScan& scan);
-    void checkCamera(const PinholeCamera& camera, const char* which) const;
-    void setCameras(RegisteredScan& scan, const std::string& name) const;
     /** How far numbers are apart, if that is more than one, or empty. */
     [[nodiscard]] std::string noteOfSteps() const;
 
-    struct Video;
     std::string folder_;
     FolderLayout layout_;
     double unitsPerMetre_{1000}, fps_{30};
@@ -58,6 +59,6 @@ class FolderRecording : public Recording
     std::string evening_;  //!< what was done to the stamps, or empty
     std::vector<std::pair<std::size_t, std::size_t>> pairs_;
     std::size_t next_{0};
-    std::unique_ptr<Video> video_;
+    std::unique_ptr<VideoFrames> video_;
 };
 }  // namespace pointplane

@@ -37,22 +37,15 @@ namespace fs = std::filesystem;
 }
 
 /** \return what was done, for people */
-[[nodiscard]] std::string evenOut(std::vector<TumImage>& images, const std::string& listing)
+[[nodiscard]] std::string evenOutStamps(std::vector<TumImage>& images, const std::string& listing)
 {
-    try
+    const EvenedStamps even = evenOut(secondsOf(images), listing);
+    for (std::size_t i = 0; i < images.size(); ++i)
     {
-        const std::vector<double> before = secondsOf(images), even = evenStamps(before);
-        for (std::size_t i = 0; i < images.size(); ++i)
-        {
-            images[i].seconds = even[i];
-            images[i].stamp = fromSeconds(even[i]);
-        }
-        return describeEvening(before, even);
+        images[i].seconds = even.stamps[i];
+        images[i].stamp = fromSeconds(even.stamps[i]);
     }
-    catch (const InputError& e)
-    {
-        throw InputError(listing + ": " + e.what());
-    }
+    return even.note;
 }
 
 /** An image of the camera's size. */
@@ -93,8 +86,8 @@ TumRecording::TumRecording(const TumOptions& options) : options_(options)
     depth_ = readTumListing(options.folder, "depth.txt");
     if (options.evenStamps)
     {
-        (void)evenOut(depth_, options.folder + "/depth.txt");
-        evening_ = evenOut(colour_, options.folder + "/rgb.txt");
+        (void)evenOutStamps(depth_, options.folder + "/depth.txt");
+        evening_ = evenOutStamps(colour_, options.folder + "/rgb.txt");
     }
     camera_ = loadTumCamera(options.camera, options.folder);
     if (options.depthScale > 0)

@@ -67,6 +67,22 @@ class CameraCommentWriter
     return *middle / scan.unitsPerMetre;
 }
 
+/** \throws InputError if nothing was read, or, of strict conversions, if not all was */
+void requireUsable(const RecordingSummary& summary, bool strict)
+{
+    if (summary.numFrames == 0)
+    {
+        throw InputError(
+            !summary.problems.empty() ? summary.problems.front()
+            : !summary.damage.empty() ? summary.damage
+                                      : "no frame with colour and depth in the recording");
+    }
+    if (strict && !summary.damage.empty())
+    {
+        throw InputError(summary.damage);
+    }
+}
+
 /** \throws as convertRecording() */
 [[nodiscard]] RecordingSummary writeFrames(
     Recording& recording, const RecordingOutput& output, ScanWriter& writer, std::ostream& progress)
@@ -115,17 +131,7 @@ class CameraCommentWriter
         }
     }
     out.damage = recording.damage();
-    if (out.numFrames == 0)
-    {
-        throw InputError(
-            !out.problems.empty() ? out.problems.front()
-            : !out.damage.empty() ? out.damage
-                                  : "no frame with colour and depth in the recording");
-    }
-    if (output.strict && !out.damage.empty())
-    {
-        throw InputError(out.damage);
-    }
+    requireUsable(out, output.strict);
     out.stamps = problemOfStamps(stamps);
     return out;
 }

@@ -9,6 +9,7 @@
 #include <iomanip>
 #include <sstream>
 #include <string>
+#include <utility>
 
 #include "quantile.h"
 
@@ -130,6 +131,24 @@ struct Frame
     }
     return frame.stamp + offset;
 }
+
+/** How far stamps were moved, one line for people. */
+[[nodiscard]] std::string describeEvening(
+    const std::vector<double>& before, const std::vector<double>& after)
+{
+    double sumOfSquares = 0, most = 0;
+    for (std::size_t i = 0; i < before.size(); ++i)
+    {
+        const double moved = std::abs(after[i] - before[i]);
+        sumOfSquares += moved * moved;
+        most = std::max(most, moved);
+    }
+    const double rms = std::sqrt(sumOfSquares / std::max(1.0, static_cast<double>(before.size())));
+    std::ostringstream out;
+    out << std::fixed << std::setprecision(1) << "stamps: evened out, moved by " << 1e3 * rms
+        << " ms (rms), " << 1e3 * most << " ms at most";
+    return out.str();
+}
 }  // namespace
 
 std::vector<double> evenStamps(const std::vector<double>& stamps)
@@ -171,19 +190,17 @@ std::vector<double> evenStamps(const std::vector<double>& stamps)
     return out;
 }
 
-std::string describeEvening(const std::vector<double>& before, const std::vector<double>& after)
+EvenedStamps evenOut(const std::vector<double>& stamps, const std::string& name)
 {
-    double sumOfSquares = 0, most = 0;
-    for (std::size_t i = 0; i < before.size(); ++i)
+    try
     {
-        const double moved = std::abs(after[i] - before[i]);
-        sumOfSquares += moved * moved;
-        most = std::max(most, moved);
+        std::vector<double> even = evenStamps(stamps);
+        std::string note = describeEvening(stamps, even);
+        return {std::move(even), std::move(note)};
     }
-    const double rms = std::sqrt(sumOfSquares / std::max(1.0, static_cast<double>(before.size())));
-    std::ostringstream out;
-    out << std::fixed << std::setprecision(1) << "stamps: evened out, moved by " << 1e3 * rms
-        << " ms (rms), " << 1e3 * most << " ms at most";
-    return out.str();
+    catch (const InputError& e)
+    {
+        throw InputError(name + ": " + e.what());
+    }
 }
 }  // namespace pointplane

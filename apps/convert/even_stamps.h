@@ -13,7 +13,14 @@ namespace pointplane
  * \throws InputError if the stamps are not those of a steady rate */
 [[nodiscard]] std::vector<double> evenStamps(const std::vector<double>& stamps);
 
-/** How far stamps were moved, one line for people. */
-[[nodiscard]] std::string describeEvening(
-    const std::vector<double>& before, const std::vector<double>& after);
+struct EvenedStamps
+{
+    std::vector<double> stamps;  //!< [s]
+    std::string note;            //!< how far they were moved, one line for people
+};
+
+/** evenStamps() of the images of a recording.
+ * \param stamps ascending [s] \param name of the images, which begins the message of an error
+ * \throws InputError as evenStamps() */
+[[nodiscard]] EvenedStamps evenOut(const std::vector<double>& stamps, const std::string& name);
 }  // namespace pointplane

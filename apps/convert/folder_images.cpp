@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "folder_images.h"
 
+#include <pointplane/core/number_text.h>
+
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <cmath>
-#include <locale>
 #include <set>
-#include <sstream>
 #include <tuple>
 
 namespace pointplane
@@ -102,18 +102,6 @@ bool isInNameOf(const fs::path& folder, const std::string& words)
     return false;
 }
 
-std::optional<double> numberOf(const std::string& text)
-{
-    std::istringstream in(text);
-    in.imbue(std::locale::classic());
-    double value = 0;
-    if (in >> value && in.peek() == std::istringstream::traits_type::eof() && std::isfinite(value))
-    {
-        return value;
-    }
-    return {};
-}
-
 std::vector<ImageRef> imagesIn(
     const fs::path& folder, const std::string& prefix, const std::string& suffix)
 {
@@ -132,9 +120,9 @@ std::vector<ImageRef> imagesIn(
         ImageRef image;
         image.path = entry.path().string();
         const auto dash = stem.find('-', 1);
-        const auto first = numberOf(stem.substr(0, dash));
+        const auto first = parseFinite(stem.substr(0, dash));
         const auto second =
-            dash == std::string::npos ? std::nullopt : numberOf(stem.substr(dash + 1));
+            dash == std::string::npos ? std::nullopt : parseFinite(stem.substr(dash + 1));
         if (!first || (dash != std::string::npos && !second))
         {
             continue;

@@ -35,7 +35,4 @@ struct ImageRef
 /** Whether the folder's own name holds these whole words: "fr1" is in scans/fr1_desk, but neither
  * in fr1_scans/desk nor in fr10. */
 [[nodiscard]] bool isInNameOf(const std::filesystem::path& folder, const std::string& words);
-
-/** Of a text that is a finite number and nothing else, in any locale. */
-[[nodiscard]] std::optional<double> numberOf(const std::string& text);
 }  // namespace pointplane

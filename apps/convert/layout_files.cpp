@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "layout_files.h"
 
+#include <pointplane/core/number_text.h>
 #include <pointplane/mrpt_io/errors.h>
 
 #include <algorithm>
@@ -30,7 +31,7 @@ std::vector<double> numbersInFile(const fs::path& path)
     std::vector<double> out;
     for (std::string word; words >> word;)
     {
-        const auto value = numberOf(word);
+        const auto value = parseFinite(word);
         if (!value)
         {
             throw InputError(path.string() + ": '" + word + "' is not a number");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "phone_layouts.h"
 
+#include <pointplane/core/number_text.h>
 #include <pointplane/mrpt_io/errors.h>
 
 #include <algorithm>
@@ -44,9 +45,9 @@ void setStamps(FolderLayout& out, const StampOf& stampOf)
     {
         std::istringstream columns(line);
         std::string first, second;
-        std::getline(columns, first, ',');
+        std::getline(columns >> std::ws, first, ',');
         std::getline(columns >> std::ws, second, ',');
-        const auto stamp = numberOf(first), frame = numberOf(second);
+        const auto stamp = parseFinite(first), frame = parseFinite(second);
         if (stamp && frame)
         {
             out[std::lround(*frame)] = *stamp;

@@ -2,6 +2,7 @@
 #include "tum_camera.h"
 
 #include <pointplane/core/byte_order_mark.h>
+#include <pointplane/core/number_text.h>
 #include <pointplane/mrpt_io/ScanWriter.h>
 #include <pointplane/mrpt_io/camera_ini.h>
 #include <pointplane/mrpt_io/errors.h>
@@ -69,14 +70,12 @@ const std::array<Preset, 3> kPresets{{
         std::string word;
         while (words >> word && word[0] != '#')
         {
-            std::istringstream text(word);
-            text.imbue(std::locale::classic());
-            double value = 0;
-            if (!(text >> value) || text.peek() != std::istringstream::traits_type::eof())
+            const auto number = parseFinite(word);
+            if (!number)
             {
                 return {};
             }
-            numbers.push_back(value);
+            numbers.push_back(*number);
         }
     }
     if (numbers.size() != 12)

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "input_options.h"
 
+#include <pointplane/core/number_text.h>
+#include <pointplane/core/trimmed.h>
 #include <pointplane/evaluation/nees.h>
 #include <pointplane/evaluation/units.h>
 
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
+#include <string>
 
 #include "load_trajectory.h"
 #include "result_output.h"
@@ -32,16 +35,18 @@ void InputOptions::addTo(CLI::App& command)
 
 std::vector<double> numbersFromOption(const std::string& text)
 {
-    std::istringstream in(text);
-    in.imbue(std::locale::classic());
+    std::istringstream words(text + ',');  // so that a comma at the end is an empty word
     std::vector<double> out;
-    char comma = ',';
-    for (double value = 0; comma == ',' && in >> value; in >> comma)
+    for (std::string word; std::getline(words, word, ',');)
     {
-        out.push_back(value);
-        comma = 0;
+        const auto number = parseFinite(trimmed(word));
+        if (!number)
+        {
+            return {};
+        }
+        out.push_back(*number);
     }
-    return comma == 0 && in.eof() ? out : std::vector<double>();
+    return out;
 }
 
 Eigen::Isometry3d poseFromOption(const std::string& text)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/number_text.h>
 #include <pointplane/evaluation/consistency.h>
 #include <pointplane/evaluation/nees.h>
-#include <pointplane/evaluation/number_text.h>
 #include <pointplane/evaluation/units.h>
 
 #include <algorithm>
@@ -38,6 +38,14 @@ struct NeesCommand
 
     void addTo(CLI::App& command);
     void run(CommandContext& context) const;
+
+ private:
+    void checkFiles() const;
+    [[nodiscard]] NeesOptions resolved() const;
+    void checkRange(
+        const std::vector<NeesResult>& results,
+        const std::string& untold,
+        CommandContext& context) const;
 };
 
 /** Standard deviations [rad] from "s" or "x,y,z" [deg]. */
@@ -186,7 +194,8 @@ std::string savedIncrements(const std::string& file, const Trajectory& estimate,
     return out;
 }
 
-void NeesCommand::run(CommandContext& context) const
+/** \throws std::invalid_argument if options contradict each other */
+void NeesCommand::checkFiles() const
 {
     if (files.size() % 2 != 0)
     {
@@ -197,61 +206,29 @@ void NeesCommand::run(CommandContext& context) const
     {
         throw std::invalid_argument("--report is of one run; give one ground truth and estimate");
     }
-    OutputGuard guard;
-    for (const std::string& file : files)
-    {
-        guard.addInput(file);
-    }
-    output.guardedBy(guard);
-    html.guardedBy(guard);
-    NeesOptions resolved = options;
-    resolved.truthSigmaRotation = sigmaFromOption(sigmaRotationDeg);
-    resolved.truthAt = nearest ? TruthAt::NearestStamp : TruthAt::Interpolated;
-    resolved.T_truth_body = input.T_truth_body();
+}
 
-    std::vector<NeesInterval> lengths;
-    for (const std::string& name : intervals)
-    {
-        lengths.push_back(neesIntervalFromName(name));
-    }
-    NeesReport report;
-    report.files = files;
-    report.options = resolved;
-    std::vector<Pool> pools;
-    std::string untold;
-    for (std::size_t k = 0; k < files.size(); k += 2)
-    {
-        const Trajectory truth = input.loadTruth(files[k], context);
-        const Trajectory estimate = input.loadEstimate(files[k + 1], context);
-        const NeesRun run = neesRun(truth, estimate, lengths, resolved);
-        poolRun(pools, run);
-        untold = run.untold.empty() ? untold : run.note;
-        report.coverages.push_back(coverageOf(truth, estimate, resolved.offset));
-        report.saved += savedIncrements(files[k + 1], estimate, run);
-        if (!run.note.empty())
-        {
-            context.err << "pointplane-eval: note: " << run.note << "\n";
-        }
-        const std::string hint = hintAtBody(input, truth, estimate, run, resolved);
-        context.hint(hint);
-        if (!html.directory.empty())
-        {
-            ReportedRun reported{truth, estimate, {}, {}, resolved, lengths, hint};
-            reported.rpe.fixedDelta = true;
-            reported.rpe.offset = reported.ate.offset = resolved.offset;
-            writeTrajectoryReport(reported, html, context);
-        }
-    }
-    for (const Pool& pool : pools)
-    {
-        report.results.push_back(consistencyOf(pool.increments, pool.independent, pool.interval));
-    }
-    writeReport(report, output, context.out);
+NeesOptions NeesCommand::resolved() const
+{
+    NeesOptions out = options;
+    out.truthSigmaRotation = sigmaFromOption(sigmaRotationDeg);
+    out.truthAt = nearest ? TruthAt::NearestStamp : TruthAt::Interpolated;
+    out.T_truth_body = input.T_truth_body();
+    return out;
+}
+
+/** Says which results are outside the stated range, and sets the exit code.
+ * \param untold why not all that was asked for could be tested, or empty */
+void NeesCommand::checkRange(
+    const std::vector<NeesResult>& results,
+    const std::string& untold,
+    CommandContext& context) const
+{
     if (!untold.empty() && (minNees >= 0 || maxNees >= 0))
     {
         throw InputError("the stated range of NEES cannot be checked: " + untold);
     }
-    for (const NeesResult& result : report.results)
+    for (const NeesResult& result : results)
     {
         const double nees = result.joint.nees;
         if ((maxNees >= 0 && nees > maxNees) || (minNees >= 0 && nees < minNees))
@@ -261,6 +238,57 @@ void NeesCommand::run(CommandContext& context) const
             context.exitCode = kExitIncomplete;
         }
     }
+}
+
+void NeesCommand::run(CommandContext& context) const
+{
+    checkFiles();
+    OutputGuard guard;
+    for (const std::string& file : files)
+    {
+        guard.addInput(file);
+    }
+    output.guardedBy(guard);
+    html.guardedBy(guard);
+    NeesReport report;
+    report.files = files;
+    report.options = resolved();
+    std::vector<NeesInterval> lengths;
+    for (const std::string& name : intervals)
+    {
+        lengths.push_back(neesIntervalFromName(name));
+    }
+    std::vector<Pool> pools;
+    std::string untold;
+    for (std::size_t k = 0; k < files.size(); k += 2)
+    {
+        const Trajectory truth = input.loadTruth(files[k], context);
+        const Trajectory estimate = input.loadEstimate(files[k + 1], context);
+        const NeesRun run = neesRun(truth, estimate, lengths, report.options);
+        poolRun(pools, run);
+        untold = run.untold.empty() ? untold : run.note;
+        report.coverages.push_back(coverageOf(truth, estimate, report.options.offset));
+        report.saved += savedIncrements(files[k + 1], estimate, run);
+        if (!run.note.empty())
+        {
+            context.err << "pointplane-eval: note: " << run.note << "\n";
+        }
+        const std::string hint = hintAtBody(input, truth, estimate, run, report.options);
+        context.hint(hint);
+        if (!html.directory.empty())
+        {
+            ReportedRun reported{truth, estimate, {}, {}, report.options, lengths, hint};
+            reported.rpe.fixedDelta = true;
+            reported.rpe.offset = reported.ate.offset = report.options.offset;
+            writeTrajectoryReport(reported, html, context);
+        }
+    }
+    for (const Pool& pool : pools)
+    {
+        report.results.push_back(consistencyOf(pool.increments, pool.independent, pool.interval));
+    }
+    writeReport(report, output, context.out);
+    checkRange(report.results, untold, context);
     for (std::size_t k = 0; k < report.coverages.size(); ++k)
     {
         // Not judged by it: the covariances of lost frames are tested, too.

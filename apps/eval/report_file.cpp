@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "report_file.h"
 
+#include <pointplane/core/number_text.h>
 #include <pointplane/evaluation/svg_chart.h>
 #include <pointplane/mrpt_io/errors.h>
 
@@ -42,7 +43,7 @@ std::string timeText()
 {
     const char* fixed = std::getenv("SOURCE_DATE_EPOCH");
     const std::time_t now =
-        fixed != nullptr ? std::strtoll(fixed, nullptr, 10) : std::time(nullptr);
+        fixed != nullptr ? parseNumber<std::time_t>(fixed).value_or(0) : std::time(nullptr);
     std::tm utc{};
     gmtime_r(&now, &utc);
     char text[32];

@@ -33,6 +33,10 @@ struct RpeCommand
 
     void addTo(CLI::App& command);
     void run(CommandContext& context) const;
+
+ private:
+    [[nodiscard]] ScoredResult scored(
+        const RpeOptions& rpe, const RpeResult& result, const Trajectory& measured) const;
 };
 
 void RpeCommand::addTo(CLI::App& command)
@@ -90,6 +94,30 @@ std::string singlesOf(const Trajectory& estimate, const RpeResult& result)
     return out;
 }
 
+ScoredResult RpeCommand::scored(
+    const RpeOptions& rpe, const RpeResult& result, const Trajectory& measured) const
+{
+    ScoredResult out;
+    out.title = "Relative pose error";
+    out.protocol = describe(rpe, result);
+    out.groundTruth = groundTruth;
+    out.estimate = estimate;
+    out.rows = {
+        {"translation", "m", result.translation},
+        {"rotation", "deg", scaled(result.rotation, kDegreesPerRadian)}};
+    out.details = {
+        {"pairs", result.translation.count},
+        {"candidatePairs", result.candidatePairs},
+        {"coverage", toJson(result.coverage)},
+        {"fixedDelta", rpe.fixedDelta},
+        {"delta", rpe.delta},
+        {"deltaUnit", nameOf(rpe.unit)},
+        {"offset", rpe.offset},
+        {"scale", rpe.scale}};
+    out.singles = singlesOf(measured, result);
+    return out;
+}
+
 void RpeCommand::run(CommandContext& context) const
 {
     OutputGuard guard;
@@ -112,23 +140,6 @@ void RpeCommand::run(CommandContext& context) const
     { return relativePoseError(withBody(run.groundTruth, T_truth_body), measured, rpe); };
     const RpeResult result = scoreWith(run.nees.T_truth_body);
 
-    ScoredResult scored;
-    scored.title = "Relative pose error";
-    scored.protocol = describe(rpe, result);
-    scored.groundTruth = groundTruth;
-    scored.estimate = estimate;
-    scored.rows = {
-        {"translation", "m", result.translation},
-        {"rotation", "deg", scaled(result.rotation, kDegreesPerRadian)}};
-    scored.details = {
-        {"pairs", result.translation.count},
-        {"candidatePairs", result.candidatePairs},
-        {"coverage", toJson(result.coverage)},
-        {"fixedDelta", rpe.fixedDelta},
-        {"delta", rpe.delta},
-        {"deltaUnit", nameOf(rpe.unit)},
-        {"offset", rpe.offset},
-        {"scale", rpe.scale}};
     run.hint = hintAtAxes(
         input,
         measured,
@@ -137,7 +148,6 @@ void RpeCommand::run(CommandContext& context) const
         "translation RMSE in m",
         [&](const auto& T_truth_body) { return scoreWith(T_truth_body).translation.rmse; });
     context.hint(run.hint);
-    scored.singles = singlesOf(measured, result);
     if (!files.save.empty() && result.pairs.empty())
     {
         throw InputError("--save: too many pairs to write; give --fixed-delta or --max-pairs");
@@ -146,13 +156,14 @@ void RpeCommand::run(CommandContext& context) const
     {
         printScriptLines(result, context.out);
     }
-    writeResult(scored, files, context.out, !verbose);
+    const ScoredResult score = scored(rpe, result, measured);
+    writeResult(score, files, context.out, !verbose);
     if (!report.directory.empty())
     {
         writeTrajectoryReport(run, report, context);
     }
-    checkThreshold("translation RMSE", scored.rows[0], maxRmse, context);
-    checkThreshold("rotation RMSE", scored.rows[1], maxRmseDeg, context);
+    checkThreshold("translation RMSE", score.rows[0], maxRmse, context);
+    checkThreshold("rotation RMSE", score.rows[1], maxRmseDeg, context);
     coverage.check(estimate, result.coverage, maxRmse >= 0 || maxRmseDeg >= 0, context);
 }
 }  // namespace

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pointplane/evaluation/ate.h>
-#include <pointplane/evaluation/nees.h>
-#include <pointplane/evaluation/rpe.h>
-
 #include <string>
-#include <vector>
 
+#include "ReportedRun.h"
 #include <CLI/CLI.hpp>
 
 namespace pointplane
@@ -25,18 +21,6 @@ struct ReportOptions
     void addTo(CLI::App& command);
     /** Tells the guard what will be read and written. */
     void guardedBy(OutputGuard& guard) const;
-};
-
-/** One run to report on. */
-struct ReportedRun
-{
-    Trajectory groundTruth;  //!< as its file gives it
-    Trajectory estimate;
-    RpeOptions rpe;  //!< of the score; charts need listed pairs and take a fixed delta
-    AteOptions ate;
-    NeesOptions nees;  //!< T_truth_body applies to all metrics
-    std::vector<NeesInterval> intervals;
-    std::string hint;  //!< to the reader, or empty
 };
 
 /** Writes the report and says where it is: DIR/index.html with the scores, the path with its

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GrabberApp.h"
 
+#include <pointplane/core/number_text.h>
 #include <pointplane/mrpt_io/errors.h>
 
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <ostream>
@@ -186,7 +186,7 @@ void understand(const Words& words, GrabberOptions& o)
         {"off", RegistrationChoice::Off}};
     o.camera.mode = parseMode(words.mode);
     o.camera.registration = registrations.at(words.registration);
-    o.waitSeconds = std::strtod(words.wait.c_str(), nullptr);
+    o.waitSeconds = parseFinite(words.wait).value_or(0);
     o.recording.path = o.output;
     o.recording.splitAfter = 60.0 * words.splitMinutes;
     o.recording.encoding.storage =

@@ -2,17 +2,15 @@
 #include "GrabberRun.h"
 
 #include <pointplane/mrpt_io/errors.h>
-#include <pointplane/mrpt_io/params_ini.h>
-#include <pointplane/mrpt_io/rawlog_names.h>
 
 #include <chrono>
 #include <filesystem>
 #include <ostream>
 #include <thread>
 
-#include "OutputGuard.h"
 #include "ProgressBar.h"
 #include "StopSignals.h"
+#include "file_check.h"
 
 namespace pointplane
 {
@@ -32,7 +30,10 @@ GrabberRun::~GrabberRun() = default;
 
 int GrabberRun::run()
 {
-    checkFiles();
+    checkFilesOf(options_);
+    // Now: later, the working folder may be gone.
+    std::error_code error;
+    diskFolder_ = fs::absolute(options_.output, error).parent_path();
     installStopSignals();
     drivers_ = makeCameraDrivers(options_.driver);
     if (!openCameraOrWait())
@@ -40,9 +41,16 @@ int GrabberRun::run()
         return kExitOk;
     }
     calibrate();
-    openOutputs();
+    if (options_.recordsOni())
+    {
+        options_.capture.oniPath = options_.output;
+    }
+    outputs_ = std::make_unique<GrabberOutputs>(options_, camera_->facts(), *builder_, out_);
     const CaptureEnd end = captureWithStatus();
-    finishOutputs();
+    for (const std::string& problem : outputs_->finish())
+    {
+        fail(problem);
+    }
     explain(end);
     printSummary();
     return exitCode_;
@@ -89,108 +97,10 @@ void GrabberRun::calibrate()
     builder_ = std::make_unique<ObservationBuilder>(std::move(calibration));
 }
 
-void GrabberRun::keepFilesApart() const
-{
-    OutputGuard guard;
-    std::error_code error;
-    if (fs::is_regular_file(options_.device, error))
-    {
-        guard.addInput(options_.device);
-    }
-    guard.addInput(options_.calibration);
-    guard.addInput(options_.liveOdometry.config);
-    constexpr int kSegments = 1000;
-    const bool splits = options_.recordsRawlog() && options_.recording.splitAfter > 0.0;
-    for (int i = 0; i < (splits ? kSegments : 1); ++i)
-    {
-        const std::string path = splits ? segmentPath(options_.output, i) : options_.output;
-        guard.addOutput("-o", path);
-        if (options_.recordsRawlog() &&
-            options_.recording.encoding.storage == ImageStorage::External)
-        {
-            guard.addFolderBeside("images of -o", path, imagesFolderOf(path));
-        }
-    }
-    guard.addOutput("--preview", options_.preview);
-    guard.addOutput("--live-output", options_.liveOdometry.poseRawlog);
-}
-
-void GrabberRun::checkFiles()
-{
-    keepFilesApart();
-    std::error_code error;
-    if (!options_.calibration.empty() && !fs::is_regular_file(options_.calibration, error))
-    {
-        throw InputError("--calibration " + options_.calibration + ": no such file");
-    }
-    if (!options_.liveOdometry.config.empty())
-    {
-        (void)loadOdometryParams(options_.liveOdometry.config, {});
-    }
-    if (options_.output.empty())
-    {
-        return;
-    }
-    const bool splits = options_.recordsRawlog() && options_.recording.splitAfter > 0.0;
-    const std::string first = splits ? segmentPath(options_.output, 0) : options_.output;
-    if (fs::exists(first, error))
-    {
-        throw InputError("'" + first + "' exists already; recordings never overwrite");
-    }
-    // Now: later, the working folder may be gone.
-    diskFolder_ = fs::absolute(options_.output, error).parent_path();
-}
-
-void GrabberRun::openOutputs()
-{
-    if (options_.recordsOni())
-    {
-        options_.capture.oniPath = options_.output;
-    }
-    if (!options_.preview.empty())
-    {
-        preview_ = std::make_unique<Preview>(options_.preview);
-    }
-    if (options_.live)
-    {
-        options_.liveOdometry.waits = camera_->facts().isFile;
-        live_ = std::make_unique<LiveOdometry>(options_.liveOdometry, *builder_, out_);
-    }
-    if (options_.recordsRawlog())
-    {
-        options_.recording.marksEnds = true;
-        options_.recording.tellDelay =
-            !camera_->facts().isFile;  // a file's streams both start at 0
-        writer_ = std::make_unique<RecordingWriter>(options_.recording, *builder_);
-    }
-}
-
-bool GrabberRun::consume(const ImagePair& pair)
-{
-    if (writer_)
-    {
-        const bool taken = camera_->facts().isFile ? writer_->push(pair) : writer_->tryPush(pair);
-        if (!taken && writer_->hasFailed())
-        {
-            return false;
-        }
-        queueDrops_ += taken ? 0 : 1;
-    }
-    if (live_)
-    {
-        live_->add(pair);
-    }
-    if (preview_)
-    {
-        preview_->show(pair);
-    }
-    return true;
-}
-
 CaptureEnd GrabberRun::captureWithStatus()
 {
     capture_ = std::make_unique<Capture>(
-        *camera_, options_.capture, [this](const ImagePair& pair) { return consume(pair); });
+        *camera_, options_.capture, [this](const ImagePair& pair) { return outputs_->add(pair); });
     if (!options_.quiet)
     {
         err_ << "pointplane-grabber: " << describe(camera_->facts()) << std::endl;
@@ -222,7 +132,7 @@ CaptureEnd GrabberRun::captureWithStatus()
     while (!done)
     {
         std::this_thread::sleep_for(kPoll);
-        stop_ = stop_ || stopRequested() || (writer_ && writer_->hasFailed());
+        stop_ = stop_ || stopRequested() || outputs_->hasFailed();
         watchDisk();
         if (!options_.quiet)
         {
@@ -258,53 +168,9 @@ RunState GrabberRun::state() const
 {
     RunState state;
     state.capture = capture_->stats();
-    state.queueDrops = queueDrops_;
     state.freeBytes = freeBytes_;
-    if (writer_)
-    {
-        state.isRecording = true;
-        state.recording = writer_->stats();
-        state.queueCapacity = options_.recording.queueFrames;
-        state.bytesPerSecond =
-            state.capture.recordedTime > 0.0
-                ? static_cast<double>(state.recording.bytesWritten) / state.capture.recordedTime
-                : 0.0;
-    }
+    outputs_->describeIn(state);
     return state;
-}
-
-void GrabberRun::finishOutputs()
-{
-    if (const std::string problem = preview_ ? preview_->finish() : ""; !problem.empty())
-    {
-        fail(problem + "; the picture is not the latest");
-    }
-    try
-    {
-        if (writer_)
-        {
-            writer_->finish();
-        }
-    }
-    catch (const std::exception& e)
-    {
-        fail(oneLine(e) + "; what was recorded before is complete");
-    }
-    try
-    {
-        if (live_)
-        {
-            live_->finish();
-            if (const std::string problem = live_->stats().problem; !problem.empty())
-            {
-                fail(problem);
-            }
-        }
-    }
-    catch (const std::exception& e)
-    {
-        fail(oneLine(e));
-    }
 }
 
 void GrabberRun::explain(CaptureEnd end)
@@ -347,19 +213,11 @@ void GrabberRun::printSummary()
     {
         summary.notes.push_back(note);
     }
-    if (writer_)
-    {
-        summary.outputs = writer_->paths();
-    }
-    else if (options_.recordsOni())
+    if (options_.recordsOni())
     {
         summary.outputs = {options_.output};
     }
-    if (live_)
-    {
-        summary.hasLive = true;
-        summary.live = live_->stats();
-    }
+    outputs_->describeIn(summary);
     print(summary, err_);
 }
 }  // namespace pointplane

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pointplane/grabber/Preview.h>
-
 #include <atomic>
 #include <filesystem>
 #include <iosfwd>
@@ -11,6 +9,7 @@
 #include <string>
 
 #include "GrabberOptions.h"
+#include "GrabberOutputs.h"
 #include "summary.h"
 
 namespace pointplane
@@ -30,15 +29,9 @@ class GrabberRun
  private:
     [[nodiscard]] bool openCameraOrWait();
     void calibrate();
-    /** Before there is a camera: a typo should not have to wait for one. */
-    void checkFiles();
-    void keepFilesApart() const;
-    void openOutputs();
-    [[nodiscard]] bool consume(const ImagePair& pair);
     [[nodiscard]] CaptureEnd captureWithStatus();
     void watchDisk();
     [[nodiscard]] RunState state() const;
-    void finishOutputs();
     void explain(CaptureEnd end);
     void printSummary();
     void fail(const std::string& problem);
@@ -49,12 +42,9 @@ class GrabberRun
     CameraDrivers drivers_;
     std::unique_ptr<Camera> camera_;
     std::unique_ptr<ObservationBuilder> builder_;
-    std::unique_ptr<Preview> preview_;
-    std::unique_ptr<LiveOdometry> live_;
-    std::unique_ptr<RecordingWriter> writer_;
+    std::unique_ptr<GrabberOutputs> outputs_;
     std::unique_ptr<Capture> capture_;
     std::atomic<bool> stop_{false};
-    std::atomic<std::uint64_t> queueDrops_{0};
     std::filesystem::path diskFolder_;  //!< of what is recorded
     double freeBytes_{0};
     int exitCode_{0};

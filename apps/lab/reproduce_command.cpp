@@ -38,11 +38,18 @@ struct ReproduceCommand
 
     void addTo(CLI::App& command);
     void run(CommandContext& context) const;
+
+ private:
     [[nodiscard]] bool makes(const std::string& group) const;
+    [[nodiscard]] std::vector<ReproducedSequence> foundSequences() const;
+    void plan(const std::string& paper, Reproduction& result) const;
     void makeRawlogs(
         std::vector<ReproducedSequence>& sequences,
         const std::string& folder,
         CommandContext& context) const;
+    [[nodiscard]] std::string score(
+        const std::string& corner, Reproduction& result, CommandContext& context) const;
+    void write(const Reproduction& result, CommandContext& context) const;
 };
 
 void ReproduceCommand::addTo(CLI::App& command)
@@ -168,19 +175,10 @@ void ReproduceCommand::makeRawlogs(
     }
 }
 
-void ReproduceCommand::run(CommandContext& context) const
+/** \throws InputError if a folder has none */
+std::vector<ReproducedSequence> ReproduceCommand::foundSequences() const
 {
-    OutputGuard guard;
-    const std::string paper = paperConfig.empty() ? findPaperConfig() : paperConfig;
-    for (const std::string& program : {paper, convert, simulate})
-    {
-        guard.addInput(program);
-    }
-    runner.guardedBy(guard);
-    files.guardedBy(guard);
-    guardReport(guard, report);
-    guard.addOutputFolder("--figure", figure, ".svg");
-    Reproduction result;
+    std::vector<ReproducedSequence> out;
     for (const std::string& directory : directories)
     {
         const auto found = findSequences(directory);
@@ -190,12 +188,14 @@ void ReproduceCommand::run(CommandContext& context) const
                 "no TUM sequence in '" + directory +
                 "': a folder with rgb.txt, depth.txt and groundtruth.txt");
         }
-        result.sequences.insert(result.sequences.end(), found.begin(), found.end());
+        out.insert(out.end(), found.begin(), found.end());
     }
-    for (const ReproducedSequence& sequence : result.sequences)
-    {
-        guard.addInputFolder(sequence.folder);
-    }
+    return out;
+}
+
+/** Sets the variants that are asked for. */
+void ReproduceCommand::plan(const std::string& paper, Reproduction& result) const
+{
     for (const Variant& variant : planVariants(paper, alphas))
     {
         if (makes(variant.group))
@@ -204,11 +204,13 @@ void ReproduceCommand::run(CommandContext& context) const
                 .push_back(variant);
         }
     }
-    (void)loadOdometryParams(paper, {});
-    runner.requireProgram();
-    const WorkDirectory work(runner.directory);
-    makeRawlogs(result.sequences, work.path(), context);
+}
 
+/** Runs all variants on all sequences. \param corner rawlog of the simulated sequence
+ * \return which runs failed, or empty */
+std::string ReproduceCommand::score(
+    const std::string& corner, Reproduction& result, CommandContext& context) const
+{
     std::vector<LabRun> runs;
     for (const ReproducedSequence& s : result.sequences)
     {
@@ -222,7 +224,6 @@ void ReproduceCommand::run(CommandContext& context) const
                  v.settings});
         }
     }
-    const std::string corner = work.path() + kCornerRawlog;
     for (const Variant& v : result.cornerVariants)
     {
         runs.push_back({"corner: " + v.name, corner, groundTruthOf(corner), v.config, v.settings});
@@ -242,7 +243,11 @@ void ReproduceCommand::run(CommandContext& context) const
     {
         result.cornerTruth = readTrajectoryText(groundTruthOf(corner));
     }
+    return failures;
+}
 
+void ReproduceCommand::write(const Reproduction& result, CommandContext& context) const
+{
     if (!files.replaceTable())
     {
         context.out << toMarkdown(result);
@@ -260,6 +265,33 @@ void ReproduceCommand::run(CommandContext& context) const
             writeText(svgFileOf(chart.chart), folder.path() + "/" + chart.fileName, context.out);
         }
     }
+}
+
+void ReproduceCommand::run(CommandContext& context) const
+{
+    OutputGuard guard;
+    const std::string paper = paperConfig.empty() ? findPaperConfig() : paperConfig;
+    for (const std::string& program : {paper, convert, simulate})
+    {
+        guard.addInput(program);
+    }
+    runner.guardedBy(guard);
+    files.guardedBy(guard);
+    guardReport(guard, report);
+    guard.addOutputFolder("--figure", figure, ".svg");
+    Reproduction result;
+    result.sequences = foundSequences();
+    for (const ReproducedSequence& sequence : result.sequences)
+    {
+        guard.addInputFolder(sequence.folder);
+    }
+    plan(paper, result);
+    (void)loadOdometryParams(paper, {});
+    runner.requireProgram();
+    const WorkDirectory work(runner.directory);
+    makeRawlogs(result.sequences, work.path(), context);
+    const std::string failures = score(work.path() + kCornerRawlog, result, context);
+    write(result, context);
     if (!failures.empty())
     {
         context.err << "pointplane-lab: " << failures << "\n";

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sweep_charts.h"
 
+#include <pointplane/core/number_text.h>
 #include <pointplane/evaluation/units.h>
 
-#include <charconv>
 #include <limits>
 #include <numeric>
 
@@ -17,12 +17,9 @@ std::vector<double> numbersOf(const std::vector<std::string>& values)
     std::vector<double> numbers;
     for (const std::string& value : values)
     {
-        double number = 0;
-        const char* const end = value.data() + value.size();
-        const auto [parsed, error] = std::from_chars(value.data(), end, number);
-        if (error == std::errc() && parsed == end)
+        if (const auto number = parseNumber<double>(value))
         {
-            numbers.push_back(number);
+            numbers.push_back(*number);
         }
     }
     return numbers;

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pointplane/evaluation/HtmlReport.h>
-#include <pointplane/evaluation/units.h>
 #include <pointplane/mrpt_io/rawlog_names.h>
 
 #include <cmath>
 #include <filesystem>
-#include <limits>
 #include <memory>
 #include <ostream>
 
@@ -15,7 +12,7 @@
 #include "report_file.h"
 #include "result_output.h"
 #include "rpe_options.h"
-#include "sweep_charts.h"
+#include "sweep_output.h"
 
 namespace pointplane
 {
@@ -36,19 +33,6 @@ struct SweepCommand
     void run(CommandContext& context);
     [[nodiscard]] std::vector<std::string> valuesToTry() const;
     [[nodiscard]] std::vector<LabRun> runs(const std::vector<std::string>& tried) const;
-};
-
-/** Score of each value on each rawlog. */
-struct SweepResult
-{
-    std::string parameter, protocol;
-    std::vector<std::string> values, sequences;
-    std::vector<LabScore> scores;  //!< of sequence s and value v: [s * values.size() + v]
-
-    [[nodiscard]] const LabScore& at(std::size_t s, std::size_t v) const
-    {
-        return scores[s * values.size() + v];
-    }
 };
 
 void SweepCommand::addTo(CLI::App& command)
@@ -147,105 +131,6 @@ std::vector<LabRun> SweepCommand::runs(const std::vector<std::string>& tried) co
         }
     }
     return out;
-}
-
-void printTable(const SweepResult& sweep, std::ostream& out)
-{
-    out << "Sweep of " << sweep.parameter << ", RPE RMSE: " << sweep.protocol << "\n\n"
-        << format("%-16s", "value");
-    for (const std::string& sequence : sweep.sequences)
-    {
-        out << format("  %-26.26s", sequence.c_str());
-    }
-    out << "\n";
-    for (std::size_t v = 0; v < sweep.values.size(); ++v)
-    {
-        out << format("%-16s", sweep.values[v].c_str());
-        for (std::size_t s = 0; s < sweep.sequences.size(); ++s)
-        {
-            out << format("  %-26s", scoreText(sweep.at(s, v)).c_str());
-        }
-        out << "\n";
-    }
-}
-
-nlohmann::ordered_json toJson(const SweepResult& sweep)
-{
-    nlohmann::ordered_json json;
-    json["title"] = "Sweep of " + sweep.parameter;
-    json["protocol"] = sweep.protocol;
-    for (std::size_t s = 0; s < sweep.sequences.size(); ++s)
-    {
-        for (std::size_t v = 0; v < sweep.values.size(); ++v)
-        {
-            const LabScore& score = sweep.at(s, v);
-            nlohmann::ordered_json item{
-                {"sequence", sweep.sequences[s]}, {"value", sweep.values[v]}};
-            if (score.rpe)
-            {
-                item["translation"] = score.rpe->translation.rmse;
-                item["rotationDeg"] = score.rpe->rotation.rmse * kDegreesPerRadian;
-                item["pairs"] = score.rpe->translation.count;
-                item["coverage"] = toJson(score.rpe->coverage);
-            }
-            else
-            {
-                item["failure"] = score.failure;
-            }
-            json["runs"].push_back(item);
-        }
-    }
-    return json;
-}
-
-std::string toCsv(const SweepResult& sweep)
-{
-    std::string out = "sequence,parameter,value,pairs,lost,rpe_m,rpe_deg,failure\n";
-    for (std::size_t s = 0; s < sweep.sequences.size(); ++s)
-    {
-        for (std::size_t v = 0; v < sweep.values.size(); ++v)
-        {
-            const LabScore& score = sweep.at(s, v);
-            out += csvField(sweep.sequences[s]) + "," + sweep.parameter + "," +
-                   csvField(sweep.values[v]) +
-                   (score.rpe ? format(
-                                    ",%zu,%zu,%.9g,%.9g,\n",
-                                    score.rpe->translation.count,
-                                    score.rpe->coverage.lost,
-                                    score.rpe->translation.rmse,
-                                    score.rpe->rotation.rmse * kDegreesPerRadian)
-                              : ",,,,," + csvField(score.failure) + "\n");
-        }
-    }
-    return out;
-}
-
-HtmlReport reportOf(const SweepResult& sweep, bool logarithmic)
-{
-    HtmlReport report("Sweep of " + sweep.parameter, sweep.protocol);
-    std::vector<Chart> charts = sweepCharts(
-        sweep.parameter,
-        sweep.values,
-        sweep.sequences,
-        sweep.scores,
-        logarithmic ? ValueAxis::Log : ValueAxis::Linear);
-    for (const Chart& chart : charts)
-    {
-        report.addChart(chart);
-    }
-    std::vector<std::vector<std::string>> rows;
-    std::vector<std::string> header{sweep.parameter};
-    header.insert(header.end(), sweep.sequences.begin(), sweep.sequences.end());
-    for (std::size_t v = 0; v < sweep.values.size(); ++v)
-    {
-        rows.push_back({sweep.values[v]});
-        for (std::size_t s = 0; s < sweep.sequences.size(); ++s)
-        {
-            rows.back().push_back(scoreText(sweep.at(s, v)));
-        }
-    }
-    report.addTable("RPE RMSE", header, rows);
-    return report;
 }
 
 void SweepCommand::run(CommandContext& context)

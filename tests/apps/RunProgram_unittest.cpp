@@ -236,6 +236,20 @@ TEST(RunCommand, wholeNumbersAreThoseThatWereGiven)
     EXPECT_EQ(parsed({"--jobs=-3"})->jobs, -3);
 }
 
+TEST(RunCommand, numbersAreThoseOfFilesToo)
+{
+    for (const char* value : {"0x10", "+-5", "1e999", "nan", "inf", "0,5", "5 ", "1'000", ""})
+    {
+        EXPECT_FALSE(isFinite()(std::string(value)).empty()) << value;
+    }
+    for (const char* value : {"5", "+5", "-5", ".5", "5.", "1e-3", "08"})
+    {
+        EXPECT_TRUE(isFinite()(std::string(value)).empty()) << value;
+    }
+    EXPECT_EQ(isPositive()(std::string("0")), "'0' is not a positive number");
+    EXPECT_EQ(isBetween(0, 1)(std::string("1.5")), "'1.5' is not a number from 0 to 1");
+}
+
 TEST_F(RunProgram, aReaderThatLeavesEndsNoRun)
 {
     ASSERT_EQ(run(outputs_, [] {}), kExitOk);

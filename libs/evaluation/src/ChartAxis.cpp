@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ChartAxis.h"
 
-#include <pointplane/evaluation/number_text.h>
+#include <pointplane/core/number_text.h>
 
 #include <algorithm>
 #include <cmath>

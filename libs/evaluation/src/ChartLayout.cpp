@@ -11,7 +11,44 @@ namespace pointplane
 namespace
 {
 constexpr double kLetterWidth = 6.6;  // mean, a little too large
+
+/** \param y of the series' axis */
+void addSeries(const ChartSeries& series, bool logY, ChartRange& x, ChartRange& y)
+{
+    for (std::size_t k = 0; k < series.y.size(); ++k)
+    {
+        if (std::isfinite(series.y[k]) && !(logY && series.y[k] <= 0))
+        {
+            x.add(series.x[k]);
+            y.add(series.y[k]);
+        }
+    }
+    for (const double value : series.yUpper)
+    {
+        y.add(value);
+    }
+    if (series.style == ChartSeries::Style::Bars)
+    {
+        x.add(series.x.back());
+        y.add(0);
+    }
 }
+
+/** Room for marks and line widths; then the shorter range grows until scales are equal.
+ * \param width, height of the plot [pixels] */
+void makeScalesEqual(ChartRange& x, double width, ChartRange& y, double height)
+{
+    const double perPixel =
+        std::max({(x.max - x.min) / (width - 24), (y.max - y.min) / (height - 24), 1e-9});
+    const auto grow = [&](ChartRange& range, double pixels)
+    {
+        const double middle = 0.5 * (range.min + range.max);
+        range = {middle - 0.5 * perPixel * pixels, middle + 0.5 * perPixel * pixels, false};
+    };
+    grow(x, width);
+    grow(y, height);
+}
+}  // namespace
 
 ChartLayout::ChartLayout(const Chart& theChart)
     : chart(theChart),
@@ -61,24 +98,7 @@ void ChartLayout::placeAxes()
     ChartRange rightRange;
     for (const ChartSeries& series : chart.series)
     {
-        ChartRange& range = series.rightAxis ? rightRange : yRange;
-        for (std::size_t k = 0; k < series.y.size(); ++k)
-        {
-            if (std::isfinite(series.y[k]) && !(chart.logY && series.y[k] <= 0))
-            {
-                xRange.add(series.x[k]);
-                range.add(series.y[k]);
-            }
-        }
-        for (const double value : series.yUpper)
-        {
-            range.add(value);
-        }
-        if (series.style == ChartSeries::Style::Bars)
-        {
-            xRange.add(series.x.back());
-            range.add(0);
-        }
+        addSeries(series, chart.logY, xRange, series.rightAxis ? rightRange : yRange);
     }
     if (chart.yFromZero || !chart.yRightLabel.empty())
     {
@@ -96,18 +116,7 @@ void ChartLayout::placeAxes()
     named(chart.yNames, 0.5, yRange);
     if (chart.equalScales)
     {
-        // Room for marks and line widths; then the shorter range grows until scales are equal.
-        const double perPixel = std::max(
-            {(xRange.max - xRange.min) / (right - left - 24),
-             (yRange.max - yRange.min) / (bottom - top - 24),
-             1e-9});
-        const auto grow = [&](ChartRange& range, double pixels)
-        {
-            const double middle = 0.5 * (range.min + range.max);
-            range = {middle - 0.5 * perPixel * pixels, middle + 0.5 * perPixel * pixels, false};
-        };
-        grow(xRange, right - left);
-        grow(yRange, bottom - top);
+        makeScalesEqual(xRange, right - left, yRange, bottom - top);
     }
     x.emplace(xRange, chart.logX, left, right);
     y.emplace(yRange, chart.logY, bottom, top);

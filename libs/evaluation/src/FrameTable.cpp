@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/number_text.h>
 #include <pointplane/core/read_errors.h>
 #include <pointplane/evaluation/FrameTable.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <limits>
@@ -15,10 +15,7 @@ namespace
 {
 double numberOrNaN(const std::string& text)
 {
-    double value = 0;
-    const char* const end = text.data() + text.size();
-    const auto [parsed, error] = std::from_chars(text.data(), end, value);
-    return error == std::errc() && parsed == end ? value : std::numeric_limits<double>::quiet_NaN();
+    return parseNumber<double>(text).value_or(std::numeric_limits<double>::quiet_NaN());
 }
 }  // namespace
 

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/core/covariance.h>
+#include <pointplane/core/number_text.h>
 #include <pointplane/core/se3.h>
 #include <pointplane/evaluation/Statistics.h>
 #include <pointplane/evaluation/Trajectory.h>
-#include <pointplane/evaluation/number_text.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <iterator>
-#include <locale>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -185,8 +183,7 @@ void checkOverlap(const Trajectory& groundTruth, const Trajectory& estimate, dou
 
 std::string describeChanges(double offset, double scale)
 {
-    std::ostringstream out;
-    out.imbue(std::locale::classic());
+    std::ostringstream out = numberStream();
     if (offset != 0)
     {
         out << " stamps " << std::showpos << offset << std::noshowpos << " s";

@@ -91,6 +91,17 @@ std::set<StampPair> commonPairs(
     return out;
 }
 
+/** The result without all other pairs. */
+RpeResult ofPairs(const std::set<StampPair>& pairs, const Trajectory& estimate, RpeResult result)
+{
+    const auto isOther = [&](const RpePair& pair) {
+        return pairs.count({estimate.stamps[pair.i], estimate.stamps[pair.j]}) == 0;
+    };
+    result.pairs.erase(
+        std::remove_if(result.pairs.begin(), result.pairs.end(), isOther), result.pairs.end());
+    return result;
+}
+
 /** Stamps of the poses whose error ATE is. */
 std::vector<double> ateStamps(const Trajectory& estimate, const AteResult& result)
 {
@@ -150,21 +161,9 @@ Comparison compareRuns(
     for (std::size_t k = 0; k < estimates.size(); ++k)
     {
         ComparedRun& run = out.runs[k];
-        RpeResult scored = run.rpe;
-        if (run.rpe.pairs.size() != common.size())
-        {
-            out.sameFrames = false;
-        }
-        if (common.size() >= 2)
-        {
-            const auto isNotCommon = [&](const RpePair& pair) {
-                return common.count({estimates[k].stamps[pair.i], estimates[k].stamps[pair.j]}) ==
-                       0;
-            };
-            scored.pairs.erase(
-                std::remove_if(scored.pairs.begin(), scored.pairs.end(), isNotCommon),
-                scored.pairs.end());
-        }
+        out.sameFrames = out.sameFrames && run.rpe.pairs.size() == common.size();
+        const RpeResult scored =
+            common.size() >= 2 ? ofPairs(common, estimates[k], run.rpe) : run.rpe;
         options.blockLength = blockLengthOf(scored);
         run.translation = bootstrapRmse(errorsOf(scored, &RpePair::translation), options);
         run.rotation = bootstrapRmse(errorsOf(scored, &RpePair::rotation), options);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/number_text.h>
 #include <pointplane/evaluation/chi_square.h>
 #include <pointplane/evaluation/consistency.h>
-#include <pointplane/evaluation/number_text.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>

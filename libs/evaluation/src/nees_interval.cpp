@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/number_text.h>
 #include <pointplane/evaluation/nees_interval.h>
 
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <stdexcept>
@@ -16,15 +16,13 @@ NeesInterval neesIntervalFromName(const std::string& name)
         interval.sinceStart = true;
         return interval;
     }
-    const char* const end = name.data() + name.size();
-    const auto [parsed, error] = std::from_chars(name.data(), end, interval.delta);
-    const std::string unit(parsed, end);
-    interval.unit = unit == "s" ? DeltaUnit::Seconds : DeltaUnit::Frames;
+    const char unit = name.empty() ? ' ' : name.back();
+    interval.unit = unit == 's' ? DeltaUnit::Seconds : DeltaUnit::Frames;
+    interval.delta = parseFinite(name.substr(0, name.size() - 1)).value_or(0);
     constexpr double kMostFrames = 1e9;  // a year of them
     const bool isNumber =
         interval.delta == std::floor(interval.delta) && interval.delta <= kMostFrames;
-    if (error != std::errc() || !(interval.delta > 0) || !std::isfinite(interval.delta) ||
-        (unit != "s" && unit != "f") || (unit == "f" && !isNumber))
+    if (!(interval.delta > 0) || (unit != 's' && unit != 'f') || (unit == 'f' && !isNumber))
     {
         throw std::invalid_argument(
             "'" + name + "' is not an interval; frames or seconds, e.g. 1f, 10f or 1s, or start");

@@ -124,8 +124,29 @@ void evaluateListed(
     result.rotation = statisticsOf(rotations);
 }
 
-/** All ordered pairs, each with itself too, as the script. They are computed twice and never
- * stored, see StatisticsAccumulator. */
+/** Statistics of errorOf(i, j) over all ordered pairs of these poses, each with itself too. The
+ * errors are computed twice and never stored, see StatisticsAccumulator. */
+template <class ErrorOf>
+Statistics statisticsOfAll(const std::vector<std::size_t>& poses, const ErrorOf& errorOf)
+{
+    StatisticsAccumulator accumulator;
+    const auto forEachPair = [&](auto&& f)
+    {
+        for (const std::size_t i : poses)
+        {
+            for (const std::size_t j : poses)
+            {
+                f(errorOf(i, j));
+            }
+        }
+    };
+    forEachPair([&](double value) { accumulator.add(value); });
+    accumulator.beginSecondPass();
+    forEachPair([&](double value) { accumulator.addAgain(value); });
+    return accumulator.result();
+}
+
+/** All pairs, as the script. */
 void evaluateAll(const SampledTruth& truth, const PairError& error, RpeResult& result)
 {
     std::vector<std::size_t> valid;
@@ -141,24 +162,6 @@ void evaluateAll(const SampledTruth& truth, const PairError& error, RpeResult& r
     {
         failTooFewPairs(valid.size() * valid.size(), result.candidatePairs, truth);
     }
-    const auto statisticsOfAll = [&](auto&& errorOf)
-    {
-        StatisticsAccumulator accumulator;
-        const auto forEachPair = [&](auto&& f)
-        {
-            for (const std::size_t i : valid)
-            {
-                for (const std::size_t j : valid)
-                {
-                    f(errorOf(i, j));
-                }
-            }
-        };
-        forEachPair([&](double value) { accumulator.add(value); });
-        accumulator.beginSecondPass();
-        forEachPair([&](double value) { accumulator.addAgain(value); });
-        return accumulator.result();
-    };
     constexpr std::size_t kKept = 1000;  // poses, whose pairs are a million
     if (valid.size() <= kKept)
     {
@@ -172,12 +175,13 @@ void evaluateAll(const SampledTruth& truth, const PairError& error, RpeResult& r
     }
     auto rotation = std::async(
         std::launch::async,
-        [&] {
-            return statisticsOfAll([&](std::size_t i, std::size_t j)
-                                   { return error.rotation(i, j); });
+        [&]
+        {
+            return statisticsOfAll(
+                valid, [&](std::size_t i, std::size_t j) { return error.rotation(i, j); });
         });
-    result.translation =
-        statisticsOfAll([&](std::size_t i, std::size_t j) { return error.translation(i, j); });
+    result.translation = statisticsOfAll(
+        valid, [&](std::size_t i, std::size_t j) { return error.translation(i, j); });
     result.rotation = rotation.get();
 }
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/core/byte_order_mark.h>
+#include <pointplane/core/number_text.h>
 #include <pointplane/core/read_errors.h>
 #include <pointplane/evaluation/trajectory_text.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -27,7 +27,6 @@ constexpr double kNormTolerance = 0.01;  // files have four digits and more
     throw std::runtime_error(path + ":" + std::to_string(line) + ": " + what);
 }
 
-/** Numbers of a line; the locale must not matter, hence from_chars. */
 std::vector<double> parseNumbers(const std::string& text, const std::string& path, std::size_t line)
 {
     std::vector<double> numbers;
@@ -42,14 +41,13 @@ std::vector<double> parseNumbers(const std::string& text, const std::string& pat
             return numbers;
         }
         const char* const stop = std::find_if(at, end, isSeparator);
-        double value = 0;
-        const char* const first = (*at == '+' && stop - at > 1) ? at + 1 : at;
-        const auto [parsed, error] = std::from_chars(first, stop, value);
-        if (error != std::errc() || parsed != stop)
+        const std::string word(at, stop);
+        const auto number = parseNumber<double>(word);
+        if (!number)
         {
-            failAt(path, line, "'" + std::string(at, stop) + "' is not a number");
+            failAt(path, line, "'" + word + "' is not a number");
         }
-        numbers.push_back(value);
+        numbers.push_back(*number);
         at = stop;
     }
 }
@@ -122,20 +120,18 @@ void FrameMarks::read(
     std::string status;
     words >> stampText >> status;
     status = status.substr(0, status.find(':'));
-    double stamp = 0;
-    const char* const end = stampText.data() + stampText.size();
-    const auto [parsed, error] = std::from_chars(stampText.data(), end, stamp);
-    if (error != std::errc() || parsed != end || (status != "lost" && status != "predicted"))
+    const auto stamp = parseNumber<double>(stampText);
+    if (!stamp || (status != "lost" && status != "predicted"))
     {
         failAt(path, line, "not a status: expected # pointplane-status STAMP lost or predicted");
     }
     if (status == "predicted")
     {
-        predicted.insert(stamp);
+        predicted.insert(*stamp);
     }
-    else if (stamp > std::max(latest, lost.empty() ? 0 : lost.back()))
+    else if (*stamp > std::max(latest, lost.empty() ? 0 : lost.back()))
     {
-        lost.push_back(stamp);
+        lost.push_back(*stamp);
     }
     else  // a stamp that is not after the others may be why the frame is lost
     {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/core/check.h>
+#include <pointplane/core/number_text.h>
 #include <pointplane/mrpt_io/ScanWriter.h>
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/external_range.h>
@@ -18,8 +19,6 @@
 #include <cstring>
 #include <filesystem>
 #include <limits>
-#include <locale>
-#include <sstream>
 
 #include "ImagesFolder.h"
 
@@ -200,8 +199,7 @@ std::string problemOfDepthUnits(double unitsPerMetre)
     {
         return "";
     }
-    std::ostringstream out;
-    out.imbue(std::locale::classic());
+    std::ostringstream out = numberStream();
     out << unitsPerMetre << " is not a number from " << kLeastDepthUnits << " to "
         << kMostDepthUnits;
     return out.str();

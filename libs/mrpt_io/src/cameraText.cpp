@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cameraText.h"
 
+#include <pointplane/core/number_text.h>
 #include <pointplane/mrpt_io/ObservationConverter.h>
 #include <pointplane/mrpt_io/errors.h>
 
 #include <cmath>
 #include <sstream>
-
-#include "numbers.h"
 
 namespace pointplane
 {
@@ -93,8 +92,8 @@ std::optional<CameraComment> parseCameraComment(const std::string& text)
                 "unknown key '" + key +
                 "' (known: label, intrinsics, readoutColour, readoutDepth, depthDelay)");
         }
-        const auto number = parseNumber<double>(value);
-        if (!number || !std::isfinite(*number))
+        const auto number = parseFinite(value);
+        if (!number)
         {
             throw problem("'" + value + "' is not a number of seconds (key " + key + ")");
         }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/number_text.h>
+#include <pointplane/core/trimmed.h>
 #include <pointplane/mrpt_io/camera_ini.h>
 #include <pointplane/mrpt_io/errors.h>
 
@@ -6,9 +8,6 @@
 #include <cmath>
 #include <cstdint>
 #include <sstream>
-
-#include "numbers.h"
-#include "trimmed.h"
 
 namespace pointplane
 {
@@ -72,8 +71,8 @@ constexpr std::size_t kPlumbBob = 5;  // k1 k2 p1 p2 k3
     std::vector<double> out;
     for (const std::string& word : wordsOf(text))
     {
-        const auto number = parseNumber<double>(word);
-        if (!number || !std::isfinite(*number))
+        const auto number = parseFinite(word);
+        if (!number)
         {
             fail(path, section, key, "= '" + text + "': '" + word + "' is not a number");
         }

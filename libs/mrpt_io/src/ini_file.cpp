@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/trimmed.h>
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/ini_file.h>
 
@@ -7,8 +8,6 @@
 #include <filesystem>
 #include <fstream>
 #include <set>
-
-#include "trimmed.h"
 
 namespace pointplane
 {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/core/byte_order_mark.h>
+#include <pointplane/core/number_text.h>
+#include <pointplane/core/trimmed.h>
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/params_ini.h>
 
@@ -12,9 +14,6 @@
 #include <numeric>
 #include <set>
 #include <sstream>
-
-#include "numbers.h"
-#include "trimmed.h"
 
 namespace pointplane
 {

@@ -126,6 +126,36 @@ class ReprojectionTest
     const PinholeCamera& camera_;
     const DepthNoise& noise_;
 };
+
+/** RANSAC: the pairs that agree with the best motion of three of them. */
+std::vector<size_t> mostInliers(const ReprojectionTest& test, size_t numPairs)
+{
+    std::mt19937 random(1);
+    std::vector<size_t> best;
+    for (int t = 0, tries = 0; t < kMaxTrials && tries < 20 * kMaxTrials; ++tries)
+    {
+        const size_t s[3] = {random() % numPairs, random() % numPairs, random() % numPairs};
+        if (s[0] == s[1] || s[1] == s[2] || s[0] == s[2] || !test.isRigid(s))
+        {
+            continue;
+        }
+        ++t;
+        std::vector<size_t> found = test.inliers(test.fit({s[0], s[1], s[2]}), 2);
+        if (found.size() > best.size())
+        {
+            if (found.size() >= 6)
+            {
+                auto again = test.inliers(test.fit(found), 2);
+                if (again.size() > found.size())
+                {
+                    found = std::move(again);
+                }
+            }
+            best = std::move(found);
+        }
+    }
+    return best;
+}
 }  // namespace
 
 ImageAligner::ImageAligner(const PointLifter::TParams& lifter, const DepthNoise& noise)
@@ -181,31 +211,7 @@ std::optional<ImageMotion> ImageAligner::align(
         return {};
     }
     const ReprojectionTest test(pairs, camera, noise_);
-    std::mt19937 random(1);
-    std::vector<size_t> best;
-    int trials = kMaxTrials;
-    for (int t = 0, tries = 0; t < trials && tries < 20 * kMaxTrials; ++tries)
-    {
-        const size_t s[3] = {random() % n, random() % n, random() % n};
-        if (s[0] == s[1] || s[1] == s[2] || s[0] == s[2] || !test.isRigid(s))
-        {
-            continue;
-        }
-        ++t;
-        std::vector<size_t> found = test.inliers(test.fit({s[0], s[1], s[2]}), 2);
-        if (found.size() > best.size())
-        {
-            if (found.size() >= 6)
-            {
-                auto again = test.inliers(test.fit(found), 2);
-                if (again.size() > found.size())
-                {
-                    found = std::move(again);
-                }
-            }
-            best = std::move(found);
-        }
-    }
+    std::vector<size_t> best = mostInliers(test, n);
     if (best.size() < kFewPoints)
     {
         return {};

@@ -32,6 +32,7 @@ struct Odometry::Impl
 
     OdometryResult process(const RgbdFrame& frame);
     void place(const RgbdFrame& frame, OdometryResult& result);
+    Alignment align(const Features& current, FrameDiagnostics& diagnostics);
     void restart(const Features& current, const std::string& reason, OdometryResult& result);
     void measure(const Features& current, Alignment& alignment, OdometryResult& result);
     void predict(const Features& current, const std::string& reason, OdometryResult& result);
@@ -154,22 +155,7 @@ void Odometry::Impl::place(const RgbdFrame& frame, OdometryResult& result)
         return restart(current, interruption, result);
     }
 
-    Alignment alignment = aligner.align(frontEnd, current, track, errors, result.diagnostics);
-    // What cannot be told in this frame, later frames may tell with the same references.
-    const bool isSettled = alignment.unsettled.empty();
-    if (!alignment.holds && isSettled)
-    {
-        if (const auto place = aligner.recognise(frontEnd, current, track))
-        {
-            track.recall(*place);
-            alignment = aligner.align(frontEnd, current, track, errors, result.diagnostics);
-        }
-    }
-    if (!alignment.holds && isSettled && track.restartAtUnmatched())
-    {
-        // None of the references is in view any more; the latest frame did not find them either.
-        alignment = aligner.align(frontEnd, current, track, errors, result.diagnostics);
-    }
+    Alignment alignment = align(current, result.diagnostics);
     if (alignment.holds)
     {
         measure(current, alignment, result);
@@ -179,6 +165,28 @@ void Odometry::Impl::place(const RgbdFrame& frame, OdometryResult& result)
         showPairs(alignment.associations, nullptr, shown);
         predict(current, alignment.reason, result);
     }
+}
+
+/** With the references, with an older key frame, or with the latest frame that matched none. */
+Alignment Odometry::Impl::align(const Features& current, FrameDiagnostics& diagnostics)
+{
+    Alignment out = aligner.align(frontEnd, current, track, errors, diagnostics);
+    if (out.holds || !out.unsettled.empty())
+    {
+        // What cannot be told in this frame, later frames may tell with the same references.
+        return out;
+    }
+    if (const auto place = aligner.recognise(frontEnd, current, track))
+    {
+        track.recall(*place);
+        out = aligner.align(frontEnd, current, track, errors, diagnostics);
+    }
+    if (!out.holds && track.restartAtUnmatched())
+    {
+        // None of the references is in view any more; the latest frame did not find them either.
+        out = aligner.align(frontEnd, current, track, errors, diagnostics);
+    }
+    return out;
 }
 
 namespace

@@ -58,6 +58,77 @@ void applyVelocity(
     }
 }
 
+/** The frame, and what its features are corrected by. */
+struct CurrentView
+{
+    const Features& features;
+    const ShutterCorrection shutter;
+    const CameraCalibrator& learnt;
+
+    /** \param byCamera how the feature moves with errors of the camera */
+    template <class ByCamera>
+    void correct(Eigen::Vector3d& feature, ByCamera byCamera) const
+    {
+        feature += byCamera(feature, features.frame.camera) * learnt.errors();
+    }
+};
+
+/** A reference, what its features are corrected by, and where they go. */
+struct ReferenceView
+{
+    const Reference& reference;
+    const ShutterCorrection shutter;
+    const Eigen::Isometry3d T_prev_ref;
+};
+
+PlanePair planePair(const ReferenceView& past, const CurrentView& current, const PlaneMatch& match)
+{
+    const PlaneFeature& ref = past.reference.planes.planes[static_cast<size_t>(match.ref)];
+    const PlaneFeature& cur = current.features.planes.planes[static_cast<size_t>(match.cur)];
+    PlaneGaussian past_ref = ref.plane_cam;
+    const Matrix36d byVelocity = past.shutter.planeJacobian(ref);
+    PlanePair pair;
+    pair.dCur_dV = current.shutter.planeJacobian(cur);
+    applyVelocity(past.reference, byVelocity, past_ref.theta_m, pair.dCur_dV);
+    current.correct(past_ref.theta_m, planeByCamera);
+    pair.dRef_dV = transformJacobian(past.T_prev_ref, past_ref.theta_m) * byVelocity;
+    pair.ref = transformed(past.T_prev_ref, past_ref);
+    pair.cur = cur.plane_cam;
+    current.correct(pair.cur.theta_m, planeByCamera);
+    pair.reference = past.reference.id;
+    pair.feature = match.cur;
+    return pair;
+}
+
+PointPair pointPair(const ReferenceView& past, const CurrentView& current, const PointTrack& track)
+{
+    const Features& features = current.features;
+    const PinholeCamera& camera = features.frame.camera;
+    const PointFeature& ref = past.reference.points.points[static_cast<size_t>(track.ref)];
+    const PointFeature& cur = track.cur;
+    PointPair pair;
+    const Matrix36d byVelocity = past.shutter.pointJacobian(ref);
+    Eigen::Vector3d past_ref = ref.p_cam.mean;
+    pair.dCur_dV = current.shutter.pointJacobian(cur);
+    applyVelocity(past.reference, byVelocity, past_ref, pair.dCur_dV);
+    current.correct(past_ref, pointByCamera);
+    pair.dRef_dV = past.T_prev_ref.linear() * byVelocity;
+    pair.ref.mean = past.T_prev_ref * past_ref;
+    pair.ref.cov = propagate(past.T_prev_ref.linear(), ref.p_cam.cov);
+    pair.cur = cur.p_cam;
+    current.correct(pair.cur.mean, pointByCamera);
+    pair.reference = past.reference.id;
+    pair.feature = cellOf(cur.uv_px);
+    pair.hasDepth = cur.hasDepth;
+    pair.surface = surfaceAt(camera.depthPixel(cur.uv_px), features.planes);
+    if (features.bend > 0)
+    {
+        pair.refPatch = patchOf(ref.uv_px, camera);
+        pair.curPatch = patchOf(cur.uv_px, camera);
+    }
+    return pair;
+}
+
 /** A pair of points as both views together put it: its noise has nothing to do with the residual.
  * With the measured ones, a camera that shrinks all residuals would seem right. */
 struct FusedPoint
@@ -81,58 +152,22 @@ void PairBuilder::build(
     points.clear();
     planes.clear();
     const PinholeCamera& camera = current_.frame.camera;
-    const auto correct = [&](Eigen::Vector3d& feature, auto byCamera)
-    { feature += byCamera(feature, camera) * learnt_.errors(); };
-    const ShutterCorrection current(learnt_.complete(current_.frame.shutter), camera.height);
+    const CurrentView current{
+        current_, {learnt_.complete(current_.frame.shutter), camera.height}, learnt_};
     for (const Association& association : associations)
     {
         const Reference& reference = *association.reference;
-        const ShutterCorrection past(learnt_.complete(reference.shutter), camera.height);
-        const Eigen::Isometry3d T_prev_ref =
-            previous_.T_world_cam.inverse() * reference.T_world_cam;
+        const ReferenceView past{
+            reference,
+            {learnt_.complete(reference.shutter), camera.height},
+            previous_.T_world_cam.inverse() * reference.T_world_cam};
         for (const PlaneMatch& match : association.planes)
         {
-            const PlaneFeature& ref = reference.planes.planes[static_cast<size_t>(match.ref)];
-            const PlaneFeature& cur = current_.planes.planes[static_cast<size_t>(match.cur)];
-            PlaneGaussian past_ref = ref.plane_cam;
-            const Matrix36d byVelocity = past.planeJacobian(ref);
-            PlanePair pair;
-            pair.dCur_dV = current.planeJacobian(cur);
-            applyVelocity(reference, byVelocity, past_ref.theta_m, pair.dCur_dV);
-            correct(past_ref.theta_m, planeByCamera);
-            pair.dRef_dV = transformJacobian(T_prev_ref, past_ref.theta_m) * byVelocity;
-            pair.ref = transformed(T_prev_ref, past_ref);
-            pair.cur = cur.plane_cam;
-            correct(pair.cur.theta_m, planeByCamera);
-            pair.reference = reference.id;
-            pair.feature = match.cur;
-            planes.push_back(pair);
+            planes.push_back(planePair(past, current, match));
         }
         for (const PointTrack& track : association.points)
         {
-            const PointFeature& ref = reference.points.points[static_cast<size_t>(track.ref)];
-            const PointFeature& cur = track.cur;
-            PointPair pair;
-            const Matrix36d byVelocity = past.pointJacobian(ref);
-            Eigen::Vector3d past_ref = ref.p_cam.mean;
-            pair.dCur_dV = current.pointJacobian(cur);
-            applyVelocity(reference, byVelocity, past_ref, pair.dCur_dV);
-            correct(past_ref, pointByCamera);
-            pair.dRef_dV = T_prev_ref.linear() * byVelocity;
-            pair.ref.mean = T_prev_ref * past_ref;
-            pair.ref.cov = propagate(T_prev_ref.linear(), ref.p_cam.cov);
-            pair.cur = cur.p_cam;
-            correct(pair.cur.mean, pointByCamera);
-            pair.reference = reference.id;
-            pair.feature = cellOf(cur.uv_px);
-            pair.hasDepth = cur.hasDepth;
-            pair.surface = surfaceAt(camera.depthPixel(cur.uv_px), current_.planes);
-            if (current_.bend > 0)
-            {
-                pair.refPatch = patchOf(ref.uv_px, camera);
-                pair.curPatch = patchOf(cur.uv_px, camera);
-            }
-            points.push_back(pair);
+            points.push_back(pointPair(past, current, track));
         }
     }
 }

@@ -98,6 +98,47 @@ OverlapCounts countOverlaps(
     }
     return counts;
 }
+
+struct Candidate
+{
+    double distance;
+    PlaneMatch match;
+};
+
+/** Pairs that pass the tests of overlap, angle and distance, the nearest first. */
+std::vector<Candidate> candidatesOf(
+    const PlaneSet& ref,
+    const PlaneSet& cur,
+    const OverlapCounts& counts,
+    const Eigen::Isometry3d& T_cur_ref,
+    const PlaneMatcher::TParams& params)
+{
+    const double minCosine = std::cos(params.maxNormalAngleDeg * M_PI / 180);
+    std::vector<Candidate> candidates;
+    for (size_t r = 0; r < ref.planes.size(); ++r)
+    {
+        const Plane moved = transformed(T_cur_ref, hessianForm(ref.planes[r].plane_cam.theta_m));
+        for (size_t c = 0; c < cur.planes.size(); ++c)
+        {
+            const Plane plane = hessianForm(cur.planes[c].plane_cam.theta_m);
+            const int smaller = std::min(counts.ref[r], counts.cur[c]);
+            // [P17, section Matching]: overlap, angle, distance.
+            if (counts.common[r][c] >= params.minOverlap * std::max(1, smaller) &&
+                moved.n.dot(plane.n) > minCosine &&
+                std::abs(moved.d - plane.d) < params.maxDistance)
+            {
+                candidates.push_back(
+                    {(moved.d * moved.n - plane.d * plane.n).norm(),  // [P17 Eq. 7]
+                     {static_cast<int>(r), static_cast<int>(c)}});
+            }
+        }
+    }
+    std::stable_sort(
+        candidates.begin(),
+        candidates.end(),
+        [](const Candidate& a, const Candidate& b) { return a.distance < b.distance; });
+    return candidates;
+}
 }  // namespace
 
 void PlaneMatcher::TParams::check() const
@@ -122,38 +163,9 @@ std::vector<PlaneMatch> PlaneMatcher::match(
     const OverlapCounts counts = T_cur_ref.matrix().isIdentity(kStill)
                                      ? countOverlaps(ref, cur)
                                      : countOverlaps(ref, cur, camera, T_cur_ref);
-    const double minCosine = std::cos(params_.maxNormalAngleDeg * M_PI / 180);
-    struct Candidate
-    {
-        double distance;
-        PlaneMatch match;
-    };
-    std::vector<Candidate> candidates;
-    for (size_t r = 0; r < ref.planes.size(); ++r)
-    {
-        const Plane moved = transformed(T_cur_ref, hessianForm(ref.planes[r].plane_cam.theta_m));
-        for (size_t c = 0; c < cur.planes.size(); ++c)
-        {
-            const Plane plane = hessianForm(cur.planes[c].plane_cam.theta_m);
-            const int smaller = std::min(counts.ref[r], counts.cur[c]);
-            // [P17, section Matching]: overlap, angle, distance.
-            if (counts.common[r][c] >= params_.minOverlap * std::max(1, smaller) &&
-                moved.n.dot(plane.n) > minCosine &&
-                std::abs(moved.d - plane.d) < params_.maxDistance)
-            {
-                candidates.push_back(
-                    {(moved.d * moved.n - plane.d * plane.n).norm(),  // [P17 Eq. 7]
-                     {static_cast<int>(r), static_cast<int>(c)}});
-            }
-        }
-    }
-    std::stable_sort(
-        candidates.begin(),
-        candidates.end(),
-        [](const Candidate& a, const Candidate& b) { return a.distance < b.distance; });
     std::vector<bool> refTaken(ref.planes.size()), curTaken(cur.planes.size());
     std::vector<PlaneMatch> matches;
-    for (const Candidate& candidate : candidates)
+    for (const Candidate& candidate : candidatesOf(ref, cur, counts, T_cur_ref, params_))
     {
         const auto r = static_cast<size_t>(candidate.match.ref);
         const auto c = static_cast<size_t>(candidate.match.cur);

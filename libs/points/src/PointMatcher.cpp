@@ -136,6 +136,61 @@ std::vector<int> nearestDescriptors(const cv::Mat& refs, int ref, const cv::Mat&
     return out;
 }
 
+constexpr float kNone = std::numeric_limits<float>::max();
+
+/** Current points of the nearest and the second nearest descriptor. */
+struct TwoNearest
+{
+    int cur{-1};
+    float distance{kNone}, second{kNone};
+
+    void add(int other, float otherDistance)
+    {
+        if (otherDistance < distance)
+        {
+            second = distance;
+            cur = other;
+            distance = otherDistance;
+        }
+        else
+        {
+            second = std::min(second, otherDistance);
+        }
+    }
+
+    [[nodiscard]] bool isDistinct(double maxRatio) const
+    {
+        return second == kNone || maxRatio == 1 ||
+               static_cast<double>(distance) < maxRatio * static_cast<double>(second);
+    }
+};
+
+/** Of several claims on a current point, the nearest holds. */
+class Claims
+{
+ public:
+    explicit Claims(size_t numCurrent) : distance_(numCurrent, kNone), ref_(numCurrent, -1) {}
+
+    void add(const PointMatch& claim)
+    {
+        const auto c = static_cast<size_t>(claim.cur);
+        if (claim.distance < distance_[c])
+        {
+            distance_[c] = claim.distance;
+            ref_[c] = claim.ref;
+        }
+    }
+
+    [[nodiscard]] bool holds(const PointMatch& claim) const
+    {
+        return ref_[static_cast<size_t>(claim.cur)] == claim.ref;
+    }
+
+ private:
+    std::vector<float> distance_;
+    std::vector<int> ref_;
+};
+
 void checkInput(const Positions& points, const cv::Mat& descriptors, const char* name)
 {
     POINTPLANE_CHECK(
@@ -171,17 +226,14 @@ std::vector<PointMatch> PointMatcher::match(
             (refDescriptors.type() == CV_8UC1 || refDescriptors.type() == CV_32FC1),
         "descriptors of the two frames are of different or unknown types");
 
-    constexpr float kNone = std::numeric_limits<float>::max();
     const double radius = params_.searchRadiusPx;
     const PointGrid grid(cur_px, radius);
-    std::vector<PointMatch> best;                           // per reference point
-    std::vector<float> nearestOfCur(cur_px.size(), kNone);  // over all reference points
-    std::vector<int> refOfCur(cur_px.size(), -1);
+    std::vector<PointMatch> best;  // per reference point
+    Claims claims(cur_px.size());  // of all reference points
     for (int ref = 0; ref < refDescriptors.rows; ++ref)
     {
         const Eigen::Vector2d& centre = predicted_px[static_cast<size_t>(ref)];
-        PointMatch nearest{ref, -1, kNone};
-        float second = kNone;
+        TwoNearest nearest;
         const auto consider = [&](int cur)
         {
             const auto c = static_cast<size_t>(cur);
@@ -191,21 +243,8 @@ std::vector<PointMatch> PointMatcher::match(
                 return;
             }
             const float distance = descriptorDistance(refDescriptors, ref, curDescriptors, cur);
-            if (distance < nearest.distance)
-            {
-                second = nearest.distance;
-                nearest.cur = cur;
-                nearest.distance = distance;
-            }
-            else
-            {
-                second = std::min(second, distance);
-            }
-            if (distance < nearestOfCur[c])
-            {
-                nearestOfCur[c] = distance;
-                refOfCur[c] = ref;
-            }
+            nearest.add(cur, distance);
+            claims.add({ref, cur, distance});
         };
         if (params_.neighbours > 0)
         {
@@ -219,30 +258,17 @@ std::vector<PointMatch> PointMatcher::match(
         {
             grid.around(centre, consider);
         }
-        const bool isDistinct =
-            second == kNone || params_.maxRatio == 1 ||
-            static_cast<double>(nearest.distance) < params_.maxRatio * static_cast<double>(second);
-        if (nearest.cur >= 0 && isDistinct)
+        if (nearest.cur >= 0 && nearest.isDistinct(params_.maxRatio))
         {
-            best.push_back(nearest);
+            best.push_back({ref, nearest.cur, nearest.distance});
         }
     }
     if (!params_.crossCheck)
     {
-        // Of several claims on a current point the nearest holds.
-        std::fill(nearestOfCur.begin(), nearestOfCur.end(), kNone);
-        for (const PointMatch& m : best)
-        {
-            const auto c = static_cast<size_t>(m.cur);
-            if (m.distance < nearestOfCur[c])
-            {
-                nearestOfCur[c] = m.distance;
-                refOfCur[c] = m.ref;
-            }
-        }
+        claims = Claims(cur_px.size());
+        std::for_each(best.begin(), best.end(), [&](const PointMatch& m) { claims.add(m); });
     }
-    const auto isBeaten = [&](const PointMatch& m)
-    { return refOfCur[static_cast<size_t>(m.cur)] != m.ref; };
+    const auto isBeaten = [&](const PointMatch& m) { return !claims.holds(m); };
     best.erase(std::remove_if(best.begin(), best.end(), isBeaten), best.end());
     return best;
 }

@@ -269,4 +269,21 @@ double NormalEquations::planeVariance() const
 {
     return relativeMedian(points_.size(), residuals_.size());
 }
+
+std::vector<double> NormalEquations::weights(size_t begin, size_t end) const
+{
+    std::vector<double> out;
+    for (size_t i = begin; i < end; ++i)
+    {
+        out.push_back(ofSurface(i) * weight(i));
+    }
+    return out;
+}
+
+std::vector<double> NormalEquations::pointWeights() const { return weights(0, points_.size()); }
+
+std::vector<double> NormalEquations::planeWeights() const
+{
+    return weights(points_.size(), residuals_.size());
+}
 }  // namespace pointplane

@@ -72,6 +72,10 @@ class NormalEquations
     /** With the points of this frame. */
     [[nodiscard]] const std::vector<InlierRatio>& surfaces() const { return surfaces_; }
 
+    /** Of the pairs: weight() times ofSurface(). */
+    [[nodiscard]] std::vector<double> pointWeights() const;
+    [[nodiscard]] std::vector<double> planeWeights() const;
+
     /** How the gradient changes with the residual. */
     [[nodiscard]] Matrix123d influence(size_t i) const;
 
@@ -104,6 +108,7 @@ class NormalEquations
     [[nodiscard]] int dof(size_t i) const;
     [[nodiscard]] double robustVariance() const;
     [[nodiscard]] double relativeMedian(size_t begin, size_t end) const;
+    [[nodiscard]] std::vector<double> weights(size_t begin, size_t end) const;
 
     const PoseSolver::Settings& solver_;
     const std::vector<PointPair>& points_;

@@ -11,7 +11,12 @@
 #include <cmath>
 
 #include "NormalEquations.h"
+#include "Solution.h"
 #include "SolutionAnalysis.h"
+#include "camera_information.h"
+#include "plane_residuals.h"
+#include "point_support.h"
+#include "sensitivity.h"
 
 namespace pointplane
 {
@@ -228,7 +233,7 @@ double PoseSolver::pointSupport(const PoseProblem& problem, const PoseEstimate& 
     const RobustPrior prior{problem.prior, settings_.params.priorStudentDof};
     NormalEquations equations(settings_, problem);
     const Linearised at(equations, prior, solution.motion.mean);
-    return SolutionAnalysis(equations, problem, at.H, at.H_inverse).pointSupport();
+    return supportByPoints(equations, problem, at.H);
 }
 
 PoseAnalysis PoseSolver::analyse(const PoseProblem& problem, const PoseEstimate& solution) const
@@ -236,22 +241,22 @@ PoseAnalysis PoseSolver::analyse(const PoseProblem& problem, const PoseEstimate&
     const RobustPrior prior{problem.prior, settings_.params.priorStudentDof};
     NormalEquations equations(settings_, problem);
     const Linearised at(equations, prior, solution.motion.mean);
-    const SolutionAnalysis analysis(equations, problem, at.H, at.H_inverse);
+    const Solution solved = solutionOf(equations, problem, at.H, at.H_inverse);
     PoseAnalysis out;
-    out.sensitivity = analysis.sensitivity();
+    out.sensitivity = sensitivityOf(solved);
     out.sensitivity.prior = at.H_inverse * at.known;
-    analysis.addCamera(out);
+    addCamera(solved, out);
     out.pointVariance = equations.pointVariance();
     out.planeVariance = equations.planeVariance();
-    out.planeResiduals = analysis.planeResiduals();
-    if (analysis.numGroups() > 1)
+    out.planeResiduals = residualsOfPlanes(equations, problem);
+    if (solved.points.size() + solved.planes.size() > 1)
     {
-        out.pointDisagreement = analysis.pointDisagreement(solution.motion.cov);
-        out.planeDisagreement = analysis.planeDisagreement(solution.motion.cov);
+        out.pointDisagreement = disagreementOf(solved, solved.points, solution.motion.cov);
+        out.planeDisagreement = disagreementOf(solved, solved.planes, solution.motion.cov);
     }
-    out.scatter = analysis.scatter(out.sensitivity);
-    out.pointWeights = analysis.pointWeights();
-    out.planeWeights = analysis.planeWeights();
+    out.scatter = scatterOf(solved, out.sensitivity);
+    out.pointWeights = equations.pointWeights();
+    out.planeWeights = equations.planeWeights();
     out.surfaces = equations.surfaces();
     return out;
 }

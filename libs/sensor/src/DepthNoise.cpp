@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/number_text.h>
 #include <pointplane/core/range.h>
 #include <pointplane/sensor/DepthNoise.h>
 
 #include <algorithm>
 #include <array>
 #include <iomanip>
-#include <locale>
-#include <sstream>
 
 namespace pointplane
 {
@@ -29,8 +28,7 @@ std::string describe(const DepthNoise& noise)
 {
     DepthNoise unbent = noise;
     unbent.sigmaRelative = 0;
-    std::ostringstream out;
-    out.imbue(std::locale::classic());
+    std::ostringstream out = numberStream();
     out << std::setprecision(2) << noise.kind << ", " << 1e3 * unbent.sigmaZ(1) << " mm at 1 m, "
         << 1e3 * unbent.sigmaZ(3) << " mm at 3 m";
     if (noise.sigmaRelative > 0)

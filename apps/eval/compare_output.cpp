@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "compare_output.h"
+
+#include <pointplane/evaluation/trajectory_charts.h>
+#include <pointplane/evaluation/units.h>
+
+#include <optional>
+#include <ostream>
+
+#include "result_output.h"
+
+namespace pointplane
+{
+namespace
+{
+std::string behindText(const std::optional<BootstrapInterval>& behind, bool best, double unit)
+{
+    if (best)
+    {
+        return "best";
+    }
+    if (!behind)
+    {
+        return "no common pairs";
+    }
+    return format(
+        "%+.3f [%+.3f, %+.3f]%s",
+        behind->value * unit,
+        behind->lower * unit,
+        behind->upper * unit,
+        behind->excludesZero() ? "" : " ns");
+}
+
+bool isBest(const Comparison& c, std::size_t run, std::size_t best)
+{
+    return c.isComparable() && run == best;
+}
+
+/** Its name, or null if the runs cannot be compared. */
+nlohmann::ordered_json nameOfBest(const Comparison& c, std::size_t best)
+{
+    return c.isComparable() ? nlohmann::ordered_json(c.runs[best].name) : nullptr;
+}
+
+/** What a reader must know of runs that have different frames; empty otherwise. */
+std::string noteOf(const Comparison& c)
+{
+    const std::string ofAte =
+        c.bestAte ? "" : "; ATE is each run's own, so none is marked as the best in ATE";
+    if (c.sameFrames)
+    {
+        return c.bestAte ? "" : "the runs have different frames" + ofAte;
+    }
+    return c.isComparable()
+               ? format(
+                     "the runs have different frames: mm and deg are those of the %zu pairs that "
+                     "all of them have; pairs and cover are each run's own",
+                     c.numCommonPairs) +
+                     ofAte
+               : "the runs have different frames and fewer than two pairs in common: their errors "
+                 "cannot be compared";
+}
+
+nlohmann::ordered_json intervalJson(const BootstrapInterval& interval, double unit)
+{
+    return {
+        {"value", interval.value * unit},
+        {"lower95", interval.lower * unit},
+        {"upper95", interval.upper * unit}};
+}
+}  // namespace
+
+void printTable(const Comparison& c, const std::string& protocol, std::ostream& out)
+{
+    out << "Comparison of " << c.runs.size() << " runs: " << protocol << "\n"
+        << "RPE RMSE, its distance to the best with the bootstrap's 95 % interval (ns: not "
+           "significant), ATE RMSE\n\n"
+        << format(
+               "%-32s%9s  %-27s%9s  %-27s%9s%8s%7s\n",
+               "run",
+               "mm",
+               "behind the best",
+               "deg",
+               "behind the best",
+               "ATE mm",
+               "pairs",
+               "cover");
+    for (std::size_t k = 0; k < c.runs.size(); ++k)
+    {
+        const ComparedRun& r = c.runs[k];
+        const std::string name =
+            r.name.size() <= 30 ? r.name : "..." + r.name.substr(r.name.size() - 27);
+        out << format(
+            "%-32s%9.3f%s %-27s%9.4f%s %-27s%9.3f%s%7zu%6.1f%%\n",
+            name.c_str(),
+            1000 * r.translation.value,
+            isBest(c, k, c.bestTranslation) ? "*" : " ",
+            behindText(r.translationBehindBest, isBest(c, k, c.bestTranslation), 1000).c_str(),
+            kDegreesPerRadian * r.rotation.value,
+            isBest(c, k, c.bestRotation) ? "*" : " ",
+            behindText(r.rotationBehindBest, isBest(c, k, c.bestRotation), kDegreesPerRadian)
+                .c_str(),
+            1000 * r.ate.translation.rmse,
+            c.bestAte == k ? "*" : " ",
+            r.rpe.translation.count,
+            100 * r.rpe.coverage.share);
+    }
+    if (!noteOf(c).empty())
+    {
+        out << "\n" << noteOf(c) << "\n";
+    }
+}
+
+nlohmann::ordered_json toJson(const Comparison& c, const std::string& protocol)
+{
+    nlohmann::ordered_json json;
+    json["title"] = "Comparison";
+    json["protocol"] = protocol;
+    json["units"] = {{"translation", "m"}, {"rotation", "deg"}};
+    json["bestTranslation"] = nameOfBest(c, c.bestTranslation);
+    json["bestRotation"] = nameOfBest(c, c.bestRotation);
+    json["bestAte"] =
+        c.bestAte ? nlohmann::ordered_json(c.runs[*c.bestAte].name) : nlohmann::ordered_json();
+    json["pairsInCommon"] = c.numCommonPairs;
+    if (!noteOf(c).empty())
+    {
+        json["note"] = noteOf(c);
+    }
+    for (const ComparedRun& r : c.runs)
+    {
+        nlohmann::ordered_json run;
+        run["name"] = r.name;
+        run["pairs"] = r.rpe.translation.count;
+        run["coverage"] = toJson(r.rpe.coverage);
+        run["rpeTranslation"] = intervalJson(r.translation, 1);
+        run["rpeRotation"] = intervalJson(r.rotation, kDegreesPerRadian);
+        run["ate"] = r.ate.translation.rmse;
+        if (r.translationBehindBest)
+        {
+            run["translationBehindBest"] = intervalJson(*r.translationBehindBest, 1);
+        }
+        if (r.rotationBehindBest)
+        {
+            run["rotationBehindBest"] = intervalJson(*r.rotationBehindBest, kDegreesPerRadian);
+        }
+        json["runs"].push_back(run);
+    }
+    return json;
+}
+
+std::string toCsv(const Comparison& c)
+{
+    std::string out =
+        "run,pairs,coverage,rpe_m,rpe_lower95,rpe_upper95,rpe_deg,rpe_deg_lower95,"
+        "rpe_deg_upper95,ate_m\n";
+    for (const ComparedRun& r : c.runs)
+    {
+        out += csvField(r.name) + format(
+                                      ",%zu,%.6g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n",
+                                      r.rpe.translation.count,
+                                      r.rpe.coverage.share,
+                                      r.translation.value,
+                                      r.translation.lower,
+                                      r.translation.upper,
+                                      r.rotation.value * kDegreesPerRadian,
+                                      r.rotation.lower * kDegreesPerRadian,
+                                      r.rotation.upper * kDegreesPerRadian,
+                                      r.ate.translation.rmse);
+    }
+    return out;
+}
+
+HtmlReport reportOf(
+    const Comparison& c,
+    const std::string& protocol,
+    const RpeOptions& rpe,
+    const Trajectory& truth,
+    const std::vector<Trajectory>& estimates)
+{
+    HtmlReport report(
+        format("Comparison of %zu runs", c.runs.size()),
+        protocol + (noteOf(c).empty() ? "" : "; " + noteOf(c)));
+    std::vector<std::vector<std::string>> rows;
+    std::vector<DrawnPath> paths;
+    std::vector<Chart> errors;
+    for (std::size_t k = 0; k < c.runs.size(); ++k)
+    {
+        const ComparedRun& r = c.runs[k];
+        rows.push_back(
+            {r.name,
+             format("%.3f", 1000 * r.translation.value),
+             behindText(r.translationBehindBest, isBest(c, k, c.bestTranslation), 1000),
+             format("%.4f", kDegreesPerRadian * r.rotation.value),
+             behindText(r.rotationBehindBest, isBest(c, k, c.bestRotation), kDegreesPerRadian),
+             format("%.3f", 1000 * r.ate.translation.rmse),
+             format("%.1f %%", 100 * r.rpe.coverage.share)});
+        paths.push_back({r.name, estimates[k], r.ate, rpe.scale});
+        const std::vector<Chart> ofRun = relativeErrorCharts(estimates[k], rpe, r.rpe);
+        for (std::size_t n = 0; n < ofRun.size(); ++n)
+        {
+            if (k == 0)
+            {
+                errors.push_back(ofRun[n]);
+                errors[n].series.clear();
+            }
+            errors[n].series.push_back(ofRun[n].series.front());
+            errors[n].series.back().name = r.name;
+        }
+    }
+    report.addTable(
+        "RPE and ATE RMSE",
+        {"run", "mm", "behind the best", "deg", "behind the best", "ATE mm", "coverage"},
+        rows);
+    for (const Chart& chart : pathCharts(truth, paths))
+    {
+        report.addChart(chart);
+    }
+    for (const Chart& chart : errors)
+    {
+        report.addChart(chart);
+    }
+    return report;
+}
+}  // namespace pointplane

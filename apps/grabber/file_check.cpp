@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "file_check.h"
+
+#include <pointplane/mrpt_io/errors.h>
+#include <pointplane/mrpt_io/params_ini.h>
+#include <pointplane/mrpt_io/rawlog_names.h>
+
+#include <filesystem>
+#include <string>
+#include <system_error>
+
+#include "OutputGuard.h"
+
+namespace pointplane
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+bool splits(const GrabberOptions& options)
+{
+    return options.recordsRawlog() && options.recording.splitAfter > 0.0;
+}
+
+void keepFilesApart(const GrabberOptions& options)
+{
+    OutputGuard guard;
+    std::error_code error;
+    if (fs::is_regular_file(options.device, error))
+    {
+        guard.addInput(options.device);
+    }
+    guard.addInput(options.calibration);
+    guard.addInput(options.liveOdometry.config);
+    constexpr int kSegments = 1000;
+    for (int i = 0; i < (splits(options) ? kSegments : 1); ++i)
+    {
+        const std::string path = splits(options) ? segmentPath(options.output, i) : options.output;
+        guard.addOutput("-o", path);
+        if (options.recordsRawlog() && options.recording.encoding.storage == ImageStorage::External)
+        {
+            guard.addFolderBeside("images of -o", path, imagesFolderOf(path));
+        }
+    }
+    guard.addOutput("--preview", options.preview);
+    guard.addOutput("--live-output", options.liveOdometry.poseRawlog);
+}
+}  // namespace
+
+void checkFilesOf(const GrabberOptions& options)
+{
+    keepFilesApart(options);
+    std::error_code error;
+    if (!options.calibration.empty() && !fs::is_regular_file(options.calibration, error))
+    {
+        throw InputError("--calibration " + options.calibration + ": no such file");
+    }
+    if (!options.liveOdometry.config.empty())
+    {
+        (void)loadOdometryParams(options.liveOdometry.config, {});
+    }
+    if (options.output.empty())
+    {
+        return;
+    }
+    const std::string first = splits(options) ? segmentPath(options.output, 0) : options.output;
+    if (fs::exists(first, error))
+    {
+        throw InputError("'" + first + "' exists already; recordings never overwrite");
+    }
+}
+}  // namespace pointplane

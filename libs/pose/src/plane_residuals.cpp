@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "plane_residuals.h"
+
+#include <pointplane/pose/median_variance.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+
+#include <algorithm>
+#include <map>
+#include <vector>
+
+namespace pointplane
+{
+namespace
+{
+/** Where the pose follows planes in all but this part of their dimensions, their residuals tell
+ * nothing of their noise. Three planes that alone tell the pose have a third left. */
+constexpr double kLeastLeft = 0.25;
+}  // namespace
+
+/** Poses follow planes by as many dimensions as planes tell of them: that of the frame does, and
+ * those of the references did. Residuals have so many fewer. */
+PlaneResiduals residualsOfPlanes(const NormalEquations& equations, const PoseProblem& problem)
+{
+    PlaneResiduals out;
+    const Matrix6d byPlanes = equations.planes().H.topLeftCorner<6, 6>();
+    const Matrix6d byPoints = equations.points().H.topLeftCorner<6, 6>();
+    const Matrix6d H = byPlanes + byPoints;
+    const double dimensions = H.completeOrthogonalDecomposition().solve(byPlanes).trace();
+    if (!byPoints.isZero(0))
+    {
+        // What nothing tells (H is singular there) must not count as told by points.
+        const Matrix6d told = H + 1e-14 * H.trace() * Matrix6d::Identity();
+        const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6d> parts(
+            byPoints, told, Eigen::EigenvaluesOnly | Eigen::Ax_lBx);
+        out.followed = std::clamp(1 - parts.eigenvalues().maxCoeff(), 0.0, 1.0);
+    }
+    std::map<int, std::vector<double>> norms;
+    for (size_t i = 0; i < problem.planes.size(); ++i)
+    {
+        norms[problem.planes[i].reference].push_back(
+            equations.relativeNorm(problem.points.size() + i));
+    }
+    for (auto& [reference, ofPlanes] : norms)
+    {
+        const double all = 3 * static_cast<double>(ofPlanes.size()), dof = all - dimensions;
+        if (dof >= kLeastLeft * all)
+        {
+            out.references.push_back({reference, medianVariance(ofPlanes) * all / dof, dof});
+        }
+    }
+    return out;
+}
+}  // namespace pointplane
