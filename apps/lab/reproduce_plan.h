@@ -37,7 +37,7 @@ struct PublishedFigures
 [[nodiscard]] const std::vector<PublishedFigures>& publishedFigures();
 
 /** Which choices of config-paper.ini a part of the sequence took part in; "nothing" for most.
- * docs/experiments_archive.md has the figures. */
+ * docs/paper_figures.md has the table. */
 [[nodiscard]] std::string chosenOn(const std::string& sequence);
 
 /** What `reproduce` makes, and by what name --only chooses it. */
