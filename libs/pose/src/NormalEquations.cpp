@@ -242,7 +242,7 @@ double NormalEquations::robustVariance() const
 {
     if (solver_.weighting != PoseSolver::Weighting::Full)
     {
-        return pointVariance();
+        return relativeMedian(0, points_.size());
     }
     std::vector<std::pair<double, double>> normsAndSurfaces;
     for (size_t i = 0; i < points_.size(); ++i)
@@ -263,7 +263,19 @@ double NormalEquations::relativeMedian(size_t begin, size_t end) const
     return medianVariance(norms);
 }
 
-double NormalEquations::pointVariance() const { return relativeMedian(0, points_.size()); }
+/** Of the points that count. What moves has residuals of its own. */
+double NormalEquations::pointVariance() const
+{
+    std::vector<double> norms;
+    for (size_t i = 0; i < points_.size(); ++i)
+    {
+        if (weight(i) > 0)
+        {
+            norms.push_back(relativeNorm(i));
+        }
+    }
+    return medianVariance(norms);
+}
 
 double NormalEquations::planeVariance() const
 {

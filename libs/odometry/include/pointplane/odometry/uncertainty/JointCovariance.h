@@ -29,7 +29,7 @@ class JointCovariance
     struct TParams
     {
         std::string model{"joint"};
-        double noise{0.2};
+        double noise{0.22};
         double viewSigma{0.0007};
         double motion{0.07};
         double vignetting{0.15};
