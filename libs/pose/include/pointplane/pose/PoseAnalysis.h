@@ -74,8 +74,9 @@ struct PoseAnalysis
     /** The same by each reference with a motion of its own, averaged over the references: poses of
      * references that were estimated with a wrong camera would confirm it. */
     CameraInformation cameraByReference;
-    double pointVariance{0};  //!< of the points' residuals, over the propagated one; 0 = none
-    double planeVariance{0};  //!< the same of planes
+    /** Of the residuals of points that count, over the propagated one; 0 = none. */
+    double pointVariance{0};
+    double planeVariance{0};  //!< the same of all planes
     PlaneResiduals planeResiduals;
     Disagreement pointDisagreement;  //!< of the references' points, with all other features
     Disagreement planeDisagreement;  //!< of their planes, likewise
