@@ -163,7 +163,7 @@ const PapersValue kChosen[] = {
     {"Plane Extraction: cells", "PlaneExtractor.cellSizePx", "10"},
     {"Plane Extraction: least size", "PlaneExtractor.minPlaneFraction", "0.01"},
     {"after Eq. 10: Tukey weights", "PoseSolver.tukeySigmas", "4.685"},
-    {"Pose estimation: a decaying velocity", "MotionModel.decay", "0.9"},
+    {"Pose estimation: a decaying velocity", "MotionModel.accelerationTime", "0.05"},
     {"Pose estimation: a given threshold", "Pipeline.gateSigma", "0.5"},
 };
 INSTANTIATE_TEST_SUITE_P(Choice, PapersConfiguration, testing::ValuesIn(kChosen));

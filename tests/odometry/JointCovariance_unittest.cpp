@@ -20,7 +20,8 @@ namespace
 {
 using PatchVector = Eigen::Matrix<double, kNumPatches, 1>;
 
-constexpr double kFrame = 1.0 / 30;
+/** A frame later, with a velocity that stays. */
+const DecayedVelocities kFrame{{1.0 / 30, 1, 0, 0, 0}, {1.0 / 30, 1, 0, 0, 0}};
 
 const Eigen::Isometry3d kAtRest = Eigen::Isometry3d::Identity();
 
@@ -296,13 +297,27 @@ TEST(JointCovariance, errorsOfAnotherCameraAreIndependent)
     EXPECT_THAT(joint.relative(2, kAtRest), isTimesIdentity(9 + 4)) << "alike, they would cancel";
 }
 
+/** A velocity that decays moves later frames by less. */
+TEST(JointCovariance, predictedFramesFollowAVelocityThatDecays)
+{
+    JointCovariance joint = started();
+    JointCovariance::Prediction step;
+    step.after.translation = step.after.rotation = {0.1, 0.5, 0, 0, 0};
+    step.velocity = 4 * Matrix6d::Identity();
+    step.motion = 0.01 * Matrix6d::Identity();
+    joint.predict(2, kAtRest, step);
+    joint.predict(3, kAtRest, step);
+    EXPECT_THAT(joint.relative(1, kAtRest), isTimesIdentity(0.15 * 0.15 * 4 + 2 * 0.01));
+    EXPECT_THAT(joint.relative(2, kAtRest), isTimesIdentity(0.05 * 0.05 * 4 + 0.01));
+}
+
 /** An unknown velocity moves frame after frame by the same: the path grows with the time, not with
  * its root. */
 TEST(JointCovariance, predictedFramesShareTheErrorOfTheVelocity)
 {
     JointCovariance joint = started();
     JointCovariance::Prediction step;
-    step.dt = 0.1;
+    step.after.translation.reach = step.after.rotation.reach = 0.1;
     step.velocity = 4 * Matrix6d::Identity();
     step.motion = 0.01 * Matrix6d::Identity();
     for (int frame = 2; frame <= 11; ++frame)
@@ -341,7 +356,7 @@ TEST(JointCovariance, predictedFramesAndANewWindow)
     // The next one is measured against the first again, whatever was predicted in between.
     JointCovariance measured = joint;
     measured.keep({1, 2});
-    measured.measure(4, kAtRest, 2 * kFrame, against(1));
+    measured.measure(4, kAtRest, kFrame, against(1));
     EXPECT_THAT(measured.latest(), isTimesIdentity(1));
     EXPECT_THAT(measured.relative(3, kAtRest), isTimesIdentity(1 + 6));
 
@@ -503,6 +518,7 @@ TEST(JointCovariance, monteCarlo)
     std::vector<JointCovariance::Measurement> measurements;
     JointCovariance::TParams params;
     params.history = kFrames;
+    const DecayedVelocities decayed{decayedVelocity(0.5, 1), decayedVelocity(0.5, 0.4)};
     const CameraMatrix cameraCov = setup.covariance<kNumCameraErrors>(0.1, 0.5);
     JointCovariance joint(params);
     const Matrix6d startCov = setup.covariance<6>(0.1, 1);
@@ -537,7 +553,7 @@ TEST(JointCovariance, monteCarlo)
             m.referencePatches[reference] =
                 0.2 * setup.vector<12>() * setup.vector<kNumPatches>().transpose();
         }
-        joint.measure(k, poses.back(), 0.5, m);
+        joint.measure(k, poses.back(), decayed, m);
         joint.keep({0, k - 1, k});
         measurements.push_back(m);
         poses.push_back(se3Exp(0.5 * setup.vector<6>()) * poses.back());
@@ -564,7 +580,8 @@ TEST(JointCovariance, monteCarlo)
             const Matrix6d toBase = test::inverse(Ad);
             const Vector6d before = toBase * pose.back();
             Vector12d predicted;
-            predicted << before + 0.5 * velocity.back(), velocity.back();
+            predicted << before + decayed.reach().cwiseProduct(velocity.back()),
+                decayed.kept().cwiseProduct(velocity.back());
             Vector12d shared = m.prior * predicted + sampler.sample(m.priorNoise);
             shared += m.camera * camera;
             for (const auto& [frame, change] : m.references)
@@ -613,7 +630,6 @@ TEST(JointCovariance, refusesParametersNamingTheKey)
     refused([](auto& p) { p.noise = 0; });
     refused([](auto& p) { p.viewSigma = -1; });
     refused([](auto& p) { p.vignetting = -0.1; });
-    refused([](auto& p) { p.motion = -0.1; });
     refused([](auto& p) { p.principalPoint = -0.1; });
     refused([](auto& p) { p.focalLength = -0.1; });
     refused([](auto& p) { p.depthScale = -0.1; });

@@ -42,6 +42,20 @@ MotionModel moving()
     model.update(measuredMotion(), kFrame);
     return model;
 }
+/** What becomes of a velocity's covariance. */
+Matrix12d carried(const MotionModel& model, const Matrix6d& velocityCov, double dt)
+{
+    const DecayedVelocities after = model.after(dt);
+    Matrix126d F;
+    F << Matrix6d(after.reach().asDiagonal()), Matrix6d(after.kept().asDiagonal());
+    return F * velocityCov * F.transpose();
+}
+
+/** For so long the camera keeps its velocity [s], as learnt. */
+double timeConstant(const MotionModel& model, int axis)
+{
+    return -kFrame / std::log(model.after(kFrame).kept()[axis]);
+}
 }  // namespace
 
 TEST(MotionModel, knowsNothingAtTheStart)
@@ -55,31 +69,43 @@ TEST(MotionModel, knowsNothingAtTheStart)
     EXPECT_NEAR(std::sqrt(p.cov(3, 3)), 0.75 * kFrame, 0.3 * kFrame);
 }
 
-/** The rest comes from that of the velocity as it was measured. */
+/** The rest comes from that of the velocity as it was measured. What the pose does not tell of the
+ * velocity is smaller by 1 / (1 + 15/4 of the acceleration's time, in steps). */
 TEST(MotionModel, processNoiseIsWhatTimeAdds)
 {
     MotionModel model = moving();
     const Matrix6d P = measuredMotion().cov.bottomRightCorner<6, 6>();
-    Matrix126d F;
-    F << kFrame * Matrix6d::Identity(), Matrix6d::Identity();
-    const auto expected = [&]() -> Matrix12d
-    { return model.predict(kFrame).cov - F * P * F.transpose(); };
-    EXPECT_THAT(model.processNoise(kFrame), test::IsMatrixNear(expected(), 1e-12));
-    model.coast(kFrame);
-    EXPECT_THAT(model.processNoise(kFrame), test::IsMatrixNear(expected(), 1e-12));
+    const double share = kFrame / (kFrame + 15.0 / 4 * MotionModel::TParams().accelerationTime);
+    const auto expectIsAdded = [&](double dt)
+    {
+        const Matrix12d N = model.predictFromEstimate(dt).cov - carried(model, P, dt);
+        const Matrix12d noise = model.processNoise(dt);
+        EXPECT_THAT(
+            Matrix126d(noise.leftCols<6>()), test::IsMatrixNear(Matrix126d(N.leftCols<6>()), 1e-9));
+        const double told = N(0, 6) * N(0, 6) / N(0, 0);
+        EXPECT_NEAR(noise(6, 6), told + share * (N(6, 6) - told), 1e-6 * N(6, 6));
+    };
+    model.startAtReference();
+    expectIsAdded(kFrame);
     model.reset();  // nothing is left of what was measured
-    EXPECT_EQ(model.processNoise(kFrame), model.predict(kFrame).cov);
+    EXPECT_EQ(model.processNoise(kFrame)(0, 0), model.predict(kFrame).cov(0, 0));
 }
 
-TEST(MotionModel, keepsTheVelocity)
+TEST(MotionModel, theVelocityDecays)
 {
     const MotionModel model = moving();
-    for (const double dt : {kFrame, 0.1})
+    for (const double dt : {kFrame, 0.1, 1.0})
     {
         const MotionGaussian p = model.predict(dt);
-        EXPECT_THAT(p.mean.T_prev_cur, test::IsNearPose(se3Exp(velocity() * dt), 1e-12, 1e-12));
-        EXPECT_THAT(p.mean.velocity, test::IsMatrixNear(velocity(), 1e-12));
+        const DecayedVelocities after = model.after(dt);
+        const Vector6d way = after.reach().cwiseProduct(velocity());
+        EXPECT_THAT(p.mean.T_prev_cur, test::IsNearPose(se3Exp(way), 1e-12, 1e-12));
+        EXPECT_THAT(
+            p.mean.velocity,
+            test::IsMatrixNear(Vector6d(after.kept().cwiseProduct(velocity())), 1e-12));
     }
+    EXPECT_GT(model.after(kFrame).kept().minCoeff(), 0.8);
+    EXPECT_LT(model.after(1).kept().maxCoeff(), 0.3);
 }
 
 /** Against many walks: the velocity's own uncertainty, and white acceleration on the way. */
@@ -87,7 +113,7 @@ TEST(MotionModel, uncertaintyIsThatOfAWhiteAcceleration)
 {
     const MotionModel model = moving();
     const double dt = 0.05, step = dt / 200;
-    const double q = model.density()[0];
+    const double q = model.density()[0], tau = timeConstant(model, 0);
     test::GaussianSampler sampler(5);
     Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
     constexpr int kWalks = 4000;
@@ -97,7 +123,7 @@ TEST(MotionModel, uncertaintyIsThatOfAWhiteAcceleration)
         for (double t = 0; t < dt - step / 2; t += step)
         {
             x += v * step;
-            v += std::sqrt(q * step) * sampler.vector<1>()[0];
+            v += -v / tau * step + std::sqrt(q * step) * sampler.vector<1>()[0];
         }
         const Eigen::Vector2d e(x, v);
         sum += e * e.transpose() / kWalks;
@@ -122,6 +148,7 @@ TEST(MotionModel, errorsOfTheEstimateStayInTheNextMotion)
     estimate.cov = L * L.transpose();
     MotionModel model({});
     model.update(estimate, kFrame);
+    const DecayedVelocities after = model.after(kFrame);
     Matrix12d sum = Matrix12d::Zero();
     test::GaussianSampler sampler(6);
     constexpr int kWalks = 20000;
@@ -130,20 +157,19 @@ TEST(MotionModel, errorsOfTheEstimateStayInTheNextMotion)
         const Vector12d e = L * sampler.vector<12>();
         // Left of the pose is in the frame before; the next motion starts in the one after.
         Vector12d next;
-        next << adjoint(estimate.mean.T_prev_cur.inverse()) * e.head<6>() + kFrame * e.tail<6>(),
-            e.tail<6>();
+        next << adjoint(estimate.mean.T_prev_cur.inverse()) * e.head<6>() +
+                    after.reach().cwiseProduct(e.tail<6>()),
+            after.kept().cwiseProduct(e.tail<6>());
         sum += next * next.transpose() / kWalks;
     }
-    const Matrix12d added = model.predictFromEstimate(kFrame).cov - model.processNoise(kFrame);
+    const Matrix6d P = estimate.cov.bottomRightCorner<6, 6>();
+    const Matrix12d noise = model.predict(kFrame).cov - carried(model, P, kFrame);
+    const Matrix12d added = model.predictFromEstimate(kFrame).cov - noise;
     EXPECT_THAT(added, test::IsMatrixNear(sum, 0.03 * sum.cwiseAbs().maxCoeff()));
     EXPECT_NEAR(added(1, 1), sum(1, 1), 0.05 * sum(1, 1));
     EXPECT_NEAR(added(1, 6), sum(1, 6), 0.05 * std::abs(sum(1, 6)));
 
     // Seen from the true pose, there is only the error of the velocity.
-    EXPECT_NEAR(
-        model.predict(kFrame).cov(0, 0) - model.processNoise(kFrame)(0, 0),
-        kFrame * kFrame * estimate.cov(6, 6),
-        1e-12);
     model.startAtReference();
     EXPECT_EQ(model.predictFromEstimate(kFrame).cov, model.predict(kFrame).cov);
 }
@@ -196,10 +222,12 @@ TEST(MotionModel, theVelocityBeforeIsSmoothed)
     MotionGaussian measured = predicted;
     measured.mean.velocity[0] += 0.03;
     measured.cov *= 0.1;
-    // cov(v_before, v_after) = P; cov(v_before, pose) = dt P, with P = 1e-4.
+    // cov(v_before, v_after) = kept P; cov(v_before, pose) = reach P, with P = 1e-4.
+    const DecayedVelocity after = model.after(kFrame).translation;
     Eigen::Matrix2d S;
     S << predicted.cov(0, 0), predicted.cov(0, 6), predicted.cov(6, 0), predicted.cov(6, 6);
-    const Eigen::Vector2d gain = S.inverse() * Eigen::Vector2d(kFrame * 1e-4, 1e-4);
+    const Eigen::Vector2d gain =
+        S.inverse() * Eigen::Vector2d(after.reach * 1e-4, after.kept * 1e-4);
     const Vector6d smoothed = model.update(measured, kFrame).velocity;
     EXPECT_NEAR(smoothed[0] - velocity()[0], gain[1] * 0.03, 1e-9);
     EXPECT_NEAR(smoothed[1], velocity()[1], 1e-9);
@@ -294,6 +322,41 @@ TEST(MotionModel, accelerationIsLearnt)
     EXPECT_NEAR(model.acceleration2()[4], 0, 1e-9);
 }
 
+/** A hand keeps its velocity for half a second, a robot for longer; a robot that turns to and fro
+ * keeps that of its translation only. */
+TEST(MotionModel, forHowLongTheVelocityIsKeptIsLearnt)
+{
+    const auto learnt = [](double translation, double rotation)
+    {
+        test::GaussianSampler sampler(7);
+        MotionModel model({});
+        Vector6d tau, v;
+        tau << Eigen::Vector3d::Constant(translation), Eigen::Vector3d::Constant(rotation);
+        v << Eigen::Vector3d::Constant(0.4), Eigen::Vector3d::Constant(0.7);
+        const Vector6d usual2 = v.cwiseAbs2();
+        Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+        constexpr int kFrames = 600;
+        for (int i = 0; i < kFrames; ++i)
+        {
+            const Eigen::Array<double, 6, 1> kept = (-kFrame / tau.array()).exp();
+            const Eigen::Array<double, 6, 1> noise = (usual2.array() * (1 - kept * kept)).sqrt();
+            const Vector6d next = kept * v.array() + noise * sampler.vector<6>().array();
+            MotionGaussian measured;
+            measured.mean = {se3Exp(0.5 * kFrame * (v + next)), next};
+            measured.cov.diagonal() << Vector6d::Constant(1e-10), Vector6d::Constant(1e-6);
+            model.update(measured, kFrame);
+            v = next;
+            sum += Eigen::Vector2d(timeConstant(model, 0), timeConstant(model, 3)) / kFrames;
+        }
+        return sum;
+    };
+    const Eigen::Vector2d hand = learnt(0.5, 0.3), robot = learnt(5, 0.3);
+    EXPECT_NEAR(hand[0], 0.5, 0.2);
+    EXPECT_NEAR(hand[1], 0.3, 0.12);
+    EXPECT_GT(robot[0], 2.5);
+    EXPECT_NEAR(robot[1], 0.3, 0.12);
+}
+
 TEST(MotionModel, leastRandomWalkIsKept)
 {
     MotionModel model({});
@@ -306,15 +369,17 @@ TEST(MotionModel, leastRandomWalkIsKept)
     EXPECT_NEAR(std::sqrt(model.density()[3]), params.angularVelocityRandomWalk, 1e-9);
 }
 
+/** It lasts for 0.05 s; what it has made of the velocity stays. */
 TEST(MotionModel, jerkByHand)
 {
     MotionModel::TParams params;
     params.sigmaAcceleration = 2;
     params.sigmaAngularAcceleration = 6;
-    const Matrix6d cov = MotionModel(params).jerk(0.1);
-    EXPECT_NEAR(std::sqrt(cov(1, 1)), 0.02, 1e-12);
-    EXPECT_NEAR(std::sqrt(cov(4, 4)), 0.06, 1e-12);
+    const Matrix6d cov = MotionModel(params).jerk(0.01);
+    EXPECT_NEAR(std::sqrt(cov(1, 1)), 2 * 0.01 * 0.01, 1e-12);
+    EXPECT_NEAR(std::sqrt(cov(4, 4)), 6 * 0.01 * 0.01, 1e-12);
     EXPECT_TRUE(cov.isDiagonal());
+    EXPECT_NEAR(std::sqrt(MotionModel(params).jerk(0.5)(4, 4)), 6 * 0.05 * 0.5, 1e-12);
 }
 
 TEST(MotionModel, followsAnIncrementAlone)
@@ -329,10 +394,13 @@ TEST(MotionModel, velocityDecaysAndUncertaintyGrowsWhileCoasting)
 {
     MotionModel model = moving();
     double previousSigma = 0;
+    const Vector6d kept = model.after(kFrame).kept();
     for (int i = 1; i <= 10; ++i)
     {
         model.coast(kFrame);
-        EXPECT_THAT(model.velocity(), test::IsMatrixNear(velocity() * std::pow(0.9, i), 1e-12));
+        EXPECT_THAT(
+            model.velocity(),
+            test::IsMatrixNear(Vector6d(kept.array().pow(i) * velocity().array()), 1e-12));
         const double sigma = std::sqrt(model.predict(kFrame).cov(0, 0));
         EXPECT_GT(sigma, previousSigma);
         previousSigma = sigma;
@@ -358,7 +426,7 @@ TEST(MotionModel, coastingForHoursStaysFinite)
         model.coast(kFrame);
     }
     model.coast(1e5);
-    EXPECT_LT(model.velocity().norm(), 1e-12);
+    EXPECT_LT(model.velocity().norm(), 1e-6);
     EXPECT_TRUE(isPositiveDefinite(model.predict(kFrame).cov));
     EXPECT_LT(std::sqrt(model.predict(kFrame).cov(0, 0)), 1);
 }
@@ -393,7 +461,7 @@ TEST(MotionModel, refusesParametersOutOfRange)
         change(params);
         EXPECT_THROW(MotionModel{params}, std::invalid_argument);
     };
-    refused([](auto& p) { p.decay = 1.1; });
+    refused([](auto& p) { p.accelerationTime = 0; });
     refused([](auto& p) { p.velocityRandomWalk = 0; });
     refused([](auto& p) { p.angularVelocityRandomWalk = -1; });
     refused([](auto& p) { p.timeConstant = 0; });

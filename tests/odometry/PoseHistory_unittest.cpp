@@ -13,7 +13,8 @@ namespace pointplane
 {
 namespace
 {
-constexpr double kFrame = 1.0 / 30;
+/** A frame later, with a velocity that stays. */
+const DecayedVelocities kFrame{{1.0 / 30, 1, 0, 0, 0}, {1.0 / 30, 1, 0, 0, 0}};
 
 JointCovariance::TParams longHistory()
 {

@@ -30,10 +30,10 @@ void PoseHistory::predict(
 void PoseHistory::measure(
     const Eigen::Isometry3d& T_world_prev,
     const Eigen::Isometry3d& T_prev_cur,
-    double dt,
+    const DecayedVelocities& decayed,
     const JointCovariance::Measurement& errors)
 {
-    joint_.measure(++latestFrame_, T_world_prev, dt, errors);
+    joint_.measure(++latestFrame_, T_world_prev, decayed, errors);
     poses_.push_front(T_world_prev * T_prev_cur);
 }
 

@@ -27,11 +27,12 @@ class PoseHistory
     void predict(const PoseGaussian& increment);
 
     /** Adds a measured frame.
-     * \param T_world_prev pose of the latest measured frame \param dt [s] since that */
+     * \param T_world_prev pose of the latest measured frame
+     * \param decayed its velocity since then */
     void measure(
         const Eigen::Isometry3d& T_world_prev,
         const Eigen::Isometry3d& T_prev_cur,
-        double dt,
+        const DecayedVelocities& decayed,
         const JointCovariance::Measurement& errors);
 
     /** From here on, frames are compared with this one and later ones.

@@ -132,6 +132,7 @@ PoseGaussian Track::restart(Reference frame)
 
 void Track::measure(Measured measured)
 {
+    const DecayedVelocities decayed = motion_.after(measured.dt);
     if (measured.isJump)
     {
         motion_.reset();
@@ -149,7 +150,7 @@ void Track::measure(Measured measured)
         window_.notePoints(association);
     }
     history_.measure(
-        previous().T_world_cam, measured.motion.mean.T_prev_cur, measured.dt, measured.errors);
+        previous().T_world_cam, measured.motion.mean.T_prev_cur, decayed, measured.errors);
     unmatched_.reset();
     latestStamp_ = measured.frame.stamp;
     add(std::move(measured.frame), measured.isKeyframe);
@@ -175,7 +176,6 @@ PoseGaussian Track::predict(double stamp, std::optional<Reference> unmatched)
     const bool known = started_ && stamp >= latestStamp_ && std::isfinite(stamp);
     const double dt = known ? stepBetween(latestStamp_, stamp) : MotionModel::kUsualStep;
     JointCovariance::Prediction errors;
-    errors.dt = dt;
     errors.isVelocityNew = dt > maxGap_;
     if (errors.isVelocityNew)
     {
@@ -185,7 +185,9 @@ PoseGaussian Track::predict(double stamp, std::optional<Reference> unmatched)
     errors.motion = motion_.unforeseen(dt);
     errors.velocity = motion_.velocityCov();
     increment.cov = strictlyPositive(Matrix6d(increment.cov + motion_.jerk(dt)));
-    errors.velocityGain = motion_.coast(dt);
+    errors.velocityGain = motion_.velocityGain(dt);
+    errors.after = motion_.after(dt);
+    motion_.coast(dt);
     if (!started_)
     {
         wasLost_ = true;

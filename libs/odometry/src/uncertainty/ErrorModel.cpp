@@ -131,7 +131,7 @@ JointCovariance::Measurement ErrorModel::errorsOf(const Measured& frame) const
     {
         out.prior.rightCols<6>().setZero();  // the velocity is a new one for each frame
     }
-    out.priorNoise = params_.motion * propagate(of.prior, frame.motionNoise);
+    out.priorNoise = propagate(of.prior, frame.motionNoise);
     // As large as the residuals of points are, and as the references contradict each other.
     const double level =
         noise_.ofFrame() * points.residuals * points.residuals * points.disagreement;

@@ -28,7 +28,6 @@ void JointCovariance::TParams::check() const
     (void)isJoint();
     checkRange("noise", noise, 1e-3, 1000);
     checkRange("viewSigma", viewSigma, 0, 1);
-    checkRange("motion", motion, 0, 1000);
     checkRange("vignetting", vignetting, 0, 1);
     checkRange("principalPoint", principalPoint, 0, 100);
     checkRange("focalLength", focalLength, 0, 10);
@@ -69,8 +68,8 @@ void JointCovariance::predict(
     const Eigen::Index velocity = find(Kind::Coasting, 0);
     Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * kSize, errors_.size());
     A.block<kSize, kSize>(0, newest()).setIdentity();
-    A.block<kSize, kSize>(0, velocity) = prediction.dt * Ad;
-    A.block<kSize, kSize>(kSize, velocity).setIdentity();
+    A.block<kSize, kSize>(0, velocity) = Ad * prediction.after.reach().asDiagonal();
+    A.block<kSize, kSize>(kSize, velocity) = prediction.after.kept().asDiagonal();
     Eigen::MatrixXd Q = Eigen::MatrixXd::Zero(2 * kSize, 2 * kSize);
     Q.topLeftCorner<kSize, kSize>() = propagate(Ad, prediction.motion);
     Q.bottomRightCorner<kSize, kSize>() = prediction.velocityGain.asDiagonal();
@@ -98,7 +97,10 @@ void JointCovariance::restart(int frame, const std::vector<int>& poses)
 /** Of pose and velocity on all blocks so far. The predicted motion starts at the previous frame
  * with its velocity: an error of that moves it by dt times as much. */
 Eigen::MatrixXd JointCovariance::dependence(
-    int frame, const Matrix6d& Ad, double dt, const Measurement& measurement) const
+    int frame,
+    const Matrix6d& Ad,
+    const DecayedVelocities& decayed,
+    const Measurement& measurement) const
 {
     const Matrix6d Ad_inverse = Ad.inverse();
     Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * kSize, errors_.size());
@@ -110,7 +112,8 @@ Eigen::MatrixXd JointCovariance::dependence(
     const auto prior = measurement.prior.leftCols<kSize>();
     A.middleCols<kSize>(find(Kind::Pose, previous_)) += prior * Ad_inverse;
     A.middleCols<kSize>(find(Kind::Velocity, previous_)) +=
-        dt * prior + measurement.prior.rightCols<kSize>();
+        prior * decayed.reach().asDiagonal() +
+        measurement.prior.rightCols<kSize>() * decayed.kept().asDiagonal();
     for (const auto& [reference, change] : measurement.references)
     {
         const Matrix126d byPose = change.leftCols<6>();
@@ -138,7 +141,10 @@ Eigen::MatrixXd JointCovariance::dependence(
 }
 
 void JointCovariance::measure(
-    int frame, const Eigen::Isometry3d& T_world_prev, double dt, const Measurement& measurement)
+    int frame,
+    const Eigen::Isometry3d& T_world_prev,
+    const DecayedVelocities& decayed,
+    const Measurement& measurement)
 {
     const Matrix6d Ad = adjoint(T_world_prev);
     const Views& views = measurement.views;
@@ -153,7 +159,7 @@ void JointCovariance::measure(
     constexpr Eigen::Index camera = 2 * kSize, bend = camera + kNumCameraErrors;
     const Eigen::Index size = bend + (measurement.bendVariance > 0 ? kNumPatches : 0);
     Eigen::MatrixXd A = Eigen::MatrixXd::Zero(size, errors_.size());
-    A.topRows<2 * kSize>() = dependence(frame, Ad, dt, measurement);
+    A.topRows<2 * kSize>() = dependence(frame, Ad, decayed, measurement);
     A.block<kNumCameraErrors, kNumCameraErrors>(camera, find(Kind::Camera, 0)) =
         measurement.cameraGain;
     Matrix12d toWorld = Matrix12d::Identity();

@@ -13,10 +13,6 @@ namespace pointplane
 {
 namespace
 {
-/** For so long hands push one way [s]. An unknown velocity is what a sudden acceleration makes in
- * this time. */
-constexpr double kPush = 0.05;
-
 /** Standard deviation by which smoothed velocities wander [m/s, rad/s]. Hands make it a few times
  * as large; but where they shake, what lies between two increments errs, too. */
 constexpr double kWander = 0.01;
@@ -28,8 +24,17 @@ constexpr double kFirstChange = 0.45, kFirstTurn = 2.25;
 /** Times that one step may be as long as the next, where they tell an acceleration. */
 constexpr double kUnequal = 8;
 
-/** Of a velocity that decays, all that can become unknown of it in the end [s]. */
-constexpr double kLongestCoasting = 1.0;
+/** The least that a mean square becomes [SI units]: a ratio of two is a number. */
+constexpr double kLeastSquare = 1e-12;
+
+/** Of pose and velocity, from those before. */
+Matrix12d transition(const DecayedVelocities& after)
+{
+    Matrix12d out = Matrix12d::Identity();
+    out.topRightCorner<6, 6>() = after.reach().asDiagonal();
+    out.bottomRightCorner<6, 6>() = after.kept().asDiagonal();
+    return out;
+}
 
 /** One value for each half of a tangent vector. */
 Vector6d perAxis(double translation, double rotation)
@@ -42,12 +47,12 @@ Vector6d perAxis(double translation, double rotation)
 
 void MotionModel::TParams::check() const
 {
-    checkRange("decay", decay, 0, 1);
     checkRange("velocityRandomWalk", velocityRandomWalk, 1e-4, 100);
     checkRange("angularVelocityRandomWalk", angularVelocityRandomWalk, 1e-4, 100);
     checkRange("timeConstant", timeConstant, 0.01, 1000);
     checkRange("sigmaAcceleration", sigmaAcceleration, 0.01, 1000);
     checkRange("sigmaAngularAcceleration", sigmaAngularAcceleration, 0.01, 1e4);
+    checkRange("accelerationTime", accelerationTime, 1e-3, 10);
 }
 
 MotionModel::MotionModel(const TParams& params) : params_(params)
@@ -56,53 +61,88 @@ MotionModel::MotionModel(const TParams& params) : params_(params)
     reset();
 }
 
+DecayedVelocities MotionModel::after(double dt) const
+{
+    const double t = std::min(dt, kLongestStep);
+    const auto half = [&](int axis)
+    { return decayedVelocity(t, 2 * speed2_[axis] / learntDensity_[axis]); };
+    return {half(0), half(3)};
+}
+
+// [P17, section Pose estimation]
+Vector6d MotionModel::velocity() const { return after(elapsed_).kept().cwiseProduct(velocity_); }
+
+Matrix6d MotionModel::velocityCov() const
+{
+    const Matrix6d kept = after(elapsed_).kept().asDiagonal();
+    Matrix6d out = propagate(kept, Matrix6d(cov_.bottomRightCorner<6, 6>()));
+    out.diagonal() += velocityGain(elapsed_);
+    return out;
+}
+
 MotionGaussian MotionModel::predict(double dt) const
 {
     Matrix12d ofVelocity = Matrix12d::Zero();
     ofVelocity.bottomRightCorner<6, 6>() = velocityCov();
-    return predictFrom(ofVelocity, std::min(dt, kLongestStep));
+    return predictFrom(velocity(), ofVelocity, dt);
 }
 
 MotionGaussian MotionModel::predictFromEstimate(double dt) const
 {
-    return predictFrom(cov_, std::min(dt, kLongestStep));
+    return predictFrom(velocity_, cov_, dt);
 }
 
 Matrix12d MotionModel::processNoise(double dt) const
 {
-    return predictFrom(cov_ - measuredCov_, std::min(dt, kLongestStep)).cov;
+    Matrix12d out = predictFrom(velocity_, cov_ - measuredCov_, dt).cov;
+    // What the pose tells of the velocity, and the rest, which is smaller if the step is short.
+    const Matrix6d together = out.topRightCorner<6, 6>();
+    const Matrix6d told = together.transpose() * out.topLeftCorner<6, 6>().ldlt().solve(together);
+    const double share = dt / (dt + 15.0 / 4 * params_.accelerationTime);
+    out.bottomRightCorner<6, 6>() = told + share * (out.bottomRightCorner<6, 6>() - told);
+    return out;
+}
+
+Vector6d MotionModel::velocityGain(double dt) const
+{
+    return after(dt).velocity().cwiseProduct(density());
 }
 
 /** \param cov of [pose; velocity] at the start */
-MotionGaussian MotionModel::predictFrom(const Matrix12d& cov, double t) const
+MotionGaussian MotionModel::predictFrom(
+    const Vector6d& velocity, const Matrix12d& cov, double dt) const
 {
-    Matrix12d transition = Matrix12d::Identity();
-    transition.topRightCorner<6, 6>() = t * Matrix6d::Identity();
-    const Matrix6d Q = density_.asDiagonal();
-    Matrix12d noise;
-    noise << t * t * t / 3 * Q, t * t / 2 * Q, t * t / 2 * Q, t * Q;
-    return {{se3Exp(velocity_ * t), velocity_}, propagate(transition, cov) + noise};
+    const DecayedVelocities end = after(dt);
+    const Vector6d q = density();
+    Matrix12d noise = Matrix12d::Zero();
+    noise.topLeftCorner<6, 6>().diagonal() = end.pose().cwiseProduct(q);
+    noise.topRightCorner<6, 6>().diagonal() = end.together().cwiseProduct(q);
+    noise.bottomLeftCorner<6, 6>() = noise.topRightCorner<6, 6>();
+    noise.bottomRightCorner<6, 6>().diagonal() = end.velocity().cwiseProduct(q);
+    return {
+        {se3Exp(end.reach().cwiseProduct(velocity)), end.kept().cwiseProduct(velocity)},
+        propagate(transition(end), cov) + noise};
 }
 
 Matrix6d MotionModel::unforeseen(double dt) const
 {
-    return predictFrom(Matrix12d::Zero(), std::min(dt, kLongestStep)).pose().cov + jerk(dt);
+    return predictFrom(Vector6d::Zero(), Matrix12d::Zero(), dt).pose().cov + jerk(dt);
 }
 
 Matrix6d MotionModel::jerk(double dt) const
 {
     const double t = std::min(dt, kLongestStep);
-    return sudden().cwiseAbs2().asDiagonal() * std::pow(t, 4);
+    return sudden().cwiseAbs2().asDiagonal() *
+           std::pow(t * std::min(t, params_.accelerationTime), 2);
 }
 
 void MotionModel::follow(const Eigen::Isometry3d& T_prev_cur, double dt)
 {
     velocity_ = se3Log(T_prev_cur) / std::min(dt, kLongestStep);
     cov_.setZero();
-    cov_.bottomRightCorner<6, 6>() = (dt * density_).cwiseMin(1.0).asDiagonal();
+    cov_.bottomRightCorner<6, 6>() = (dt * density()).cwiseMin(1.0).asDiagonal();
     measuredCov_.setZero();
-    coasting_ = 0;
-    decayed_.setZero();
+    elapsed_ = 0;
 }
 
 MotionModel::Smoothed MotionModel::update(const MotionGaussian& measured, double dt)
@@ -115,37 +155,39 @@ MotionModel::Smoothed MotionModel::update(const MotionGaussian& measured, double
     const auto solver = predicted.cov.ldlt();
 
     // Rauch-Tung-Striebel: covariance of the predicted motion with the velocity before it.
-    Matrix126d covWithStart = cov_.rightCols<6>();
-    covWithStart.topRows<6>() += t * cov_.bottomRightCorner<6, 6>();
+    const DecayedVelocities end = after(t);
+    const Matrix12d F = transition(end);
+    const Matrix126d covWithStart = F * cov_.rightCols<6>();
     const Eigen::Matrix<double, 6, 12> smoother = solver.solve(covWithStart).transpose();
     Smoothed out;
     out.velocity = velocity_ + smoother * innovation;
     out.byNextMotion = smoother.leftCols<6>();
     out.byNextVelocity = smoother.rightCols<6>();
-    out.byVelocity -= t * out.byNextMotion + out.byNextVelocity;
+    out.byVelocity -= smoother * F.rightCols<6>();
 
     // And with the change of velocity on the way.
-    const Matrix6d Q = density_.asDiagonal();
+    const Matrix6d gained = velocityGain(t).asDiagonal();
     Matrix126d covWithChange;
-    covWithChange << t * t / 2 * Q, t * Q;
+    covWithChange << Matrix6d(end.together().cwiseProduct(density()).asDiagonal()), gained;
     const Matrix126d gain = solver.solve(covWithChange);
     const Vector6d change = gain.transpose() * innovation;
-    const Matrix6d cov = t * Q - gain.transpose() * (predicted.cov - measured.cov) * gain;
-    adapt((change.cwiseAbs2() + cov.diagonal().cwiseMax(0)) / t, t);
+    const Matrix6d cov = gained - gain.transpose() * (predicted.cov - measured.cov) * gain;
+    const Vector6d change2 = change.cwiseAbs2() + cov.diagonal().cwiseMax(0);
+    learn(change2.cwiseQuotient(end.velocity()), t, learntDensity_);
+    learn(measured.mean.velocity.cwiseAbs2() + measured.cov.diagonal().tail<6>(), t, speed2_);
 
     velocity_ = measured.mean.velocity;
     // What errs in the frame where the motion started errs where it ended.
     Matrix12d toEnd = Matrix12d::Identity();
     toEnd.topLeftCorner<6, 6>() = adjoint(measured.mean.T_prev_cur.inverse());
     cov_ = measuredCov_ = propagate(toEnd, measured.cov);
-    coasting_ = 0;
-    decayed_.setZero();
+    elapsed_ = 0;
     const Increment increment{
         se3Log(measured.mean.T_prev_cur) / t, t, measured.cov.diagonal().head<6>()};
     learnAcceleration(increment);
     betweenIncrements(increment, out);
     atIncrementsEnd_.reset();
-    if (increment_ && increment_->dt + t < 4 * kPush)
+    if (increment_ && increment_->dt + t < 4 * params_.accelerationTime)
     {
         atIncrementsEnd_ = increment.velocity +
                            (increment.velocity - increment_->velocity) * t / (increment_->dt + t);
@@ -186,7 +228,7 @@ void MotionModel::followIncrements()
  * has jerked. */
 void MotionModel::betweenIncrements(const Increment& next, Smoothed& smoothed) const
 {
-    if (!increment_ || increment_->dt + next.dt > 4 * kPush)
+    if (!increment_ || increment_->dt + next.dt > 4 * params_.accelerationTime)
     {
         return;
     }
@@ -214,13 +256,15 @@ void MotionModel::betweenIncrements(const Increment& next, Smoothed& smoothed) c
     smoothed.byPreviousMotion = (share * (ratio / dt)).asDiagonal();
 }
 
-/** One step of expectation maximisation, averaged over time. */
-void MotionModel::adapt(const Vector6d& meanSquare, double dt)
+/** Average over time, the same for the three axes. */
+void MotionModel::learn(const Vector6d& square, double dt, Vector6d& meanSquare) const
 {
     const double rate = 1 - std::exp(-dt / params_.timeConstant);
-    const Vector6d target = perAxis(meanSquare.head<3>().mean(), meanSquare.tail<3>().mean());
-    density_ = (density_ + rate * (target - density_)).cwiseMax(smallestDensity());
+    meanSquare += rate * (perAxis(square.head<3>().mean(), square.tail<3>().mean()) - meanSquare);
+    meanSquare = meanSquare.cwiseMax(kLeastSquare);
 }
+
+Vector6d MotionModel::density() const { return learntDensity_.cwiseMax(smallestDensity()); }
 
 Vector6d MotionModel::sudden() const
 {
@@ -232,30 +276,24 @@ Vector6d MotionModel::smallestDensity() const
     return perAxis(params_.velocityRandomWalk, params_.angularVelocityRandomWalk).cwiseAbs2();
 }
 
-Vector6d MotionModel::coast(double dt)
+void MotionModel::coast(double dt)
 {
     increment_.reset();
     atIncrementsEnd_.reset();
-    // [P17, section Pose estimation]. What has decayed is uncertain by as much as it has decayed;
-    // the rest is white acceleration.
-    const Vector6d before = decayed_;
-    const Vector6d decaying = (1 - std::pow(params_.decay, dt / kUsualStep)) * velocity_;
-    velocity_ -= decaying;
-    decayed_ += decaying;
-    const double t = std::min(dt, kLongestCoasting - coasting_);
-    coasting_ += t;
-    const Vector6d gained = t * density_ + decayed_.cwiseAbs2() - before.cwiseAbs2();
-    cov_.diagonal().tail<6>() += gained;
-    return gained;
+    elapsed_ = std::min(elapsed_ + dt, kLongestStep);
 }
 
 void MotionModel::startAtReference()
 {
-    for (Matrix12d* cov : {&cov_, &measuredCov_})
-    {
-        cov->topRows<6>().setZero();
-        cov->leftCols<6>().setZero();
-    }
+    const Matrix6d kept = after(elapsed_).kept().asDiagonal();
+    const Matrix6d measured = propagate(kept, Matrix6d(measuredCov_.bottomRightCorner<6, 6>()));
+    const Matrix6d now = velocityCov();
+    velocity_ = velocity();
+    elapsed_ = 0;
+    cov_.setZero();
+    cov_.bottomRightCorner<6, 6>() = now;
+    measuredCov_.setZero();
+    measuredCov_.bottomRightCorner<6, 6>() = measured;
 }
 
 void MotionModel::reset()
@@ -263,12 +301,12 @@ void MotionModel::reset()
     velocity_.setZero();
     increment_.reset();
     atIncrementsEnd_.reset();
-    coasting_ = 0;
-    decayed_.setZero();
-    const Vector6d velocity = kPush * sudden();
+    elapsed_ = 0;
+    const Vector6d velocity = params_.accelerationTime * sudden();
     cov_.setZero();
     cov_.bottomRightCorner<6, 6>() = velocity.cwiseAbs2().asDiagonal();
-    density_ = perAxis(kFirstChange, kFirstTurn).cwiseAbs2().cwiseMax(smallestDensity());
+    learntDensity_ = perAxis(kFirstChange, kFirstTurn).cwiseAbs2();
+    speed2_ = velocity.cwiseAbs2();
     measuredCov_.setZero();
 }
 }  // namespace pointplane

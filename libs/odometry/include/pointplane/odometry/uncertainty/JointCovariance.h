@@ -31,7 +31,6 @@ class JointCovariance
         std::string model{"joint"};
         double noise{0.22};
         double viewSigma{0.0007};
-        double motion{0.07};
         double vignetting{0.15};
         double principalPoint{0.3};
         double focalLength{0.0006};
@@ -56,11 +55,6 @@ class JointCovariance
               "-",
               "error that all points of a frame share because of where the camera stands "
               "(standard deviation, as a fraction of the scene's distance)");
-            v("motion",
-              motion,
-              "-",
-              "uncertainty of the predicted motion: factor on the variance of how the motion "
-              "changes; it matters where images do not show the motion");
             v("vignetting",
               vignetting,
               "-",
@@ -134,7 +128,7 @@ class JointCovariance
     /** The motion of a frame that was not measured. */
     struct Prediction
     {
-        double dt{0};                             //!< [s] since the frame before
+        DecayedVelocities after;                  //!< what became of that before
         Matrix6d motion{Matrix6d::Zero()};        //!< its covariance if the velocity is known
         Matrix6d velocity{Matrix6d::Zero()};      //!< that of the velocity
         Vector6d velocityGain{Vector6d::Zero()};  //!< what its variance gains on the way
@@ -151,11 +145,12 @@ class JointCovariance
     void restart(int frame, const std::vector<int>& poses = {});
 
     /** Adds a measured frame, which becomes the previous one and a reference.
-     * \param T_world_prev pose of the previous measured frame \param dt [s] since that */
+     * \param T_world_prev pose of the previous measured frame
+     * \param decayed its velocity since then */
     void measure(
         int frame,
         const Eigen::Isometry3d& T_world_prev,
-        double dt,
+        const DecayedVelocities& decayed,
         const Measurement& measurement);
 
     /** Forgets errors of other references than these, and poses older than the history. Kept are
@@ -192,7 +187,10 @@ class JointCovariance
     void addView(
         Kind kind, const std::vector<int>& frames, std::size_t added, const Eigen::MatrixXd& C);
     [[nodiscard]] Eigen::MatrixXd dependence(
-        int frame, const Matrix6d& Ad, double dt, const Measurement& measurement) const;
+        int frame,
+        const Matrix6d& Ad,
+        const DecayedVelocities& decayed,
+        const Measurement& measurement) const;
 
     TParams params_;
     JointGaussian errors_;  //!< poses newest first

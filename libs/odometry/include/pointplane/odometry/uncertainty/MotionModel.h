@@ -2,16 +2,17 @@
 #pragma once
 
 #include <pointplane/core/Parameters.h>
+#include <pointplane/odometry/uncertainty/decaying_velocity.h>
 #include <pointplane/pose/MotionGaussian.h>
 
 #include <optional>
 
 namespace pointplane
 {
-/** Predicts the next frame's motion: constant velocity with white acceleration (the Wiener velocity
- * model of Anderson and Barfoot 2015). The density of the acceleration is learnt. Without
- * measurements the velocity decays (Klein & Murray 2007, quoted in [P17, section Pose estimation]).
- * Derivation: docs/theory.md, Motion. */
+/** Predicts the next frame's motion: the velocity decays ([P17, section Pose estimation], after
+ * Klein and Murray 2007) and changes by white acceleration (Ornstein and Uhlenbeck 1930). How fast
+ * the camera is and how much its velocity changes is learnt, and so for how long it keeps its
+ * velocity. Derivation: docs/theory.md, Motion. */
 class MotionModel
 {
  public:
@@ -28,20 +29,16 @@ class MotionModel
 
     struct TParams
     {
-        double decay{0.9};
         double velocityRandomWalk{0.1};
         double angularVelocityRandomWalk{0.5};
         double timeConstant{1.0};
         double sigmaAcceleration{5.0};
         double sigmaAngularAcceleration{15.0};
+        double accelerationTime{0.05};
 
         template <class V>
         void visit(V&& v)
         {
-            v("decay",
-              decay,
-              "-",
-              "fraction of the velocity that is kept over 1/30 s when a frame is not measured");
             v("velocityRandomWalk",
               velocityRandomWalk,
               "m/s/sqrt(s)",
@@ -59,12 +56,17 @@ class MotionModel
               sigmaAngularAcceleration,
               "rad/s^2",
               "the same of the rotation");
+            v("accelerationTime",
+              accelerationTime,
+              "s",
+              "for so long an acceleration lasts; what a sudden one makes of the velocity in it is "
+              "the velocity of a camera of which nothing is known");
         }
         /** \throws std::invalid_argument naming the key */
         void check() const;
     };
 
-    /** Between frames whose stamps do not tell, and the time that `decay` is given for [s]. */
+    /** Between frames whose stamps do not tell [s]. */
     static constexpr double kUsualStep = 1.0 / 30;
 
     /** After a longer time [s] nothing more can become unknown: the camera may be 500 m away. With
@@ -79,7 +81,13 @@ class MotionModel
     [[nodiscard]] MotionGaussian predict(double dt) const;
 
     /** Covariance of velocity() [m/s, rad/s]. */
-    [[nodiscard]] Matrix6d velocityCov() const { return cov_.bottomRightCorner<6, 6>(); }
+    [[nodiscard]] Matrix6d velocityCov() const;
+
+    /** Variance that the velocity gains in `dt` [s]. */
+    [[nodiscard]] Vector6d velocityGain(double dt) const;
+
+    /** What becomes of pose and velocity in `dt` [s]. */
+    [[nodiscard]] DecayedVelocities after(double dt) const;
 
     /** Motion over `dt` [s] from the latest measured frame, as it will be measured: from where the
      * estimate has put that frame, T_prev_cur and the velocity at its end. The error of the frame's
@@ -87,14 +95,15 @@ class MotionModel
     [[nodiscard]] MotionGaussian predictFromEstimate(double dt) const;
 
     /** Covariance of predictFromEstimate() without the part that the measured motion's own
-     * covariance makes. */
+     * covariance makes. Over steps shorter than an acceleration lasts, the pose tells the velocity
+     * better than white acceleration would. */
     [[nodiscard]] Matrix12d processNoise(double dt) const;
 
     /** Covariance of the pose after `dt` [s] if the velocity is known: by white acceleration and by
      * a jerk. */
     [[nodiscard]] Matrix6d unforeseen(double dt) const;
 
-    /** Covariance of the pose by a jerk that was not foreseen, over `dt` [s]. */
+    /** Covariance of the pose by a sudden acceleration, over `dt` [s]. */
     [[nodiscard]] Matrix6d jerk(double dt) const;
 
     /** Takes the mean velocity of a measured increment for the velocity at its end, as in the
@@ -116,15 +125,14 @@ class MotionModel
     /** The next motion starts at a frame to which others are compared: its pose has no error. */
     void startAtReference();
 
-    /** Passes `dt` [s] without a measurement: the velocity decays, its uncertainty grows.
-     * \return variance that the velocity has gained */
-    Vector6d coast(double dt);
+    /** Passes `dt` [s] without a measurement. */
+    void coast(double dt);
 
-    /** Body velocity at the latest measured frame, decayed since [m/s, rad/s]. */
-    [[nodiscard]] const Vector6d& velocity() const { return velocity_; }
+    /** Body velocity at the latest frame, measured or not [m/s, rad/s]. */
+    [[nodiscard]] Vector6d velocity() const;
 
-    /** Variance that the velocity gains per second, as adapted [m^2/s^3, rad^2/s^3]. */
-    [[nodiscard]] const Vector6d& density() const { return density_; }
+    /** Variance that the velocity gains per second, as learnt [m^2/s^3, rad^2/s^3]. */
+    [[nodiscard]] Vector6d density() const;
 
     /** Mean square of the acceleration, per axis, from how increments' velocities differ [m^2/s^4,
      * rad^2/s^4]; zero before there are two. */
@@ -135,8 +143,9 @@ class MotionModel
     void reset();
 
  private:
-    [[nodiscard]] MotionGaussian predictFrom(const Matrix12d& cov, double t) const;
-    void adapt(const Vector6d& meanSquare, double dt);
+    [[nodiscard]] MotionGaussian predictFrom(
+        const Vector6d& velocity, const Matrix12d& cov, double dt) const;
+    void learn(const Vector6d& square, double dt, Vector6d& meanSquare) const;
     [[nodiscard]] Vector6d smallestDensity() const;
     [[nodiscard]] Vector6d sudden() const;  //!< acceleration, per axis
     /** What moved the camera from frame to frame. */
@@ -150,14 +159,14 @@ class MotionModel
     void betweenIncrements(const Increment& next, Smoothed& smoothed) const;
 
     TParams params_;
-    Vector6d velocity_;
+    Vector6d velocity_;                 //!< at the latest measured frame
     Matrix12d cov_{Matrix12d::Zero()};  //!< of [pose of the latest measured frame; velocity_]
     Matrix12d measuredCov_{Matrix12d::Zero()};  //!< the same when it was measured
-    Vector6d density_;
+    Vector6d learntDensity_;  //!< of the acceleration; density() is not below the least
+    Vector6d speed2_;         //!< mean square of the velocity, per axis
     Vector6d acceleration2_{Vector6d::Zero()};
-    int numAccelerations_{0};             //!< that acceleration2_ was learnt from
-    Vector6d decayed_{Vector6d::Zero()};  //!< of the velocity since the latest measurement
-    double coasting_;  //!< time since the latest measurement, counted up to a limit [s]
+    int numAccelerations_{0};                  //!< that acceleration2_ was learnt from
+    double elapsed_{0};                        //!< since the latest measured frame [s]
     std::optional<Increment> increment_;       //!< the latest
     std::optional<Vector6d> atIncrementsEnd_;  //!< velocity, by the latest two of them
 };
