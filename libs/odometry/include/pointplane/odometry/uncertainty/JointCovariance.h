@@ -30,7 +30,7 @@ class JointCovariance
     {
         std::string model{"joint"};
         double noise{0.22};
-        double viewSigma{0.0007};
+        double viewSigma{0.0006};
         double vignetting{0.15};
         double principalPoint{0.3};
         double focalLength{0.0006};
