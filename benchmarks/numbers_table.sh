@@ -19,8 +19,8 @@ readonly sequences=(
     'kinect1_fixed_person_part'
 )
 readonly keys=(
-    Covariance.{noise,viewSigma,motion,vignetting,principalPoint,focalLength,depthScale}
-    NoiseScale.timeConstant
+    Covariance.{noise,viewSigma,vignetting,principalPoint,focalLength,depthScale}
+    NoiseScale.timeConstant MotionModel.accelerationTime
 )
 
 # value_of SECTION.KEY: what config.ini says.
