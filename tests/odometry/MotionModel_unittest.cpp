@@ -357,6 +357,23 @@ TEST(MotionModel, forHowLongTheVelocityIsKeptIsLearnt)
     EXPECT_NEAR(robot[1], 0.3, 0.12);
 }
 
+/** Poses that jump to and fro while the rows of the shutter tell no velocity, for a minute. */
+TEST(MotionModel, noVelocityIsLostFasterThanItIsGained)
+{
+    MotionModel model({});
+    for (int i = 0; i < 1800; ++i)
+    {
+        MotionGaussian measured;
+        measured.mean.T_prev_cur.translation().x() = i % 2 == 0 ? 1e3 : -1e3;
+        measured.cov.diagonal().setConstant(1e-12);
+        model.update(measured, kFrame);
+        ASSERT_TRUE(model.density().allFinite()) << i;
+        ASSERT_TRUE(model.predict(1).cov.allFinite()) << i;
+    }
+    EXPECT_GE(timeConstant(model, 0), 0.999 * MotionModel::TParams().accelerationTime);
+    EXPECT_GE(timeConstant(model, 3), 0.999 * MotionModel::TParams().accelerationTime);
+}
+
 TEST(MotionModel, leastRandomWalkIsKept)
 {
     MotionModel model({});

@@ -24,9 +24,6 @@ constexpr double kFirstChange = 0.45, kFirstTurn = 2.25;
 /** Times that one step may be as long as the next, where they tell an acceleration. */
 constexpr double kUnequal = 8;
 
-/** The least that a mean square becomes [SI units]: a ratio of two is a number. */
-constexpr double kLeastSquare = 1e-12;
-
 /** Of pose and velocity, from those before. */
 Matrix12d transition(const DecayedVelocities& after)
 {
@@ -64,8 +61,12 @@ MotionModel::MotionModel(const TParams& params) : params_(params)
 DecayedVelocities MotionModel::after(double dt) const
 {
     const double t = std::min(dt, kLongestStep);
+    // No velocity is lost faster than it is gained.
     const auto half = [&](int axis)
-    { return decayedVelocity(t, 2 * speed2_[axis] / learntDensity_[axis]); };
+    {
+        const double kept = 2 * speed2_[axis] / learntDensity_[axis];
+        return decayedVelocity(t, std::max(params_.accelerationTime, kept));
+    };
     return {half(0), half(3)};
 }
 
@@ -261,7 +262,6 @@ void MotionModel::learn(const Vector6d& square, double dt, Vector6d& meanSquare)
 {
     const double rate = 1 - std::exp(-dt / params_.timeConstant);
     meanSquare += rate * (perAxis(square.head<3>().mean(), square.tail<3>().mean()) - meanSquare);
-    meanSquare = meanSquare.cwiseMax(kLeastSquare);
 }
 
 Vector6d MotionModel::density() const { return learntDensity_.cwiseMax(smallestDensity()); }
