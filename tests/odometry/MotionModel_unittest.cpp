@@ -214,7 +214,9 @@ TEST(MotionModel, followsIncrementsHalfway)
 /** Rauch-Tung-Striebel against the joint Gaussian of the velocity before and the motion. */
 TEST(MotionModel, theVelocityBeforeIsSmoothed)
 {
-    MotionModel model({});
+    MotionModel::TParams params;
+    params.timeConstant = 1000;  // so uncertain a motion must not tell how the camera moves
+    MotionModel model(params);
     MotionGaussian uncertain = measuredMotion();  // its increment tells nothing of the velocity
     uncertain.cov.topLeftCorner<6, 6>() = Matrix6d::Identity();
     model.update(uncertain, kFrame);
