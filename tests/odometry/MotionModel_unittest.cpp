@@ -220,17 +220,18 @@ TEST(MotionModel, theVelocityBeforeIsSmoothed)
     MotionGaussian uncertain = measuredMotion();  // its increment tells nothing of the velocity
     uncertain.cov.topLeftCorner<6, 6>() = Matrix6d::Identity();
     model.update(uncertain, kFrame);
-    const MotionGaussian predicted = model.predictFromEstimate(kFrame);
+    constexpr double kStep = 0.2;  // too long for a velocity between two increments
+    const MotionGaussian predicted = model.predictFromEstimate(kStep);
     MotionGaussian measured = predicted;
     measured.mean.velocity[0] += 0.03;
     measured.cov *= 0.1;
     // cov(v_before, v_after) = kept P; cov(v_before, pose) = reach P, with P = 1e-4.
-    const DecayedVelocity after = model.after(kFrame).translation;
+    const DecayedVelocity after = model.after(kStep).translation;
     Eigen::Matrix2d S;
     S << predicted.cov(0, 0), predicted.cov(0, 6), predicted.cov(6, 0), predicted.cov(6, 6);
     const Eigen::Vector2d gain =
         S.inverse() * Eigen::Vector2d(after.reach * 1e-4, after.kept * 1e-4);
-    const Vector6d smoothed = model.update(measured, kFrame).velocity;
+    const Vector6d smoothed = model.update(measured, kStep).velocity;
     EXPECT_NEAR(smoothed[0] - velocity()[0], gain[1] * 0.03, 1e-9);
     EXPECT_NEAR(smoothed[1], velocity()[1], 1e-9);
 }
