@@ -61,16 +61,16 @@ MotionModel::MotionModel(const TParams& params) : params_(params)
 DecayedVelocities MotionModel::after(double dt) const
 {
     const double t = std::min(dt, kLongestStep);
-    // No velocity is lost faster than it is gained.
+    // The ratio of two learnt numbers can be anything; a velocity lasts as long as an acceleration.
     const auto half = [&](int axis)
     {
-        const double kept = 2 * speed2_[axis] / learntDensity_[axis];
-        return decayedVelocity(t, std::max(params_.accelerationTime, kept));
+        const double timeConstant = 2 * speed2_[axis] / learntDensity_[axis];
+        return decayedVelocity(t, std::max(params_.accelerationTime, timeConstant));
     };
     return {half(0), half(3)};
 }
 
-// [P17, section Pose estimation]
+// The decaying velocity of [P17, section Pose estimation].
 Vector6d MotionModel::velocity() const { return after(elapsed_).kept().cwiseProduct(velocity_); }
 
 Matrix6d MotionModel::velocityCov() const
