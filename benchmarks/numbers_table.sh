@@ -19,7 +19,7 @@ readonly sequences=(
     'kinect1_fixed_person_part'
 )
 readonly keys=(
-    Covariance.{noise,viewSigma,vignetting,principalPoint,focalLength,depthScale}
+    Covariance.{noise,viewNoise,vignetting,principalPoint,focalLength,depthScale}
     NoiseScale.timeConstant MotionModel.accelerationTime
 )
 

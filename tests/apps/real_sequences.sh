@@ -20,6 +20,22 @@ folder() {
     awk "/^#/ {next} {++n} $3" "$part/rgb.txt" > "$1/rgb.txt"
 }
 
+# covariances PART OPTIONS...: are they true? Joint NEES per degree of freedom of a whole part, over one frame, ten
+# frames and a second. Options: errors of the ground truth (docs/consistency.md).
+covariances() {
+    local name=$1
+    shift
+    if ! { "$bin/pointplane-convert" tum "$POINTPLANE_DATA/$name" -o "$name.rawlog" &&
+        "$bin/pointplane-odometry" "$name.rawlog" -o "$name.poses.rawlog" --only-poses --since 31 &&
+        "$bin/pointplane-eval" nees --body-from-gt optical --min-nees 0.4 --max-nees 2 "$@" \
+            "$name.groundtruth.txt" "$name.poses.rawlog"; } > "$name.nees" 2>&1; then
+        echo "$name: NEES not from 0.4 to 2"
+        cat "$name.nees"
+        failures=$((failures + 1))
+    fi
+    rm -f "$name.rawlog" "$name.poses.rawlog"
+}
+
 # check NAME PART AWK METRES DEGREES UNTRACKED OPTIONS...: at most this RPE over 1 s, at most so many frames
 # not tracked (then in $found), by pointplane-odometry with these options.
 check() {
@@ -69,6 +85,11 @@ for sigma in 0.0012 0.0015 0.0019; do
     check "fixed_$sigma" kinect1_fixed_person_part 1 0.008 0.4 0 \
         --set DepthNoise.kind=given --set DepthNoise.sigmaInverseDepth=$sigma
 done
+covariances $xyz --gt-sigma-trans 0.0001 --gt-sigma-rot-deg 0.089,0.057,0.045
+covariances tum_fr1_rpy_part --gt-sigma-trans 0.0001 --gt-sigma-rot-deg 0.103,0.161,0.055
+covariances tum_fr3_structure_notexture_far_part --gt-sigma-trans 0.0001 --gt-sigma-rot-deg 0.140,0.060,0.065
+covariances icl_living_room_kt0_part
+covariances kinect1_fixed_person_part
 check azure azure_kinect_tags_part 1 0 0 1
 ((failures == 0)) || exit 1
 echo "all within their bounds"

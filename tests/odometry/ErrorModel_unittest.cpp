@@ -19,6 +19,7 @@ class ErrorModelTest : public testing::Test
     ErrorModelTest()
     {
         params.noiseScale.adaptive = false;
+        camera.fx = 500;
         reference.id = 1;
         estimate.motion.mean.T_prev_cur.translation().x() = 0.6;
         estimate.infoPoints = Matrix6d::Identity();
@@ -31,10 +32,12 @@ class ErrorModelTest : public testing::Test
     [[nodiscard]] JointCovariance::Measurement learn() const
     {
         ErrorModel model(params);
+        (void)model.changeCamera(camera);
         return model.learn({{&reference}, estimate, analysis, 1e-9, Matrix12d::Zero()});
     }
 
     OdometryParams params;
+    PinholeCamera camera;
     Reference reference;
     PoseEstimate estimate;
     PoseAnalysis analysis;
@@ -47,6 +50,7 @@ TEST_F(ErrorModelTest, aFrameWhoseImageIsPulledApartErrsMore)
     const auto learnt = [&](double scatter)
     {
         ErrorModel model(params);
+        (void)model.changeCamera(camera);
         JointCovariance::Measurement out;
         for (const double next : {5.0, 5.0, scatter})
         {
@@ -76,6 +80,7 @@ TEST_F(ErrorModelTest, planesErrByTheirView)
     analysis.sensitivity.planes(3, 3) = 8;
     const JointCovariance::Measurement out = learn();
     EXPECT_NEAR(out.views.ofPlanes(0, 1), std::exp(-2), 1e-6) << "0.6 m and 0.3 rad";
+    EXPECT_NEAR(out.views.correlation(0, 1), std::exp(-1.3), 1e-6) << "of points";
     EXPECT_NEAR(out.planeViewRoot(0, 0), std::sqrt(2), 1e-9);
     EXPECT_NEAR(out.planeViewRoot(3, 3), std::sqrt(8), 1e-9);
     EXPECT_NEAR(out.planeViewRoot(0, 3), 0, 1e-9);
@@ -93,8 +98,58 @@ TEST_F(ErrorModelTest, aFrameErrsByItsView)
     EXPECT_EQ(out.views.correlation(1, 0), out.views.correlation(0, 1));
     EXPECT_GT(out.viewSigma[0], 0);
     EXPECT_NEAR(out.viewSigma[3], out.viewSigma[0], 1e-12) << "a turn errs as much, 1 m away";
-    params.covariance.viewSigma *= 2;
+    params.covariance.viewNoise *= 2;
     EXPECT_NEAR(learn().viewSigma[0], 2 * out.viewSigma[0], 1e-15);
+}
+
+/** A point errs by 0.15 px at 500 px of focal length: by 0.3 mrad. The references contradict each
+ * other as if all of it were noise of each; 0.22 of it is noise of the frame. */
+TEST_F(ErrorModelTest, errorByTheViewByHand)
+{
+    params.covariance.viewNoise = 10;
+    EXPECT_NEAR(learn().viewSigma[3], 0.003 * std::sqrt(1 - params.covariance.noise), 1e-12);
+}
+
+/** What the references contradict each other by is what the frame's own noise explains: views do
+ * not err. */
+TEST_F(ErrorModelTest, withoutContradictionsViewsDoNotErr)
+{
+    params.covariance.noise = 1;
+    EXPECT_TRUE(learn().viewSigma.isZero(0));
+}
+
+/** Images of half the size show the same errors: in pixels half of them, and residuals of a quarter
+ * of the variance. */
+TEST_F(ErrorModelTest, errorByTheViewDoesNotDependOnTheSizeOfTheImage)
+{
+    params.noiseScale.adaptive = true;
+    const auto learnt = [&](int factor)
+    {
+        camera.fx = 500.0 / factor;
+        ErrorModel model(params);
+        (void)model.changeCamera(camera);
+        JointCovariance::Measurement out;
+        for (int i = 0; i < 200; ++i)
+        {
+            analysis.pointVariance = 8.0 / (factor * factor);
+            analysis.pointDisagreement = {1, 1};
+            out = model.learn({{&reference}, estimate, analysis, 1, Matrix12d::Zero()});
+        }
+        return out.viewSigma[3];
+    };
+    EXPECT_GT(learnt(1), 0);
+    EXPECT_NEAR(learnt(2) / learnt(1), 1, 1e-3);
+}
+
+/** Points that are matched are placed less exactly than those that are tracked. */
+TEST_F(ErrorModelTest, errorByTheViewIsThatOfTheMethod)
+{
+    const double ofTracked = learn().viewSigma[3];
+    params.points.method = "match";
+    EXPECT_NEAR(
+        learn().viewSigma[3] / ofTracked,
+        params.depthNoise.sigmaPixelPx / params.pointTracker.sigmaPx,
+        1e-9);
 }
 
 TEST_F(ErrorModelTest, aSmoothErrorOfDepthIsPassedOn)
@@ -142,7 +197,6 @@ TEST_F(ErrorModelTest, aFrameErrsByAccelerationWhileItIsExposed)
 /** The larger of what a calibration may err by and what is to be learnt. */
 TEST_F(ErrorModelTest, aCameraErrsByItsCalibrationAndWhatIsToBeLearnt)
 {
-    PinholeCamera camera;
     const auto sigma = [&](int k)
     { return std::sqrt(ErrorModel(params).changeCamera(camera)(k, k)); };
     EXPECT_NEAR(sigma(kFocalLength), params.covariance.focalLength, 1e-12);

@@ -628,7 +628,7 @@ TEST(JointCovariance, refusesParametersNamingTheKey)
     };
     refused([](auto& p) { p.model = "none"; });
     refused([](auto& p) { p.noise = 0; });
-    refused([](auto& p) { p.viewSigma = -1; });
+    refused([](auto& p) { p.viewNoise = -1; });
     refused([](auto& p) { p.vignetting = -0.1; });
     refused([](auto& p) { p.principalPoint = -0.1; });
     refused([](auto& p) { p.focalLength = -0.1; });

@@ -245,7 +245,7 @@ TEST(Odometry, errorsAgainstKeyFramesDoNotAddUp)
         OdometryParams params;
         params.covariance.history = 10;
         params.covariance.model = model;
-        params.covariance.viewSigma *= std::sqrt(drift);
+        params.covariance.viewNoise *= std::sqrt(drift);
         CheckedOdometry odometry(params);
         (void)odometry.run(0, 10);
         Variances sum{0, 0};  // some frames are noisier than others

@@ -13,29 +13,33 @@ namespace pointplane
 {
 namespace
 {
-Eigen::Isometry3d along(double x) { return Eigen::Isometry3d(Eigen::Translation3d(x, 0, 0)); }
+Eigen::Isometry3d view(double x, double angle)
+{
+    return Eigen::Translation3d(x, 0, 0) * Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitY());
+}
 }  // namespace
 
 TEST(viewCorrelation, byHand)
 {
-    EXPECT_EQ(viewCorrelation(along(0), 0), 1);
-    EXPECT_NEAR(viewCorrelation(along(0.6), 0), std::exp(-1), 1e-12);
-    EXPECT_NEAR(viewCorrelation(along(-0.6), 0), std::exp(-1), 1e-12);
-    EXPECT_NEAR(viewCorrelation(along(0), -10), std::exp(-1), 1e-12);
-    EXPECT_NEAR(viewCorrelation(along(0.3), 5), std::exp(-1), 1e-12);
+    EXPECT_EQ(viewCorrelation(view(0, 0)), 1);
+    EXPECT_NEAR(viewCorrelation(view(0.6, 0)), std::exp(-1), 1e-12);
+    EXPECT_NEAR(viewCorrelation(view(-0.6, 0)), std::exp(-1), 1e-12);
+    EXPECT_NEAR(viewCorrelation(view(0, -1)), std::exp(-1), 1e-12);
+    EXPECT_NEAR(viewCorrelation(view(0.3, 0.5)), std::exp(-1), 1e-12);
 }
 
-TEST(viewCorrelation, aTurnInPlaceIsTheSameView)
+TEST(planeViewCorrelation, byHand)
 {
-    const Eigen::Isometry3d turn(Eigen::AngleAxisd(1, Eigen::Vector3d::UnitY()));
-    EXPECT_EQ(viewCorrelation(turn, 0), 1);
+    EXPECT_EQ(planeViewCorrelation(view(0, 0)), 1);
+    EXPECT_NEAR(planeViewCorrelation(view(0.6, 0)), std::exp(-1), 1e-12);
+    EXPECT_NEAR(planeViewCorrelation(view(0.3, 0.15)), std::exp(-1), 1e-12);
 }
 
 /** Of any places, in any order: else it would be no correlation. */
 TEST(viewCorrelation, isPositiveDefinite)
 {
     const std::vector<std::pair<double, double>> views{
-        {0, 0}, {0.1, 0.03}, {0.5, 0.4}, {0.1, 1}, {-2, 3}, {0, 8}};
+        {0, 0}, {0.1, 0.03}, {0.5, 0.4}, {0.1, 1}, {-2, 3}, {0, -1}};
     const auto n = static_cast<Eigen::Index>(views.size());
     Eigen::MatrixXd C(n, n);
     for (Eigen::Index i = 0; i < n; ++i)
@@ -43,7 +47,7 @@ TEST(viewCorrelation, isPositiveDefinite)
         for (Eigen::Index k = 0; k < n; ++k)
         {
             const auto &a = views[static_cast<size_t>(i)], &b = views[static_cast<size_t>(k)];
-            C(i, k) = viewCorrelation(along(a.first - b.first), a.second - b.second);
+            C(i, k) = viewCorrelation(view(a.first, a.second).inverse() * view(b.first, b.second));
         }
     }
     EXPECT_GT(test::symmetricEigen(C).values.minCoeff(), 0.01);

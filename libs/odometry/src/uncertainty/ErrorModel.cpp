@@ -8,6 +8,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -20,15 +21,12 @@ JointCovariance::Views viewsOf(const ErrorModel::Measured& frame)
 {
     JointCovariance::Views out;
     std::vector<Eigen::Isometry3d> poses;
-    std::vector<double> stamps;
     for (const Reference* reference : frame.references)
     {
         out.frames.push_back(reference->id);
         poses.push_back(reference->T_world_cam);
-        stamps.push_back(reference->stamp);
     }
     poses.push_back(poses.front() * frame.estimate.motion.mean.T_prev_cur);
-    stamps.push_back(stamps.front() + frame.dt);
     const auto n = static_cast<Eigen::Index>(poses.size());
     out.correlation = out.ofPlanes = Eigen::MatrixXd::Identity(n, n);
     for (size_t i = 0; i < poses.size(); ++i)
@@ -37,11 +35,8 @@ JointCovariance::Views viewsOf(const ErrorModel::Measured& frame)
         {
             const auto row = static_cast<Eigen::Index>(i), column = static_cast<Eigen::Index>(k);
             const Eigen::Isometry3d motion = poses[i].inverse() * poses[k];
-            const double time = stamps[i] - stamps[k];
-            out.correlation(row, column) = out.correlation(column, row) =
-                viewCorrelation(motion, time);
-            out.ofPlanes(row, column) = out.ofPlanes(column, row) =
-                planeViewCorrelation(motion, time);
+            out.correlation(row, column) = out.correlation(column, row) = viewCorrelation(motion);
+            out.ofPlanes(row, column) = out.ofPlanes(column, row) = planeViewCorrelation(motion);
         }
     }
     return out;
@@ -59,6 +54,8 @@ Matrix6d rootOf(const Matrix6d& S)
 ErrorModel::ErrorModel(const OdometryParams& params)
     : params_(params.covariance),
       noiseParams_(params.noiseScale),
+      sigmaPointPx_(
+          params.points.tracks() ? params.pointTracker.sigmaPx : params.depthNoise.sigmaPixelPx),
       isJoint_(params.covariance.isJoint()),
       fuses_(params.pipeline.fuses()),
       learns_(params.noiseScale.adaptive),
@@ -73,6 +70,7 @@ CameraMatrix ErrorModel::changeCamera(const PinholeCamera& camera)
     noise_ = NoiseScale(noiseParams_);
     planes_ = PlaneErrors(noiseParams_.timeConstant);
     camera_.start(camera);
+    sigmaPoint_ = sigmaPointPx_ / camera.fx;
     const CameraVector learnt = camera_.cov().diagonal();
     return calibrationVariances(params_, camera).cwiseMax(learnt).asDiagonal();
 }
@@ -132,17 +130,22 @@ JointCovariance::Measurement ErrorModel::errorsOf(const Measured& frame) const
         out.prior.rightCols<6>().setZero();  // the velocity is a new one for each frame
     }
     out.priorNoise = propagate(of.prior, frame.motionNoise);
-    // As large as the residuals of points are, and as the references contradict each other.
-    const double level =
-        noise_.ofFrame() * points.residuals * points.residuals * points.disagreement;
     if (!of.points.isZero(0))
     {
         out.viewSigma = viewSigma(
-            params_.viewSigma * std::sqrt(level),
+            commonAngle(),
             frame.estimate.infoPoints + frame.estimate.infoPlanes,
             frame.shutter.readoutColour);
     }
     out.planeViewRoot = rootOf(planes_.byView() * Matrix6d(of.planes.topLeftCorner<6, 6>()));
     return out;
+}
+
+double ErrorModel::commonAngle() const
+{
+    const NoiseScale::TypicalPoints points = noise_.typicalPoints();
+    const double unexplained = std::max(0.0, points.disagreement - params_.noise);
+    return params_.viewNoise * sigmaPoint_ *
+           std::sqrt(noise_.ofFrame() * points.residuals * unexplained);
 }
 }  // namespace pointplane

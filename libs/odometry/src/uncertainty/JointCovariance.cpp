@@ -27,7 +27,7 @@ void JointCovariance::TParams::check() const
 {
     (void)isJoint();
     checkRange("noise", noise, 1e-3, 1000);
-    checkRange("viewSigma", viewSigma, 0, 1);
+    checkRange("viewNoise", viewNoise, 0, 1000);
     checkRange("vignetting", vignetting, 0, 1);
     checkRange("principalPoint", principalPoint, 0, 100);
     checkRange("focalLength", focalLength, 0, 10);

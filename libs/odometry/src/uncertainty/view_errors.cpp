@@ -10,11 +10,10 @@ namespace pointplane
 {
 namespace
 {
-/** Over which errors become those of another view: about the distance from which a scene of a room
- * looks different, and the time over which cameras and scenes change. Chosen by the NEES of true
- * motions: docs/experiments.md. */
+/** A way and a turn over which errors become those of another view. Twice and half of both change
+ * little: docs/experiments_archive.md, Errors by the view and the size of images. */
 constexpr double kDistance = 0.6;  // [m]
-constexpr double kTime = 10;       // [s]
+constexpr double kAngle = 1;       // [rad]
 
 /** A turn that moves planes to other parts of the image: a third of a Kinect's view. */
 constexpr double kPlaneAngle = 0.3;  // [rad]
@@ -30,17 +29,19 @@ double distanceOf(const Matrix6d& information)
     const double ofRotation = information.bottomRightCorner<3, 3>().trace();
     return ofTranslation > 0 ? std::sqrt(ofRotation / (2 * ofTranslation)) : 1;
 }
+
+double correlation(const Eigen::Isometry3d& motion, double angle)
+{
+    const double turn = Eigen::AngleAxisd(motion.linear()).angle();
+    return std::exp(-motion.translation().norm() / kDistance - turn / angle);
+}
 }  // namespace
 
-double viewCorrelation(const Eigen::Isometry3d& motion, double time)
-{
-    return std::exp(-motion.translation().norm() / kDistance - std::abs(time) / kTime);
-}
+double viewCorrelation(const Eigen::Isometry3d& motion) { return correlation(motion, kAngle); }
 
-double planeViewCorrelation(const Eigen::Isometry3d& motion, double time)
+double planeViewCorrelation(const Eigen::Isometry3d& motion)
 {
-    const double angle = Eigen::AngleAxisd(motion.linear()).angle();
-    return viewCorrelation(motion, time) * std::exp(-angle / kPlaneAngle);
+    return correlation(motion, kPlaneAngle);
 }
 
 Vector12d viewSigma(double sigma, const Matrix6d& information, double readout)

@@ -30,7 +30,7 @@ class JointCovariance
     {
         std::string model{"joint"};
         double noise{0.22};
-        double viewSigma{0.0006};
+        double viewNoise{3.7};
         double vignetting{0.15};
         double principalPoint{0.3};
         double focalLength{0.0006};
@@ -50,11 +50,11 @@ class JointCovariance
               "-",
               "which part of the variance of the points' residuals is noise of this frame; the "
               "rest is noise of the references");
-            v("viewSigma",
-              viewSigma,
+            v("viewNoise",
+              viewNoise,
               "-",
-              "error that all points of a frame share because of where the camera stands "
-              "(standard deviation, as a fraction of the scene's distance)");
+              "error that all points of a frame share because of where the camera stands, "
+              "over the error of a single point (standard deviations)");
             v("vignetting",
               vignetting,
               "-",

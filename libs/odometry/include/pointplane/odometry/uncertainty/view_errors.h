@@ -11,13 +11,13 @@ namespace pointplane
  * together, as if the camera stood elsewhere. Frames that see the scene alike err alike, and
  * nothing of it shows when they are compared; frames far apart err each for itself. This is a
  * stationary Gaussian field over views.
- * \param motion, time [s] between the two frames
- * \return correlation of their errors: exp(-distance / 0.6 m - time / 10 s) */
-[[nodiscard]] double viewCorrelation(const Eigen::Isometry3d& motion, double time);
+ * \param motion between the two frames
+ * \return correlation of their errors: exp(-distance / 0.6 m - angle / 1 rad) */
+[[nodiscard]] double viewCorrelation(const Eigen::Isometry3d& motion);
 
-/** The same of what the planes of the frames err by: they also look different where a turn puts
- * them into another part of the image. \return viewCorrelation() * exp(-angle / 0.3 rad) */
-[[nodiscard]] double planeViewCorrelation(const Eigen::Isometry3d& motion, double time);
+/** The same of what the planes of the frames err by. A turn puts them into another part of the
+ * image, where they are cut out differently. \return exp(-distance / 0.6 m - angle / 0.3 rad) */
+[[nodiscard]] double planeViewCorrelation(const Eigen::Isometry3d& motion);
 
 /** Standard deviation of that error, as one of the pose (left perturbation) [m, rad]: sigma D per
  * axis of the translation and sigma per axis of the rotation, which moves the features as far. D is
