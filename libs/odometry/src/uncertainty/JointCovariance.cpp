@@ -95,7 +95,7 @@ void JointCovariance::restart(int frame, const std::vector<int>& poses)
 }
 
 /** Of pose and velocity on all blocks so far. The predicted motion starts at the previous frame
- * with its velocity: an error of that moves it by dt times as much. */
+ * with its velocity, which decays: an error of that moves it by the velocity's reach. */
 Eigen::MatrixXd JointCovariance::dependence(
     int frame,
     const Matrix6d& Ad,

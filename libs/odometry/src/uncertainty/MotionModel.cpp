@@ -21,9 +21,6 @@ constexpr double kWander = 0.01;
  * a Kinect (0.3 to 0.4 m/s, 0.9 to 1.2 rad/s), and somewhat more. */
 constexpr double kFirstChange = 0.45, kFirstTurn = 2.25;
 
-/** Times that one step may be as long as the next, where they tell an acceleration. */
-constexpr double kUnequal = 8;
-
 /** Of pose and velocity, from those before. */
 Matrix12d transition(const DecayedVelocities& after)
 {
@@ -33,13 +30,6 @@ Matrix12d transition(const DecayedVelocities& after)
     return out;
 }
 
-/** One value for each half of a tangent vector. */
-Vector6d perAxis(double translation, double rotation)
-{
-    Vector6d out;
-    out << Eigen::Vector3d::Constant(translation), Eigen::Vector3d::Constant(rotation);
-    return out;
-}
 }  // namespace
 
 void MotionModel::TParams::check() const
@@ -52,7 +42,8 @@ void MotionModel::TParams::check() const
     checkRange("accelerationTime", accelerationTime, 1e-3, 10);
 }
 
-MotionModel::MotionModel(const TParams& params) : params_(params)
+MotionModel::MotionModel(const TParams& params)
+    : params_(params), increments_(4 * params.accelerationTime, params.timeConstant)
 {
     params_.check();
     reset();
@@ -183,78 +174,42 @@ MotionModel::Smoothed MotionModel::update(const MotionGaussian& measured, double
     toEnd.topLeftCorner<6, 6>() = adjoint(measured.mean.T_prev_cur.inverse());
     cov_ = measuredCov_ = propagate(toEnd, measured.cov);
     elapsed_ = 0;
-    const Increment increment{
-        se3Log(measured.mean.T_prev_cur) / t, t, measured.cov.diagonal().head<6>()};
-    learnAcceleration(increment);
-    betweenIncrements(increment, out);
-    atIncrementsEnd_.reset();
-    if (increment_ && increment_->dt + t < 4 * params_.accelerationTime)
+    const auto between = increments_.add(
+        {se3Log(measured.mean.T_prev_cur) / t, t, measured.cov.diagonal().head<6>()});
+    if (between)
     {
-        atIncrementsEnd_ = increment.velocity +
-                           (increment.velocity - increment_->velocity) * t / (increment_->dt + t);
+        weigh(*between, t, out);
     }
-    increment_ = increment;
     return out;
-}
-
-void MotionModel::learnAcceleration(const Increment& next)
-{
-    if (!increment_)
-    {
-        return;
-    }
-    // Over a step that is much shorter than another, noise of the pose looks like a jerk.
-    if (next.dt > kUnequal * increment_->dt || increment_->dt > kUnequal * next.dt)
-    {
-        return;
-    }
-    const Vector6d a = 2 * (next.velocity - increment_->velocity) / (next.dt + increment_->dt);
-    ++numAccelerations_;
-    const double rate =
-        std::max(1.0 / numAccelerations_, 1 - std::exp(-next.dt / params_.timeConstant));
-    const Vector6d a2 = perAxis(a.head<3>().squaredNorm() / 3, a.tail<3>().squaredNorm() / 3);
-    acceleration2_ += rate * (a2 - acceleration2_);
 }
 
 void MotionModel::followIncrements()
 {
-    if (atIncrementsEnd_)
+    if (increments_.atEnd())
     {
-        velocity_ = 0.5 * (velocity_ + *atIncrementsEnd_);
+        velocity_ = 0.5 * (velocity_ + *increments_.atEnd());
     }
 }
 
-/** Velocity between the latest increment and this one, by constant acceleration. Weighed with the
- * smoothed one by their variances, unless the increments are too long for that or the camera
- * has jerked. */
-void MotionModel::betweenIncrements(const Increment& next, Smoothed& smoothed) const
+/** By their variances, unless the camera has jerked in the dt [s] of the next increment. */
+void MotionModel::weigh(
+    const IncrementVelocities::Between& between, double dt, Smoothed& smoothed) const
 {
-    if (!increment_ || increment_->dt + next.dt > 4 * params_.accelerationTime)
+    const Vector6d apart = between.velocity - smoothed.velocity;
+    if (apart.head<3>().norm() > dt * params_.sigmaAcceleration ||
+        apart.tail<3>().norm() > dt * params_.sigmaAngularAcceleration)
     {
         return;
     }
-    const Increment& last = *increment_;
-    const double dt = last.dt + next.dt;
-    const Vector6d between = (next.dt * last.velocity + last.dt * next.velocity) / dt;
-    const Vector6d apart = between - smoothed.velocity;
-    if (apart.head<3>().norm() > next.dt * params_.sigmaAcceleration ||
-        apart.tail<3>().norm() > next.dt * params_.sigmaAngularAcceleration)
-    {
-        return;
-    }
-    const double ratio = next.dt / last.dt;
-    const Vector6d variances =
-        (ratio * ratio * last.variance + next.variance / (ratio * ratio)) / (dt * dt);
     const Vector6d wander = Vector6d::Constant(kWander * kWander);
-    const Vector6d noise = perAxis(variances.head<3>().mean(), variances.tail<3>().mean());
-    const Vector6d share = wander.cwiseQuotient(wander + noise);
+    const Vector6d share = wander.cwiseQuotient(wander + between.variance);
     smoothed.velocity += share.cwiseProduct(apart);
     const Matrix6d kept = (Vector6d::Ones() - share).asDiagonal();
     smoothed.byVelocity = (kept * smoothed.byVelocity).eval();
     smoothed.byNextVelocity = (kept * smoothed.byNextVelocity).eval();
     smoothed.byNextMotion = (kept * smoothed.byNextMotion).eval();
-    smoothed.byNextMotion.diagonal() += share / (ratio * dt);
-    smoothed.byPreviousMotion = (share * (ratio / dt)).asDiagonal();
+    smoothed.byNextMotion.diagonal() += share / (between.ratio * between.dt);
+    smoothed.byPreviousMotion = (share * (between.ratio / between.dt)).asDiagonal();
 }
 
 /** Average over time, the same for the three axes. */
@@ -278,8 +233,7 @@ Vector6d MotionModel::smallestDensity() const
 
 void MotionModel::coast(double dt)
 {
-    increment_.reset();
-    atIncrementsEnd_.reset();
+    increments_.interrupt();
     elapsed_ = std::min(elapsed_ + dt, kLongestStep);
 }
 
@@ -299,8 +253,7 @@ void MotionModel::startAtReference()
 void MotionModel::reset()
 {
     velocity_.setZero();
-    increment_.reset();
-    atIncrementsEnd_.reset();
+    increments_.interrupt();
     elapsed_ = 0;
     const Vector6d velocity = params_.accelerationTime * sudden();
     cov_.setZero();

@@ -46,9 +46,7 @@ double planeViewCorrelation(const Eigen::Isometry3d& motion)
 
 Vector12d viewSigma(double sigma, const Matrix6d& information, double readout)
 {
-    Vector6d ofPose;
-    ofPose << Eigen::Vector3d::Constant(sigma * distanceOf(information)),
-        Eigen::Vector3d::Constant(sigma);
+    const Vector6d ofPose = perAxis(sigma * distanceOf(information), sigma);
     // Standard deviation of when rows are exposed, all rows alike.
     const double spread = std::max(std::abs(readout), kShortestReadout) / std::sqrt(12.0);
     Vector12d out;

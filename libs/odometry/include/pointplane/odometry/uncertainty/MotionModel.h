@@ -2,10 +2,9 @@
 #pragma once
 
 #include <pointplane/core/Parameters.h>
+#include <pointplane/odometry/uncertainty/IncrementVelocities.h>
 #include <pointplane/odometry/uncertainty/decaying_velocity.h>
 #include <pointplane/pose/MotionGaussian.h>
-
-#include <optional>
 
 namespace pointplane
 {
@@ -47,7 +46,10 @@ class MotionModel
               angularVelocityRandomWalk,
               "rad/s/sqrt(s)",
               "the same of the angular velocity");
-            v("timeConstant", timeConstant, "s", "time over which the change is learnt");
+            v("timeConstant",
+              timeConstant,
+              "s",
+              "time over which the velocity's change and size are learnt");
             v("sigmaAcceleration",
               sigmaAcceleration,
               "m/s^2",
@@ -59,8 +61,8 @@ class MotionModel
             v("accelerationTime",
               accelerationTime,
               "s",
-              "for so long an acceleration lasts; what a sudden one makes of the velocity in it is "
-              "the velocity of a camera of which nothing is known");
+              "for so long a sudden acceleration lasts; at first, the camera may be as fast as one "
+              "makes it");
         }
         /** \throws std::invalid_argument naming the key */
         void check() const;
@@ -134,9 +136,8 @@ class MotionModel
     /** Variance that the velocity gains per second, as learnt [m^2/s^3, rad^2/s^3]. */
     [[nodiscard]] Vector6d density() const;
 
-    /** Mean square of the acceleration, per axis, from how increments' velocities differ [m^2/s^4,
-     * rad^2/s^4]; zero before there are two. */
-    [[nodiscard]] const Vector6d& acceleration2() const { return acceleration2_; }
+    /** IncrementVelocities::acceleration2() */
+    [[nodiscard]] const Vector6d& acceleration2() const { return increments_.acceleration2(); }
 
     /** Forgets the motion: the velocity is unknown again. How the camera accelerates stays known:
      * it is carried as before. */
@@ -148,15 +149,7 @@ class MotionModel
     void learn(const Vector6d& square, double dt, Vector6d& meanSquare) const;
     [[nodiscard]] Vector6d smallestDensity() const;
     [[nodiscard]] Vector6d sudden() const;  //!< acceleration, per axis
-    /** What moved the camera from frame to frame. */
-    struct Increment
-    {
-        Vector6d velocity;  //!< its mean
-        double dt;          //!< [s]
-        Vector6d variance;  //!< of the pose at its end
-    };
-    void learnAcceleration(const Increment& next);
-    void betweenIncrements(const Increment& next, Smoothed& smoothed) const;
+    void weigh(const IncrementVelocities::Between& between, double dt, Smoothed& smoothed) const;
 
     TParams params_;
     Vector6d velocity_;                 //!< at the latest measured frame
@@ -164,10 +157,7 @@ class MotionModel
     Matrix12d measuredCov_{Matrix12d::Zero()};  //!< the same when it was measured
     Vector6d learntDensity_;  //!< of the acceleration; density() is not below the least
     Vector6d speed2_;         //!< mean square of the velocity, per axis
-    Vector6d acceleration2_{Vector6d::Zero()};
-    int numAccelerations_{0};                  //!< that acceleration2_ was learnt from
-    double elapsed_{0};                        //!< since the latest measured frame [s]
-    std::optional<Increment> increment_;       //!< the latest
-    std::optional<Vector6d> atIncrementsEnd_;  //!< velocity, by the latest two of them
+    double elapsed_{0};       //!< since the latest measured frame [s]
+    IncrementVelocities increments_;
 };
 }  // namespace pointplane

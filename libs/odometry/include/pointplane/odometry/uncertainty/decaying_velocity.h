@@ -34,10 +34,7 @@ struct DecayedVelocities
  private:
     [[nodiscard]] Vector6d each(double DecayedVelocity::*value) const
     {
-        Vector6d out;
-        out << Eigen::Vector3d::Constant(translation.*value),
-            Eigen::Vector3d::Constant(rotation.*value);
-        return out;
+        return perAxis(translation.*value, rotation.*value);
     }
 };
 }  // namespace pointplane
