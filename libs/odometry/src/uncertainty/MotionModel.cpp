@@ -29,7 +29,6 @@ Matrix12d transition(const DecayedVelocities& after)
     out.bottomRightCorner<6, 6>() = after.kept().asDiagonal();
     return out;
 }
-
 }  // namespace
 
 void MotionModel::TParams::check() const
