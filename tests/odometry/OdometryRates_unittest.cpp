@@ -60,6 +60,39 @@ TEST(OdometryRates, framesASecond)
     }
 }
 
+/** In the dark, a colour camera halves its rate: each image comes twice. That a frame without a new
+ * one shows no points again is no reason for a key frame, which would have none: only its distance
+ * is. */
+TEST(OdometryRates, colourAtHalfTheRateOfDepth)
+{
+    SimulationParams params;
+    params.duration = 2;
+    const SimulatedSequence sequence("desk", params, 1);
+    Odometry odometry{OdometryParams()};
+    RgbdFrame before;
+    int keyframesWithoutPoints = 0;
+    OdometryResult last;
+    for (int i = 0; i < sequence.numFrames(); ++i)
+    {
+        RgbdFrame frame = sequence.frame(i);
+        const bool isRepeated = i % 2 == 1;
+        if (isRepeated)
+        {
+            frame.gray = before.gray;
+        }
+        before = frame;
+        last = odometry.process(frame);
+        EXPECT_TRUE(i == 0 || last.status == TrackingStatus::Tracked) << i << ": " << last.reason;
+        keyframesWithoutPoints += isRepeated && odometry.features().isKeyframe;
+    }
+    const int end = sequence.numFrames() - 1;
+    const Eigen::Vector3d truth = sequence.trueMotion(0, end).translation();
+    const double error = (last.pose.mean.translation() - truth).norm();
+    std::cout << 1e3 * error << " mm of " << 1e3 * truth.norm() << "\n";
+    EXPECT_LT(error, 0.01);
+    EXPECT_LT(keyframesWithoutPoints, 6);  // of 30
+}
+
 /** The camera turns back suddenly: of where points are searched for, most are at the edge or
  * beyond. What is found around there (142 points) is not all. */
 TEST(OdometryRates, pointsBeyondTheSearchRadiusAreFound)

@@ -119,6 +119,24 @@ TEST(ReferenceWindow, newestTellsTheOverlap)
     EXPECT_FALSE(window.isNewest(*active[2]));
 }
 
+/** Four points and two planes; of the one half is found again, of the other nothing. */
+TEST(ReferenceWindow, whatCannotBeFoundDoesNotCountInTheOverlap)
+{
+    ReferenceWindow window({});
+    Reference keyframe = reference(1);
+    keyframe.points.points.resize(4);
+    keyframe.planes.planes.resize(2);
+    window.add(keyframe, true);
+    Association found;
+    found.reference = window.active()[0];
+    found.points.resize(2);
+    EXPECT_EQ(window.overlap({found}, {}), 0);
+    EXPECT_EQ(window.overlap({found}, {true, false}), 0.5);
+    EXPECT_EQ(window.overlap({found}, {false, true}), 0);
+    EXPECT_EQ(window.overlap({found}, {false, false}), 1);
+    EXPECT_EQ(window.overlap({}, {}), 0);
+}
+
 TEST(ReferenceWindow, velocityOfThePreviousFrameIsRefinedInItsKeyframeToo)
 {
     ReferenceWindow window({});

@@ -112,7 +112,7 @@ Alignment Aligner::align(
     const Motion start{expected, predicted.motion.mean.velocity};
     const bool verifies = params_.leastAgreement > 0;
     Alignment out = attempt(scene, start, Search::Close);
-    if (track.overlap(out.associations) < minOverlap_ ||
+    if (track.overlap(out.associations, current) < minOverlap_ ||
         (verifies && !Judge::isConvincing(out, errors.usual())))
     {
         Alignment wide = attempt(scene, start, Search::Wide);

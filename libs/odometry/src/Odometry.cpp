@@ -251,7 +251,7 @@ void Odometry::Impl::measure(const Features& current, Alignment& alignment, Odom
     // Without depth, it shows nothing that others could be compared with.
     const bool isKeyframe =
         current.hasDepth &&
-        (track.needsKeyframe(motion.mean.T_prev_cur, track.overlap(alignment.associations)) ||
+        (track.needsKeyframe(motion.mean.T_prev_cur, track.overlap(alignment.associations, current)) ||
          Judge::needsNewView(alignment, shown.moving.share()));
     Reference reference = referenceOf(current);
     reference.surfaces = analysis.surfaces;

@@ -58,7 +58,8 @@ bool ReferenceWindow::isNewest(const Reference& reference) const
     return reference.id == (keyframes_.empty() ? previous_.id : keyframes_.back().id);
 }
 
-double ReferenceWindow::overlap(const std::vector<Association>& associations) const
+double ReferenceWindow::overlap(
+    const std::vector<Association>& associations, const Findable& findable) const
 {
     const auto fraction = [](size_t found, size_t all)
     { return all > 0 ? static_cast<double>(found) / static_cast<double>(all) : 1.0; };
@@ -67,10 +68,10 @@ double ReferenceWindow::overlap(const std::vector<Association>& associations) co
     {
         if (isNewest(*a.reference))
         {
-            out = std::min(
-                fraction(a.numPointsFound(), a.reference->points.points.size()),
-                fraction(
-                    a.planes.size() + a.movingPlanes.size(), a.reference->planes.planes.size()));
+            const size_t planesFound = a.planes.size() + a.movingPlanes.size();
+            const double points = fraction(a.numPointsFound(), a.reference->points.points.size());
+            const double planes = fraction(planesFound, a.reference->planes.planes.size());
+            out = std::min(findable.points ? points : 1, findable.planes ? planes : 1);
         }
     }
     return out;

@@ -49,9 +49,10 @@ class Track
     [[nodiscard]] const std::deque<Reference>& places() const { return window_.places(); }
 
     /** ReferenceWindow::overlap(). */
-    [[nodiscard]] double overlap(const std::vector<Association>& associations) const
+    [[nodiscard]] double overlap(
+        const std::vector<Association>& associations, const Features& current) const
     {
-        return window_.overlap(associations);
+        return window_.overlap(associations, {!current.frame.gray.empty(), current.hasDepth});
     }
 
     [[nodiscard]] bool needsKeyframe(const Eigen::Isometry3d& T_prev_cur, double overlap) const;

@@ -67,9 +67,17 @@ class ReferenceWindow
     /** Whether this is the newest frame with points, which overlap() is about. */
     [[nodiscard]] bool isNewest(const Reference& reference) const;
 
+    /** What can be found in a frame at all: no points without a new colour image, no planes without
+     * a new depth image. */
+    struct Findable
+    {
+        bool points{true}, planes{true};
+    };
+
     /** Fraction of the newest key frame's points, or of its planes, that was found again: the
-     * smaller of the two, in [0, 1]; 0 without associations. */
-    [[nodiscard]] double overlap(const std::vector<Association>& associations) const;
+     * smaller of the two, of what can be found, in [0, 1]; 0 without associations. */
+    [[nodiscard]] double overlap(
+        const std::vector<Association>& associations, const Findable& findable) const;
 
     /** \param overlap of the frame with the newest key frame, in [0, 1] */
     [[nodiscard]] bool needsKeyframe(const Eigen::Isometry3d& T_world_cam, double overlap) const;
