@@ -219,6 +219,13 @@ class SharedOdometry
         return result;
     }
 
+    void setMask(const cv::Mat& mask)
+    {
+        const py::gil_scoped_release release;
+        const std::lock_guard lock(mutex_);
+        odometry_.setMask(mask);
+    }
+
     void reset()
     {
         const py::gil_scoped_release release;
@@ -360,7 +367,14 @@ void addOdometry(py::module_& m)
             &SharedOdometry::process,
             py::arg("frame"),
             "A frame of a rawlog, see read_rawlog().")
-        .def("reset", &SharedOdometry::reset, "Starts anew with the same configuration.");
+        .def(
+            "set_mask",
+            [](SharedOdometry& odometry, const py::object& mask)
+            { odometry.setMask(grayOf(mask)); },
+            py::arg("mask"),
+            "Leaves out what the camera sees of the robot that carries it. mask: (height, width), "
+            "uint8, 0 where the robot is, or None for no mask.")
+        .def("reset", &SharedOdometry::reset, "Starts anew with the same configuration and mask.");
 }
 
 void addRawlogs(py::module_& m)

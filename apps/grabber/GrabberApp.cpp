@@ -158,6 +158,12 @@ void addOtherOptions(CLI::App& app, GrabberOptions& o, Words& words)
            "--live-config", o.liveOdometry.config, "With --live: configuration of the odometry")
         ->group("Live odometry");
     app.add_option(
+           "--live-mask",
+           o.liveOdometry.mask,
+           "With --live: image that is black where the camera sees the robot itself; that is left "
+           "out")
+        ->group("Live odometry");
+    app.add_option(
            "--live-output",
            o.liveOdometry.poseRawlog,
            "With --live: write a rawlog with its pose PDFs")
@@ -195,9 +201,10 @@ void understand(const Words& words, GrabberOptions& o)
     {
         throw InputError("nothing to do: give -o FILE.rawlog, --live, --preview or --list");
     }
-    if (!o.live && !(o.liveOdometry.config + o.liveOdometry.poseRawlog).empty())
+    const LiveOptions& live = o.liveOdometry;
+    if (!o.live && !(live.config + live.mask + live.poseRawlog).empty())
     {
-        throw InputError("--live-config and --live-output need --live");
+        throw InputError("--live-config, --live-mask and --live-output need --live");
     }
     const bool isRawlog = std::filesystem::path(o.output).extension() == ".rawlog";
     if (!o.output.empty() && !isRawlog && !o.recordsOni())

@@ -2,6 +2,7 @@
 #include "file_check.h"
 
 #include <pointplane/mrpt_io/errors.h>
+#include <pointplane/mrpt_io/image_file.h>
 #include <pointplane/mrpt_io/params_ini.h>
 #include <pointplane/mrpt_io/rawlog_names.h>
 
@@ -32,6 +33,7 @@ void keepFilesApart(const GrabberOptions& options)
     }
     guard.addInput(options.calibration);
     guard.addInput(options.liveOdometry.config);
+    guard.addInput(options.liveOdometry.mask);
     constexpr int kSegments = 1000;
     for (int i = 0; i < (splits(options) ? kSegments : 1); ++i)
     {
@@ -58,6 +60,10 @@ void checkFilesOf(const GrabberOptions& options)
     if (!options.liveOdometry.config.empty())
     {
         (void)loadOdometryParams(options.liveOdometry.config, {});
+    }
+    if (!options.liveOdometry.mask.empty())
+    {
+        (void)readMask(options.liveOdometry.mask);
     }
     if (options.output.empty())
     {

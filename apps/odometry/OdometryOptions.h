@@ -14,6 +14,7 @@ struct OdometryOptions
     std::vector<std::string> inputs;
     std::string config;
     std::vector<std::string> settings;  //!< Section.key=value
+    std::string mask;                   //!< image file; empty = none
     std::string sensorLabel;            //!< empty: that of the first RGB-D observation
 
     std::string output;

@@ -4,6 +4,7 @@
 #include <pointplane/core/BoundedQueue.h>
 #include <pointplane/mrpt_io/VisualOdometry.h>
 #include <pointplane/mrpt_io/errors.h>
+#include <pointplane/mrpt_io/image_file.h>
 
 #include <algorithm>
 #include <chrono>
@@ -66,6 +67,7 @@ using Sinks = std::vector<std::unique_ptr<Sink>>;
 {
     OutputGuard guard;
     guard.addInput(options.config);
+    guard.addInput(options.mask);
     for (const std::string& input : options.inputs)
     {
         guard.addInputRawlog(input);
@@ -92,6 +94,10 @@ class Run
               sinks_.begin(), sinks_.end(), [](const auto& s) { return s->needsFeatures(); })),
           odometry_(params)
     {
+        if (!options.mask.empty())
+        {
+            odometry_.setMask(readMask(options.mask));
+        }
         odometry_.setMinLoggingLevel(mrpt::system::LVL_ERROR);  // the summary says it
         if (!options.quiet)
         {

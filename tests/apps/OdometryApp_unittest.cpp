@@ -214,6 +214,32 @@ TEST_F(OdometryApp, theSummaryGroupsTheFramesThatWereNotTracked)
 }
 
 /** Depth whose units are wrong by a thousand, and a camera that hangs. */
+/** The uppermost sixth of the images is the robot. */
+TEST_F(OdometryApp, aMaskLeavesOutTheRobot)
+{
+    test::writeObservations(in_, 5);
+    const cv::Mat scan = sampleScan(0)->intensityImage.asCvMat<cv::Mat>(mrpt::img::DEEP_COPY);
+    cv::Mat mask(scan.size(), CV_8UC1, cv::Scalar(255));
+    mask.rowRange(0, mask.rows / 6).setTo(0);
+    cv::imwrite(dir_ / "mask.png", mask);
+    const auto poses = [&](const std::vector<std::string>& options)
+    {
+        std::vector<std::string> args{in_, "--trajectory", dir_ / "poses.txt"};
+        args.insert(args.end(), options.begin(), options.end());
+        const Outcome outcome = run(args);
+        EXPECT_EQ(outcome.code, kExitOk) << outcome.out << outcome.err;
+        return readBytes(dir_ / "poses.txt");
+    };
+    EXPECT_NE(poses({"--mask", dir_ / "mask.png"}), poses({}));
+    cv::imwrite(dir_ / "small.png", mask.colRange(0, 10));
+    const Outcome small = run({in_, "--mask", dir_ / "small.png"});
+    EXPECT_EQ(small.code, kExitIncomplete);
+    EXPECT_THAT(small.out, HasSubstr("the mask (10x"));
+    EXPECT_THAT(
+        run({in_, "--mask", dir_ / "mask.png", "--trajectory", dir_ / "mask.png"}).err,
+        HasSubstr("is an input"));
+}
+
 TEST_F(OdometryApp, aRunThatMeasuresNothingIsNotWell)
 {
     const auto unitsOf = [](float units)
@@ -444,6 +470,13 @@ TEST_F(OdometryApp, badInputIsNamedWithExitCode2)
     expect({in_, "-o", out_, "-c", dir_ / "typo.ini"}, "did you mean 'sigmaInverseDepth'?");
     expect({in_, "-o", out_, "-c", dir_ / "none.ini"}, "none.ini: No such file");
     expect({in_, "-o", out_, "--set", "DepthNoise.sigmaInverseDepth=-1"}, "sigmaInverseDepth");
+    expect({in_, "-o", out_, "--mask", dir_ / "none.png"}, "none.png: no such file");
+    cv::imwrite(dir_ / "white.png", cv::Mat(48, 64, CV_8UC1, cv::Scalar(255)));
+    expect(
+        {in_, "-o", out_, "--mask", dir_ / "white.png"}, "white.png: the mask is white everywhere");
+    cv::imwrite(dir_ / "black.png", cv::Mat(48, 64, CV_8UC1, cv::Scalar(0)));
+    expect(
+        {in_, "-o", out_, "--mask", dir_ / "black.png"}, "black.png: the mask is black everywhere");
     {
         RawlogWriter writer(dir_ / "comments.rawlog");
         writer.write(CObservationComment());

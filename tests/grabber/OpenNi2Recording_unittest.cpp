@@ -204,6 +204,9 @@ TEST_F(OpenNi2Recording, mistakesInFilesAreToldBeforeACameraIsThere)
     const std::vector<std::pair<Args, std::string>> mistakes{
         {{"-o", out_, "--calibration", dir_ / "none.ini"}, "none.ini: no such file"},
         {{"--live", "--live-config", dir_ / "typo.ini"}, "alpa"},
+        {{"--live", "--live-mask", dir_ / "none.png"}, "none.png: no such file"},
+        {{"-o", out_, "--live-mask", dir_ / "none.png"},
+         "--live-mask and --live-output need --live"},
         {{"-o", dir_ / "there.rawlog"}, "exists already; recordings never overwrite"},
         {{"-o", out_, "--preview", out_}, "would write over"}};
     const auto virtualCamera = camera("noDevice 1");

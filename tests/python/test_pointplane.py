@@ -101,6 +101,22 @@ class Odometry(unittest.TestCase):
         self.assertEqual(result.status, "lost")
         self.assertIn("10x10", result.reason)
 
+    def test_a_mask_leaves_out_a_part_of_the_images(self):
+        odometry = pointplane.VisualOdometry()
+        frames = list(pointplane.read_rawlog(RAWLOG))
+        mask = np.full(frames[0].gray.shape, 255, np.uint8)
+        mask[: mask.shape[0] // 2] = 0
+        poses = []
+        for given in (mask, None):
+            odometry.set_mask(given)
+            odometry.reset()
+            poses.append([odometry.process(frame).pose for frame in frames][-1])
+        self.assertGreater(np.abs(poses[0] - poses[1]).max(), 0)
+        odometry.set_mask(mask[:, :8])
+        self.assertIn("the mask", odometry.process(frames[0]).reason)
+        with self.assertRaises(TypeError):
+            odometry.set_mask(mask.astype(np.float32))
+
     def test_wrong_types_and_shapes_are_refused(self):
         frame = next(iter(pointplane.read_rawlog(RAWLOG)))
         odometry = pointplane.VisualOdometry()

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/grabber/LiveOdometry.h>
 #include <pointplane/mrpt_io/errors.h>
+#include <pointplane/mrpt_io/image_file.h>
 
 #include <mrpt/obs/CObservationRobotPose.h>
 
@@ -40,6 +41,10 @@ LiveOdometry::LiveOdometry(
     if (!options_.config.empty())
     {
         odometry_.loadFromConfigFileName(options_.config);
+    }
+    if (!options_.mask.empty())
+    {
+        odometry_.setMask(readMask(options_.mask));
     }
     odometry_.setMinLoggingLevel(mrpt::system::LVL_ERROR);  // the lines say what was not tracked
     if (!options_.poseRawlog.empty())

@@ -4,6 +4,8 @@
 
 #include <mrpt/core/format.h>
 
+#include <utility>
+
 namespace pointplane
 {
 VisualOdometry::VisualOdometry(const TParams& params)
@@ -13,7 +15,9 @@ VisualOdometry::VisualOdometry(const TParams& params)
 
 void VisualOdometry::loadFromConfigFileName(const std::string& path)
 {
-    odometry_ = Odometry(loadOdometryParams(path));
+    Odometry odometry(loadOdometryParams(path));
+    odometry.setMask(odometry_.mask());
+    odometry_ = std::move(odometry);
     trajectory_.reset();
 }
 

@@ -191,6 +191,21 @@ void writeBytes(const std::string& path, const Bytes& bytes)
 }
 }  // namespace
 
+cv::Mat readMask(const std::string& path)
+{
+    constexpr int kMiddle = 128;
+    cv::Mat mask = readImageFile(path, cv::IMREAD_GRAYSCALE) >= kMiddle;
+    const auto used = static_cast<std::size_t>(cv::countNonZero(mask));
+    if (used == 0 || used == mask.total())
+    {
+        throw InputError(
+            path + ": the mask is " + (used == 0 ? "black" : "white") +
+            " everywhere; it must be black where the camera sees the robot itself, and white "
+            "elsewhere");
+    }
+    return mask;
+}
+
 void writeImageFile(const std::string& path, const cv::Mat& image, const std::vector<int>& options)
 {
     Bytes bytes;

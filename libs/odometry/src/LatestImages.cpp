@@ -63,6 +63,10 @@ LatestImages::Novelty LatestImages::renew(RgbdFrame& frame)
     Novelty out;
     makeOwn(readings_);
     keepReadings(frame.depth, minDepth_, maxDepth_, readings_);
+    if (!mask_.empty())
+    {
+        readings_.setTo(std::numeric_limits<float>::quiet_NaN(), mask_ == 0);
+    }
     out.depth = !isSame(depth_, readings_);
     if (out.depth)
     {

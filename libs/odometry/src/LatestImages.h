@@ -13,18 +13,24 @@ class LatestImages
     /** \param minDepth, maxDepth readings outside of these [m] are none */
     LatestImages(double minDepth, double maxDepth);
 
+    /** Depth where the mask is 0 is no reading. \param mask CV_8UC1; empty: none */
+    void setMask(const cv::Mat& mask) { mask.copyTo(mask_); }
+    [[nodiscard]] const cv::Mat& mask() const { return mask_; }
+
     /** Which images of a frame differ, be it by a byte, from those of the frame before. */
     struct Novelty
     {
         bool depth{true}, gray{true};
     };
 
-    /** Puts copies in the place of the frame's images. Depth that is no reading becomes NaN. */
+    /** Puts copies in the place of the frame's images. Depth that is no reading becomes NaN.
+     * \param frame of the mask's size, if there is one */
     [[nodiscard]] Novelty renew(RgbdFrame& frame);
 
  private:
     float minDepth_, maxDepth_;
     cv::Mat depth_, gray_;
+    cv::Mat mask_;
     cv::Mat readings_;  //!< memory of the next depth image
 };
 }  // namespace pointplane

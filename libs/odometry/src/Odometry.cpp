@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/check.h>
 #include <pointplane/odometry/Odometry.h>
 
 #include <limits>
@@ -120,6 +121,10 @@ std::string leaveOutRepeated(const LatestImages::Novelty& isNew, RgbdFrame& fram
 void Odometry::Impl::place(const RgbdFrame& frame, OdometryResult& result)
 {
     if (const std::string problem = problemOf(frame); !problem.empty())
+    {
+        return lose(frame.stamp, problem, result);
+    }
+    if (const std::string problem = problemOf(images.mask(), frame); !problem.empty())
     {
         return lose(frame.stamp, problem, result);
     }
@@ -251,7 +256,8 @@ void Odometry::Impl::measure(const Features& current, Alignment& alignment, Odom
     // Without depth, it shows nothing that others could be compared with.
     const bool isKeyframe =
         current.hasDepth &&
-        (track.needsKeyframe(motion.mean.T_prev_cur, track.overlap(alignment.associations, current)) ||
+        (track.needsKeyframe(
+             motion.mean.T_prev_cur, track.overlap(alignment.associations, current)) ||
          Judge::needsNewView(alignment, shown.moving.share()));
     Reference reference = referenceOf(current);
     reference.surfaces = analysis.surfaces;
@@ -332,5 +338,18 @@ Odometry& Odometry::operator=(Odometry&&) noexcept = default;
 OdometryResult Odometry::process(const RgbdFrame& frame) { return impl_->process(frame); }
 const FrameFeatures& Odometry::features() const { return impl_->shown; }
 const OdometryParams& Odometry::params() const { return impl_->params; }
-void Odometry::reset() { impl_ = std::make_unique<Impl>(OdometryParams(impl_->params)); }
+const cv::Mat& Odometry::mask() const { return impl_->images.mask(); }
+
+void Odometry::setMask(const cv::Mat& mask)
+{
+    POINTPLANE_CHECK(mask.empty() || mask.type() == CV_8UC1, "a mask has one byte for a pixel");
+    impl_->images.setMask(mask);
+}
+
+void Odometry::reset()
+{
+    const cv::Mat mask = impl_->images.mask();
+    impl_ = std::make_unique<Impl>(OdometryParams(impl_->params));
+    impl_->images.setMask(mask);
+}
 }  // namespace pointplane

@@ -26,6 +26,18 @@ bool isPlausible(const ShutterModel& shutter)
 }
 }  // namespace
 
+std::string problemOf(const cv::Mat& mask, const RgbdFrame& frame)
+{
+    if (mask.empty() || mask.size() == frame.depth.size())
+    {
+        return "";
+    }
+    std::ostringstream out;
+    out << "the mask (" << mask.cols << "x" << mask.rows << ") is not of the images' size ("
+        << frame.depth.cols << "x" << frame.depth.rows << ")";
+    return out.str();
+}
+
 std::string problemOf(const RgbdFrame& frame)
 {
     if (std::string problem = frame.camera.problem(); !problem.empty())

@@ -12,4 +12,7 @@ namespace pointplane
 
 /** Why a frame cannot be used, or empty. */
 [[nodiscard]] std::string problemOf(const RgbdFrame& frame);
+
+/** Why a mask does not fit a frame, or empty. \param mask empty: none */
+[[nodiscard]] std::string problemOf(const cv::Mat& mask, const RgbdFrame& frame);
 }  // namespace pointplane

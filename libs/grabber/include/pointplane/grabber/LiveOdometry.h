@@ -19,6 +19,7 @@ namespace pointplane
 struct LiveOptions
 {
     std::string config;      //!< ini file; empty = built-in parameters
+    std::string mask;        //!< image file; empty = none
     std::string poseRawlog;  //!< empty = none
     bool waits{false};       //!< the source can wait: every frame is processed
 };

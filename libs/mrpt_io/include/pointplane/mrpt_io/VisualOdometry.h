@@ -46,6 +46,9 @@ class VisualOdometry : public mrpt::system::COutputLogger
     [[nodiscard]] const FrameFeatures& features() const { return odometry_.features(); }
     [[nodiscard]] const TParams& params() const { return odometry_.params(); }
 
+    /** Odometry::setMask(). Stays when parameters are loaded. */
+    void setMask(const cv::Mat& mask) { odometry_.setMask(mask); }
+
     /** For external images and shutter comments. */
     [[nodiscard]] ObservationConverter& converter() { return converter_; }
 

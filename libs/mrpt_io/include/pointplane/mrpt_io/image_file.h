@@ -13,6 +13,11 @@ namespace pointplane
  * \throws InputError naming the file, or the folder that is missing */
 [[nodiscard]] cv::Mat readImageFile(const std::string& path, int flags);
 
+/** Reads a mask for Odometry::setMask(): what is darker than middle grey is left out.
+ * \return CV_8UC1, 0 or 255 \throws InputError naming the file, also if it would leave out
+ * everything or nothing */
+[[nodiscard]] cv::Mat readMask(const std::string& path);
+
 /** Writes the whole file (OutputFile), or leaves an earlier one as it was. \param options of
  * cv::imwrite \throws EnvironmentError naming the file */
 void writeImageFile(

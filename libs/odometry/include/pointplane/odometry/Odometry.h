@@ -32,7 +32,14 @@ class Odometry
 
     [[nodiscard]] const OdometryParams& params() const;
 
-    /** Forgets everything but the parameters. */
+    /** From the next frame on, leaves out what the camera sees of the robot that carries it: it
+     * moves along and would tell that nothing moves.
+     * \param mask CV_8UC1 of the images' size, 0 where the robot is; empty: nothing is left out. A
+     * frame of another size is Lost. \throws std::invalid_argument if it is of another type */
+    void setMask(const cv::Mat& mask);
+    [[nodiscard]] const cv::Mat& mask() const;
+
+    /** Forgets everything but the parameters and the mask. */
     void reset();
 
  private:

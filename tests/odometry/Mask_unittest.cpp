@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/** A camera that sees a part of the robot that carries it. */
+#include <pointplane/odometry/Odometry.h>
+#include <pointplane/simulation/SimulatedSequence.h>
+
+#include <opencv2/imgproc.hpp>
+
+#include <cmath>
+#include <iostream>
+#include <stdexcept>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace pointplane
+{
+namespace
+{
+constexpr int kWidth = 320, kHeight = 240;
+
+const SimulatedSequence& desk()
+{
+    static const SimulatedSequence sequence = []
+    {
+        SimulationParams params;
+        params.width = kWidth;
+        params.height = kHeight;
+        params.duration = 1.5;
+        return SimulatedSequence("desk", params, 1);
+    }();
+    return sequence;
+}
+
+/** 0 in the lowest third, where the robot is. */
+cv::Mat robotMask()
+{
+    cv::Mat out(kHeight, kWidth, CV_8UC1, cv::Scalar(255));
+    out.rowRange(2 * kHeight / 3, kHeight).setTo(0);
+    return out;
+}
+
+/** The frame with a flat, patterned robot 0.4 m in front of the camera. */
+RgbdFrame withRobot(RgbdFrame frame)
+{
+    cv::Mat pattern(kHeight, kWidth, CV_8UC1);
+    cv::RNG random(3);
+    random.fill(pattern, cv::RNG::UNIFORM, 20, 230);
+    cv::GaussianBlur(pattern, pattern, {}, 2);
+    cv::normalize(pattern, pattern, 20, 230, cv::NORM_MINMAX);
+    const cv::Mat robot = robotMask() == 0;
+    pattern.copyTo(frame.gray, robot);
+    frame.depth.setTo(0.4, robot);
+    return frame;
+}
+
+/** All frames, with the robot. */
+const std::vector<RgbdFrame>& recording()
+{
+    static const std::vector<RgbdFrame> frames = []
+    {
+        std::vector<RgbdFrame> out;
+        for (int i = 0; i < desk().numFrames(); ++i)
+        {
+            out.push_back(withRobot(desk().frame(i)));
+        }
+        return out;
+    }();
+    return frames;
+}
+
+/** \return how far the path's end is off [m] */
+double errorOf(Odometry& odometry)
+{
+    OdometryResult last;
+    for (const RgbdFrame& frame : recording())
+    {
+        last = odometry.process(frame);
+        if (last.status != TrackingStatus::First && !odometry.mask().empty())
+        {
+            EXPECT_EQ(last.status, TrackingStatus::Tracked) << last.reason;
+        }
+    }
+    const Eigen::Isometry3d truth = desk().trueMotion(0, desk().numFrames() - 1);
+    return (last.pose.mean.translation() - truth.translation()).norm();
+}
+}  // namespace
+
+TEST(Mask, leavesOutTheRobot)
+{
+    Odometry odometry{OdometryParams()};
+    odometry.setMask(robotMask());
+    const double masked = errorOf(odometry);
+    for (const FrameFeatures::Point& point : odometry.features().points)
+    {
+        EXPECT_LT(point.uv_px.y(), 2 * kHeight / 3);
+    }
+    odometry.reset();
+    EXPECT_EQ(errorOf(odometry), masked);  // reset() keeps the mask
+
+    odometry.reset();
+    odometry.setMask({});
+    const double unmasked = errorOf(odometry);
+    std::cout << 1e3 * masked << " mm, without the mask " << 1e3 * unmasked << " mm\n";
+    EXPECT_LT(masked, 0.005);
+    EXPECT_GT(unmasked, 5 * masked);
+}
+
+TEST(Mask, doesNotChangeTheCallersImages)
+{
+    Odometry odometry{OdometryParams()};
+    const cv::Mat mask = robotMask();
+    odometry.setMask(mask);
+    const RgbdFrame frame = recording()[0];
+    (void)odometry.process(frame);
+    EXPECT_EQ(frame.depth.at<float>(kHeight - 1, 0), 0.4F);
+    EXPECT_NE(odometry.mask().data, mask.data);  // a copy
+}
+
+TEST(Mask, aFrozenImageIsStillToldFromANewOne)
+{
+    Odometry odometry{OdometryParams()};
+    odometry.setMask(robotMask());
+    RgbdFrame frame = recording()[0];
+    (void)odometry.process(frame);
+    frame.stamp += 1.0 / 30;
+    EXPECT_THAT(odometry.process(frame).reason, testing::HasSubstr("byte for byte"));
+}
+
+TEST(Mask, framesOfAnotherSizeAreLost)
+{
+    Odometry odometry{OdometryParams()};
+    odometry.setMask(cv::Mat(120, 160, CV_8UC1, cv::Scalar(255)));
+    const OdometryResult result = odometry.process(recording()[0]);
+    EXPECT_EQ(result.status, TrackingStatus::Lost);
+    EXPECT_EQ(result.reason, "the mask (160x120) is not of the images' size (320x240)");
+    odometry.setMask({});
+    EXPECT_EQ(odometry.process(recording()[1]).status, TrackingStatus::First);
+}
+
+TEST(Mask, otherTypesAreRefused)
+{
+    Odometry odometry{OdometryParams()};
+    EXPECT_THROW(odometry.setMask(cv::Mat(kHeight, kWidth, CV_8UC3)), std::invalid_argument);
+}
+}  // namespace pointplane
