@@ -78,7 +78,7 @@ cv::Mat depthOf(const py::array& depth, double unit)
 }
 
 /** Gray as it is; RGB is converted. */
-cv::Mat grayOf(const py::object& colour)
+cv::Mat grayOf(const py::object& colour, const char* name)
 {
     if (colour.is_none())
     {
@@ -87,14 +87,14 @@ cv::Mat grayOf(const py::object& colour)
     const auto array = py::cast<py::array>(colour);
     if (!array.dtype().is(py::dtype::of<std::uint8_t>()))
     {
-        throw py::type_error("colour: expected uint8, gray or RGB");
+        throw py::type_error(std::string(name) + ": expected uint8, gray or RGB");
     }
     if (array.ndim() == 2)
     {
-        return matOf(array, CV_8UC1, "colour");
+        return matOf(array, CV_8UC1, name);
     }
     cv::Mat gray;
-    cv::cvtColor(matOf(array, CV_8UC3, "colour"), gray, cv::COLOR_RGB2GRAY);
+    cv::cvtColor(matOf(array, CV_8UC3, name), gray, cv::COLOR_RGB2GRAY);
     return gray;
 }
 
@@ -349,7 +349,7 @@ void addOdometry(py::module_& m)
                 converted.frame.stamp = stamp;
                 converted.frame.camera = camera;
                 converted.frame.depth = depthOf(depth, unit);
-                converted.frame.gray = grayOf(colour);
+                converted.frame.gray = grayOf(colour, "colour");
                 return odometry.process(converted);
             },
             py::arg("depth"),
@@ -370,7 +370,7 @@ void addOdometry(py::module_& m)
         .def(
             "set_mask",
             [](SharedOdometry& odometry, const py::object& mask)
-            { odometry.setMask(grayOf(mask)); },
+            { odometry.setMask(grayOf(mask, "mask")); },
             py::arg("mask"),
             "Leaves out what the camera sees of the robot that carries it. mask: (height, width), "
             "uint8, 0 where the robot is, or None for no mask.")

@@ -213,7 +213,6 @@ TEST_F(OdometryApp, theSummaryGroupsTheFramesThatWereNotTracked)
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
 }
 
-/** Depth whose units are wrong by a thousand, and a camera that hangs. */
 /** The uppermost sixth of the images is the robot. */
 TEST_F(OdometryApp, aMaskLeavesOutTheRobot)
 {
@@ -240,6 +239,7 @@ TEST_F(OdometryApp, aMaskLeavesOutTheRobot)
         HasSubstr("is an input"));
 }
 
+/** Depth whose units are wrong by a thousand, and a camera that hangs. */
 TEST_F(OdometryApp, aRunThatMeasuresNothingIsNotWell)
 {
     const auto unitsOf = [](float units)

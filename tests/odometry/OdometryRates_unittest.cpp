@@ -89,7 +89,7 @@ TEST(OdometryRates, colourAtHalfTheRateOfDepth)
     const Eigen::Vector3d truth = sequence.trueMotion(0, end).translation();
     const double error = (last.pose.mean.translation() - truth).norm();
     std::cout << 1e3 * error << " mm of " << 1e3 * truth.norm() << "\n";
-    EXPECT_LT(error, 0.01);
+    EXPECT_LT(error, 0.005);
     EXPECT_LT(keyframesWithoutPoints, 6);  // of 30
 }
 

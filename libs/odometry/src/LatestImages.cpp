@@ -58,14 +58,21 @@ LatestImages::LatestImages(double minDepth, double maxDepth)
 {
 }
 
+void LatestImages::setMask(const cv::Mat& mask)
+{
+    leftOut_ = mask.empty() ? cv::Mat() : cv::Mat(mask == 0);
+}
+
+cv::Mat LatestImages::mask() const { return leftOut_.empty() ? cv::Mat() : cv::Mat(leftOut_ == 0); }
+
 LatestImages::Novelty LatestImages::renew(RgbdFrame& frame)
 {
     Novelty out;
     makeOwn(readings_);
     keepReadings(frame.depth, minDepth_, maxDepth_, readings_);
-    if (!mask_.empty())
+    if (!leftOut_.empty())
     {
-        readings_.setTo(std::numeric_limits<float>::quiet_NaN(), mask_ == 0);
+        readings_.setTo(std::numeric_limits<float>::quiet_NaN(), leftOut_);
     }
     out.depth = !isSame(depth_, readings_);
     if (out.depth)

@@ -14,8 +14,9 @@ class LatestImages
     LatestImages(double minDepth, double maxDepth);
 
     /** Depth where the mask is 0 is no reading. \param mask CV_8UC1; empty: none */
-    void setMask(const cv::Mat& mask) { mask.copyTo(mask_); }
-    [[nodiscard]] const cv::Mat& mask() const { return mask_; }
+    void setMask(const cv::Mat& mask);
+    [[nodiscard]] cv::Mat mask() const;
+    [[nodiscard]] cv::Size maskSize() const { return leftOut_.size(); }
 
     /** Which images of a frame differ, be it by a byte, from those of the frame before. */
     struct Novelty
@@ -30,7 +31,7 @@ class LatestImages
  private:
     float minDepth_, maxDepth_;
     cv::Mat depth_, gray_;
-    cv::Mat mask_;
+    cv::Mat leftOut_;   //!< not 0 where the mask is 0
     cv::Mat readings_;  //!< memory of the next depth image
 };
 }  // namespace pointplane

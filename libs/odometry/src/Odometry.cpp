@@ -124,7 +124,7 @@ void Odometry::Impl::place(const RgbdFrame& frame, OdometryResult& result)
     {
         return lose(frame.stamp, problem, result);
     }
-    if (const std::string problem = problemOf(images.mask(), frame); !problem.empty())
+    if (const std::string problem = problemOf(images.maskSize(), frame); !problem.empty())
     {
         return lose(frame.stamp, problem, result);
     }
@@ -338,7 +338,7 @@ Odometry& Odometry::operator=(Odometry&&) noexcept = default;
 OdometryResult Odometry::process(const RgbdFrame& frame) { return impl_->process(frame); }
 const FrameFeatures& Odometry::features() const { return impl_->shown; }
 const OdometryParams& Odometry::params() const { return impl_->params; }
-const cv::Mat& Odometry::mask() const { return impl_->images.mask(); }
+cv::Mat Odometry::mask() const { return impl_->images.mask(); }
 
 void Odometry::setMask(const cv::Mat& mask)
 {

@@ -26,15 +26,15 @@ bool isPlausible(const ShutterModel& shutter)
 }
 }  // namespace
 
-std::string problemOf(const cv::Mat& mask, const RgbdFrame& frame)
+std::string problemOf(const cv::Size& maskSize, const RgbdFrame& frame)
 {
-    if (mask.empty() || mask.size() == frame.depth.size())
+    if (maskSize.empty() || maskSize == frame.depth.size())
     {
         return "";
     }
     std::ostringstream out;
-    out << "the mask (" << mask.cols << "x" << mask.rows << ") is not of the images' size ("
-        << frame.depth.cols << "x" << frame.depth.rows << ")";
+    out << "the mask (" << maskSize.width << "x" << maskSize.height
+        << ") is not of the images' size (" << frame.depth.cols << "x" << frame.depth.rows << ")";
     return out.str();
 }
 

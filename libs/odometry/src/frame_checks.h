@@ -13,6 +13,6 @@ namespace pointplane
 /** Why a frame cannot be used, or empty. */
 [[nodiscard]] std::string problemOf(const RgbdFrame& frame);
 
-/** Why a mask does not fit a frame, or empty. \param mask empty: none */
-[[nodiscard]] std::string problemOf(const cv::Mat& mask, const RgbdFrame& frame);
+/** Why a mask does not fit a frame, or empty. \param maskSize empty: there is none */
+[[nodiscard]] std::string problemOf(const cv::Size& maskSize, const RgbdFrame& frame);
 }  // namespace pointplane

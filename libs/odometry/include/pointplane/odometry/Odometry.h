@@ -37,7 +37,7 @@ class Odometry
      * \param mask CV_8UC1 of the images' size, 0 where the robot is; empty: nothing is left out. A
      * frame of another size is Lost. \throws std::invalid_argument if it is of another type */
     void setMask(const cv::Mat& mask);
-    [[nodiscard]] const cv::Mat& mask() const;
+    [[nodiscard]] cv::Mat mask() const;  //!< 0 or 255
 
     /** Forgets everything but the parameters and the mask. */
     void reset();
