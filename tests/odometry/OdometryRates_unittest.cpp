@@ -88,9 +88,10 @@ TEST(OdometryRates, colourAtHalfTheRateOfDepth)
     const int end = sequence.numFrames() - 1;
     const Eigen::Vector3d truth = sequence.trueMotion(0, end).translation();
     const double error = (last.pose.mean.translation() - truth).norm();
-    std::cout << 1e3 * error << " mm of " << 1e3 * truth.norm() << "\n";
-    EXPECT_LT(error, 0.005);
-    EXPECT_LT(keyframesWithoutPoints, 6);  // of 30
+    std::cout << 1e3 * error << " mm of " << 1e3 * truth.norm()
+              << ", key frames without points: " << keyframesWithoutPoints << "\n";
+    EXPECT_LT(error, 0.001);
+    EXPECT_LE(keyframesWithoutPoints, 3);  // as far apart as key frames are
 }
 
 /** The camera turns back suddenly: of where points are searched for, most are at the edge or
