@@ -23,6 +23,10 @@ std::string behindText(const std::optional<BootstrapInterval>& behind, bool best
     {
         return "no common pairs";
     }
+    if (!behind->isKnown())
+    {
+        return format("%+.3f too short", behind->value * unit);
+    }
     return format(
         "%+.3f [%+.3f, %+.3f]%s",
         behind->value * unit,
@@ -43,7 +47,7 @@ nlohmann::ordered_json nameOfBest(const Comparison& c, std::size_t best)
 }
 
 /** What a reader must know of runs that have different frames; empty otherwise. */
-std::string noteOf(const Comparison& c)
+std::string noteOnFrames(const Comparison& c)
 {
     const std::string ofAte =
         c.bestAte ? "" : "; ATE is each run's own, so none is marked as the best in ATE";
@@ -61,12 +65,49 @@ std::string noteOf(const Comparison& c)
                  "cannot be compared";
 }
 
+/** Why differences have no interval; empty if they have one. */
+std::string noteOnLength(const Comparison& c)
+{
+    for (const ComparedRun& run : c.runs)
+    {
+        for (const auto& behind : {run.translationBehindBest, run.rotationBehindBest})
+        {
+            if (behind && !behind->isKnown())
+            {
+                return format(
+                    "too short for an interval: %zu pair(s) without overlap, at least %zu are "
+                    "needed (--delta sets their length)",
+                    behind->independent,
+                    BootstrapInterval::kLeastIndependent);
+            }
+        }
+    }
+    return "";
+}
+
+std::string noteOf(const Comparison& c)
+{
+    const std::string frames = noteOnFrames(c);
+    const std::string length = noteOnLength(c);
+    return frames + (frames.empty() || length.empty() ? "" : "; ") + length;
+}
+
+/** Ends are null if there is no interval. */
 nlohmann::ordered_json intervalJson(const BootstrapInterval& interval, double unit)
 {
     return {
         {"value", interval.value * unit},
         {"lower95", interval.lower * unit},
-        {"upper95", interval.upper * unit}};
+        {"upper95", interval.upper * unit},
+        {"independent", interval.independent}};
+}
+
+/** A value with the ends of its interval, which are empty if there is none. */
+std::string intervalFields(const BootstrapInterval& interval, double unit)
+{
+    return format(",%.9g", interval.value * unit) +
+           (interval.isKnown() ? format(",%.9g,%.9g", interval.lower * unit, interval.upper * unit)
+                               : ",,");
 }
 }  // namespace
 
@@ -155,17 +196,10 @@ std::string toCsv(const Comparison& c)
         "rpe_deg_upper95,ate_m\n";
     for (const ComparedRun& r : c.runs)
     {
-        out += csvField(r.name) + format(
-                                      ",%zu,%.6g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n",
-                                      r.rpe.translation.count,
-                                      r.rpe.coverage.share,
-                                      r.translation.value,
-                                      r.translation.lower,
-                                      r.translation.upper,
-                                      r.rotation.value * kDegreesPerRadian,
-                                      r.rotation.lower * kDegreesPerRadian,
-                                      r.rotation.upper * kDegreesPerRadian,
-                                      r.ate.translation.rmse);
+        out += csvField(r.name) +
+               format(",%zu,%.6g", r.rpe.translation.count, r.rpe.coverage.share) +
+               intervalFields(r.translation, 1) + intervalFields(r.rotation, kDegreesPerRadian) +
+               format(",%.9g\n", r.ate.translation.rmse);
     }
     return out;
 }

@@ -121,6 +121,22 @@ TEST_F(EvalApp, compareMarksTheBest)
     EXPECT_EQ(run({"compare", truth}).code, 2);
 }
 
+TEST_F(EvalApp, compareTellsWhatIsTooShortForAnInterval)
+{
+    const std::string worse = writeFile(files, "worse.txt", straightLine(1.1));
+    std::vector<std::string> args{"compare", truth, worse, estimate, "--delta", "2"};
+    args.insert(args.end(), {"--json", files / "out.json", "--csv", files / "out.csv"});
+    const test::AppRun r = run(args);
+    EXPECT_EQ(r.code, 0) << r.err;
+    EXPECT_THAT(r.out, HasSubstr("200.000  +100.000 too short "));
+    EXPECT_THAT(r.out, HasSubstr("too short for an interval: 1 pair(s) without overlap, at least"));
+    const auto behind = nlohmann::json::parse(
+        test::readBytes(files / "out.json"))["runs"][0]["translationBehindBest"];
+    EXPECT_TRUE(behind["lower95"].is_null());
+    EXPECT_EQ(behind["independent"], 1);
+    EXPECT_THAT(test::readBytes(files / "out.csv"), testing::ContainsRegex(",0.2,,,0(.0)?,,,"));
+}
+
 TEST_F(EvalApp, runsThatCannotBeComparedHaveNoBest)
 {
     const std::string shifted = writeFile(files, "shifted.txt", straightLine(1.1, 0.001));

@@ -21,7 +21,7 @@ struct ComparedRun
     BootstrapInterval translation;
     BootstrapInterval rotation;  //!< RPE RMSE [rad], likewise
     /** RPE RMSE minus that of the best run, over the pairs both have; none for the best itself and
-     * for runs with fewer than two pairs in common. */
+     * for runs with fewer than two pairs in common. Without an interval, if these are too short. */
     std::optional<BootstrapInterval> translationBehindBest, rotationBehindBest;
     std::size_t pairsInCommon{0};  //!< with the run that is best in translation
 };
