@@ -31,7 +31,7 @@ void CoverageLimit::check(
     const double scored = 100 * coverage.share + kRounding;
     const bool isGiven = percent >= 0;
     const double limit = isGiven ? percent : judged && coverage.ofRecording ? kLeastPercent : 0;
-    if (scored < limit)
+    if (!(scored >= limit))
     {
         context.err << context.program << ": " << estimate
                     << format(": coverage %.1f %% is below %g %%", scored, limit)

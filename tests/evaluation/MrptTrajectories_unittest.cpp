@@ -382,6 +382,43 @@ TEST(MrptTrajectories, numbersThatAreTooLongAreInScientificForm)
         html.substr(html.find("<table")), testing::Not(testing::ContainsRegex(digits + "[.]")));
 }
 
+/** NaN is neither above a limit nor below one. */
+TEST(MrptTrajectories, aNeesThatIsNotFinitePassesNoGate)
+{
+    test::TempDir dir;
+    {
+        RawlogWriter writer(dir / "sure.rawlog");
+        for (std::size_t k = 0; k < estimate().size(); ++k)
+        {
+            auto observation = observationOf(k, "RGBD_pose");
+            observation.pose.cov *= 1e-305;
+            writer.write(observation);
+        }
+        writer.close();
+    }
+    const std::string truthFile = writeTruth(dir);
+    std::vector<std::string> args{"nees", truthFile, dir / "sure.rawlog", "--interval", "1f"};
+    args.insert(args.end(), {"--report", dir / "r"});
+    EXPECT_EQ(run(args).code, 0);
+    EXPECT_THAT(run(args).out, HasSubstr("verdict: cannot be judged: NEES is not finite"));
+    EXPECT_THAT(test::readBytes(dir / "r/index.html"), HasSubstr("<td>cannot be judged</td>"));
+    for (const auto& [option, limit] : {std::pair("--max-nees", "2"), {"--min-nees", "0.5"}})
+    {
+        args.resize(5);
+        args.insert(args.end(), {option, limit});
+        EXPECT_EQ(run(args).code, 1) << option;
+        EXPECT_THAT(run(args).err, HasSubstr("is outside the stated range"));
+    }
+    writeFormat2(dir / "a.rawlog", {"VO"});
+    for (const auto& [option, sigma] :
+         {std::pair("--gt-sigma-trans", "1e154"), {"--gt-sigma-rot-deg", "1e154"}})
+    {
+        const test::AppRun r = run({"nees", truthFile, dir / "a.rawlog", option, sigma});
+        EXPECT_EQ(r.code, 2) << option;
+        EXPECT_THAT(r.err, testing::AllOf(HasSubstr(option), HasSubstr("1e154"))) << option;
+    }
+}
+
 TEST(MrptTrajectories, interpolatorTextAsMrptWritesIt)
 {
     test::TempDir dir;
