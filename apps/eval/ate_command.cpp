@@ -114,6 +114,7 @@ void AteCommand::run(CommandContext& context) const
     ReportedRun run;
     run.groundTruth = input.loadTruth(groundTruth, context);
     run.estimate = input.loadEstimate(estimate, context);
+    const ReportInputs inputs = report.read(run.estimate);
     run.rpe.offset = run.nees.offset = options.offset;
     run.rpe.scale = options.scale;
     run.rpe.fixedDelta = true;
@@ -143,10 +144,7 @@ void AteCommand::run(CommandContext& context) const
         printScriptLines(result.translation, context.out);
     }
     writeResult(scored, files, context.out, !verbose);
-    if (!report.directory.empty())
-    {
-        writeTrajectoryReport(run, report, context);
-    }
+    writeTrajectoryReport(run, report, inputs, context);
     checkThreshold("RMSE", scored.rows[0], maxRmse, context);
     coverage.check(estimate, result.coverage, maxRmse >= 0, context);
 }

@@ -268,6 +268,7 @@ void NeesCommand::run(CommandContext& context) const
     {
         const Trajectory truth = input.loadTruth(files[k], context);
         const Trajectory estimate = input.loadEstimate(files[k + 1], context);
+        const ReportInputs inputs = html.read(estimate);
         const NeesRun run = neesRun(truth, estimate, lengths, report.options);
         poolRun(pools, run);
         untold = run.untold.empty() ? untold : run.note;
@@ -284,7 +285,7 @@ void NeesCommand::run(CommandContext& context) const
             ReportedRun reported{truth, estimate, {}, {}, report.options, lengths, hint};
             reported.rpe.fixedDelta = true;
             reported.rpe.offset = reported.ate.offset = report.options.offset;
-            writeTrajectoryReport(reported, html, context);
+            writeTrajectoryReport(reported, html, inputs, context);
         }
     }
     for (const Pool& pool : pools)

@@ -75,9 +75,25 @@ TEST(FrameTable, readsNumbersStatusAndQuotes)
     EXPECT_EQ(splitCsvLine("a,\"b \"\"c\"\", d\",")[1], "b \"c\", d");
     EXPECT_EQ(splitCsvLine("a,\"b\",").size(), 3u);
 
-    const std::vector<Chart> charts = frameCharts(table);
+    const std::vector<Chart> charts = frameCharts(table, 8);
     ASSERT_EQ(charts.size(), 2u);  // no times in this table
     EXPECT_EQ(charts[1].series[0].y, (std::vector<double>{2, 0}));
+    EXPECT_EQ(charts[1].series[0].x, (std::vector<double>{2.5, 3.5}));
+}
+
+/** Of two frames lost for a late stamp, one has that of a pose. */
+TEST(FrameTable, rowsAreFoundByStampsAndOnlyTheirOwn)
+{
+    test::TempDir dir;
+    const FrameTable table = FrameTable::read(writeFile(
+        dir,
+        "f.csv",
+        "frame,stamp,status\n7,10.0,first\n8,10.1,tracked\n9,9.9,lost\n10,10.0,lost\n"
+        "11,10.2,tracked\n12,10.3,tracked\n13,10.4,lost\n"));
+    using Rows = std::vector<std::pair<std::size_t, std::size_t>>;
+    EXPECT_EQ(rowsOf({10, 10.2000004, 10.34}, table), (Rows{{0, 0}, {1, 4}, {2, 5}}));
+    EXPECT_EQ(rowsOf({9, 9.84, 9.9, 10.4, 1e9}, table), Rows{});
+    EXPECT_EQ(rowsOf({1}, FrameTable()), Rows{});
 }
 
 TEST(FrameTable, namesFileAndLineOfMalformedInput)
@@ -95,7 +111,9 @@ TEST(FrameTable, namesFileAndLineOfMalformedInput)
         }
         return "no exception";
     };
-    EXPECT_THAT(messageOf(dir / "none.csv"), HasSubstr("none.csv"));
+    EXPECT_THAT(messageOf(dir / "none.csv"), HasSubstr("none.csv: No such file or directory"));
+    EXPECT_THAT(messageOf(dir / ""), HasSubstr(": is a directory"));
+    EXPECT_THAT(messageOf(writeFile(dir, "e.csv", "")), HasSubstr("e.csv: is empty, not a table"));
     EXPECT_THAT(messageOf(writeFile(dir, "a.csv", "x,y\n")), HasSubstr("a.csv:1: no column"));
     EXPECT_THAT(messageOf(writeFile(dir, "b.csv", "stamp,y\n1,2\n3\n")), HasSubstr("b.csv:3: 1 f"));
     EXPECT_THAT(messageOf(writeFile(dir, "c.csv", "stamp,y\nq,2\n")), HasSubstr("c.csv:2: the st"));

@@ -612,6 +612,36 @@ TEST(MrptTrajectories, marksOfLostFramesInARawlogAreReadAndSaid)
     }
 }
 
+/** They are black: what was to be seen is in the frames around them. */
+TEST(MrptTrajectories, noPictureOfALostFrameIsInAReport)
+{
+    test::TempDir dir;
+    writeOdometry(dir / "a.rawlog", true, Eigen::Isometry3d::Identity());
+    std::string table = "frame,stamp\n";
+    for (int k = 0; k < 40; ++k)
+    {
+        table += std::to_string(k) + "," + std::to_string(100 + 0.1 * k) + "\n";
+        if (k >= 15 && k <= 20)  // the last of them is not lost
+        {
+            writeFile(dir, "0000" + std::to_string(k) + ".jpg", "JPEG");
+        }
+    }
+    const test::AppRun r = run(
+        {"rpe",
+         writeTruth(dir),
+         dir / "a.rawlog",
+         "--report",
+         dir / "r",
+         "--diagnostics",
+         writeFile(dir, "frames.csv", table),
+         "--overlays",
+         dir / ""});
+    EXPECT_EQ(r.code, 0) << r.err;
+    const std::string html = test::readBytes(dir / "r/index.html");
+    EXPECT_THAT(html, HasSubstr("Frame 20 at 2.00 s: motion off by "));
+    EXPECT_THAT(html, testing::Not(HasSubstr("Frame 1")));
+}
+
 /** A regular expression would take the stack. */
 TEST(MrptTrajectories, labelsAndCommentsOfAnyLengthAndInLinesAreRead)
 {

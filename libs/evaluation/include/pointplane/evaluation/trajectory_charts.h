@@ -76,8 +76,9 @@ struct DrawnPath
     const std::vector<NeesIncrement>& increments,
     const NeesInterval& interval);
 
-/** Features, tracking status and times per stage; only those the table has columns for. */
-[[nodiscard]] std::vector<Chart> frameCharts(const FrameTable& table);
+/** Features, tracking status and times per stage; only those the table has columns for. The table
+ * may begin before the estimate, or be of a part. \param start stamp of the first pose [s] */
+[[nodiscard]] std::vector<Chart> frameCharts(const FrameTable& table, double start);
 
 /** @} */
 
