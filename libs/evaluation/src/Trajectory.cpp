@@ -218,6 +218,21 @@ void checkPositions(const Trajectory& trajectory, double scale)
     }
 }
 
+std::vector<bool> holesBefore(const Trajectory& trajectory)
+{
+    const std::vector<double>& stamps = trajectory.stamps;
+    const double longest = 5 * medianInterval(stamps);
+    std::vector<double> lost = trajectory.lostStamps;
+    std::sort(lost.begin(), lost.end());
+    std::vector<bool> out(trajectory.size(), false);
+    for (std::size_t i = 1; i < trajectory.size(); ++i)
+    {
+        const auto next = std::upper_bound(lost.begin(), lost.end(), stamps[i - 1]);
+        out[i] = stamps[i] - stamps[i - 1] > longest || (next != lost.end() && *next < stamps[i]);
+    }
+    return out;
+}
+
 double medianInterval(const std::vector<double>& stamps)
 {
     std::vector<double> intervals;

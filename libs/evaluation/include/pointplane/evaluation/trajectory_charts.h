@@ -13,6 +13,7 @@
 namespace pointplane
 {
 /** @name The charts of a trajectory report. Times are seconds since the estimate's first pose.
+ * Lines of the estimate end at holesBefore() poses. The ground truth is drawn at its own stamps.
  * @{ */
 
 /** An estimate as it is drawn, moved by `ate.T_truth_estimate`. */
