@@ -114,6 +114,7 @@ void AteCommand::run(CommandContext& context) const
     ReportedRun run;
     run.groundTruth = input.loadTruth(groundTruth, context);
     run.estimate = input.loadEstimate(estimate, context);
+    checkOrder(run.groundTruth, run.estimate, context);
     const ReportInputs inputs = report.read(run.estimate);
     run.rpe.offset = run.nees.offset = options.offset;
     run.rpe.scale = options.scale;

@@ -129,6 +129,7 @@ void RpeCommand::run(CommandContext& context) const
     ReportedRun run;
     run.groundTruth = input.loadTruth(groundTruth, context);
     run.estimate = input.loadEstimate(estimate, context);
+    checkOrder(run.groundTruth, run.estimate, context);
     const ReportInputs inputs = report.read(run.estimate);
     run.rpe = rpe;
     run.ate.offset = rpe.offset;

@@ -581,6 +581,26 @@ TEST_F(EvalApp, theProtocolTellsWhatWasChanged)
     EXPECT_THAT(run({"rpe", truth, estimate}).out, testing::Not(HasSubstr("estimate's")));
 }
 
+/** A truth that jumps looks like an estimate that does: the scores are alike. */
+TEST_F(EvalApp, trajectoriesInTheWrongOrderAreWarnedOf)
+{
+    const std::string marked = writeFile(files, "marked.txt", mostlyLost(30));
+    for (const char* command : {"rpe", "ate", "compare"})
+    {
+        const test::AppRun swapped = run({command, marked, truth});
+        EXPECT_EQ(swapped.code, 0) << swapped.err;
+        EXPECT_THAT(
+            swapped.err,
+            HasSubstr(
+                "warning: '" + marked + "' has marks of tracked and lost frames, and '" + truth +
+                "' has not; is the ground truth given first?\n"));
+        for (const std::string& first : {truth, marked})
+        {
+            EXPECT_THAT(run({command, first, marked}).err, testing::Not(HasSubstr("given first")));
+        }
+    }
+}
+
 /** All pairs have every distance: --delta without --fixed-delta would be ignored. */
 TEST_F(EvalApp, aDeltaWithoutEffectIsRefused)
 {

@@ -612,6 +612,18 @@ TEST(MrptTrajectories, marksOfLostFramesInARawlogAreReadAndSaid)
     }
 }
 
+TEST(MrptTrajectories, covariancesShowWhichIsTheEstimate)
+{
+    test::TempDir dir;
+    writeFormat2(dir / "a.rawlog", {"VO"});
+    const std::string truthFile = writeTruth(dir);
+    EXPECT_THAT(
+        run({"nees", dir / "a.rawlog", truthFile}).err,
+        HasSubstr("a.rawlog' has covariances, and '" + truthFile + "' has not; is the ground"));
+    EXPECT_THAT(
+        run({"nees", truthFile, dir / "a.rawlog"}).err, testing::Not(HasSubstr("given first")));
+}
+
 /** They are black: what was to be seen is in the frames around them. */
 TEST(MrptTrajectories, noPictureOfALostFrameIsInAReport)
 {
