@@ -108,6 +108,7 @@ ScoredResult RpeCommand::scored(
     out.details = {
         {"pairs", result.translation.count},
         {"candidatePairs", result.candidatePairs},
+        {"pairsOffDelta", result.pairsOffDelta},
         {"coverage", toJson(result.coverage)},
         {"fixedDelta", rpe.fixedDelta},
         {"delta", rpe.delta},
