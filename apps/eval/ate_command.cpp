@@ -17,6 +17,8 @@ namespace pointplane
 {
 namespace
 {
+constexpr std::size_t kFewPoses = 10;
+
 struct AteCommand
 {
     std::string groundTruth, estimate;
@@ -147,7 +149,14 @@ void AteCommand::run(CommandContext& context) const
     writeResult(scored, files, context.out, !verbose);
     writeTrajectoryReport(run, report, inputs, context);
     checkThreshold("RMSE", scored.rows[0], maxRmse, context);
-    coverage.check(estimate, result.coverage, maxRmse >= 0, context);
+    if (result.errors.size() < kFewPoses)
+    {
+        context.err
+            << context.program << ": warning: " << estimate << ": only " << result.errors.size()
+            << " poses have ground truth; the alignment fits so few, whatever their errors\n";
+    }
+    coverage.check(
+        estimate, result.coverage, maxRmse >= 0 ? ScoreIs::Judged : ScoreIs::Shown, context);
 }
 }  // namespace
 

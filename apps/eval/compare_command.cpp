@@ -92,7 +92,7 @@ void CompareCommand::run(CommandContext& context)
     }
     for (const ComparedRun& run : comparison.runs)
     {
-        coverage.check(run.name, run.rpe.coverage, false, context);
+        coverage.check(run.name, run.rpe.coverage, ScoreIs::Shown, context);
     }
 }
 }  // namespace

@@ -13,7 +13,8 @@ namespace pointplane
 {
 namespace
 {
-std::string behindText(const std::optional<BootstrapInterval>& behind, bool best, double unit)
+std::string behindText(
+    const Comparison& c, const std::optional<BootstrapInterval>& behind, bool best, double unit)
 {
     if (best)
     {
@@ -21,7 +22,7 @@ std::string behindText(const std::optional<BootstrapInterval>& behind, bool best
     }
     if (!behind)
     {
-        return "no common pairs";
+        return c.runs.size() == 1 ? "-" : "no common pairs";
     }
     if (!behind->isKnown())
     {
@@ -33,6 +34,11 @@ std::string behindText(const std::optional<BootstrapInterval>& behind, bool best
         behind->lower * unit,
         behind->upper * unit,
         behind->excludesZero() ? "" : " ns");
+}
+
+std::string titleOf(const Comparison& c)
+{
+    return format("Comparison of %zu run%s", c.runs.size(), c.runs.size() == 1 ? "" : "s");
 }
 
 bool isBest(const Comparison& c, std::size_t run, std::size_t best)
@@ -49,6 +55,10 @@ nlohmann::ordered_json nameOfBest(const Comparison& c, std::size_t best)
 /** What a reader must know of runs that have different frames; empty otherwise. */
 std::string noteOnFrames(const Comparison& c)
 {
+    if (c.runs.size() == 1)
+    {
+        return "this is one run; give others to compare it with";
+    }
     const std::string ofAte =
         c.bestAte ? "" : "; ATE is each run's own, so none is marked as the best in ATE";
     if (c.sameFrames)
@@ -113,7 +123,7 @@ std::string intervalFields(const BootstrapInterval& interval, double unit)
 
 void printTable(const Comparison& c, const std::string& protocol, std::ostream& out)
 {
-    out << "Comparison of " << c.runs.size() << " runs: " << protocol << "\n"
+    out << titleOf(c) << ": " << protocol << "\n"
         << "RPE RMSE, its distance to the best with the bootstrap's 95 % interval (ns: not "
            "significant), ATE RMSE\n\n"
         << format(
@@ -136,10 +146,10 @@ void printTable(const Comparison& c, const std::string& protocol, std::ostream& 
             name.c_str(),
             1000 * r.translation.value,
             isBest(c, k, c.bestTranslation) ? "*" : " ",
-            behindText(r.translationBehindBest, isBest(c, k, c.bestTranslation), 1000).c_str(),
+            behindText(c, r.translationBehindBest, isBest(c, k, c.bestTranslation), 1000).c_str(),
             kDegreesPerRadian * r.rotation.value,
             isBest(c, k, c.bestRotation) ? "*" : " ",
-            behindText(r.rotationBehindBest, isBest(c, k, c.bestRotation), kDegreesPerRadian)
+            behindText(c, r.rotationBehindBest, isBest(c, k, c.bestRotation), kDegreesPerRadian)
                 .c_str(),
             1000 * r.ate.translation.rmse,
             c.bestAte == k ? "*" : " ",
@@ -211,9 +221,7 @@ HtmlReport reportOf(
     const Trajectory& truth,
     const std::vector<Trajectory>& estimates)
 {
-    HtmlReport report(
-        format("Comparison of %zu runs", c.runs.size()),
-        protocol + (noteOf(c).empty() ? "" : "; " + noteOf(c)));
+    HtmlReport report(titleOf(c), protocol + (noteOf(c).empty() ? "" : "; " + noteOf(c)));
     std::vector<std::vector<std::string>> rows;
     std::vector<DrawnPath> paths;
     std::vector<Chart> errors;
@@ -223,9 +231,9 @@ HtmlReport reportOf(
         rows.push_back(
             {r.name,
              format("%.3f", 1000 * r.translation.value),
-             behindText(r.translationBehindBest, isBest(c, k, c.bestTranslation), 1000),
+             behindText(c, r.translationBehindBest, isBest(c, k, c.bestTranslation), 1000),
              format("%.4f", kDegreesPerRadian * r.rotation.value),
-             behindText(r.rotationBehindBest, isBest(c, k, c.bestRotation), kDegreesPerRadian),
+             behindText(c, r.rotationBehindBest, isBest(c, k, c.bestRotation), kDegreesPerRadian),
              format("%.3f", 1000 * r.ate.translation.rmse),
              format("%.1f %%", 100 * r.rpe.coverage.share)});
         paths.push_back({r.name, estimates[k], r.ate, rpe.scale});

@@ -297,8 +297,7 @@ void NeesCommand::run(CommandContext& context) const
     checkRange(report.results, untold, context);
     for (std::size_t k = 0; k < report.coverages.size(); ++k)
     {
-        // Not judged by it: the covariances of lost frames are tested, too.
-        coverage.check(files[2 * k + 1], report.coverages[k], false, context);
+        coverage.check(files[2 * k + 1], report.coverages[k], ScoreIs::OfAllFrames, context);
     }
 }
 }  // namespace

@@ -164,7 +164,8 @@ void RpeCommand::run(CommandContext& context) const
     writeTrajectoryReport(run, report, inputs, context);
     checkThreshold("translation RMSE", score.rows[0], maxRmse, context);
     checkThreshold("rotation RMSE", score.rows[1], maxRmseDeg, context);
-    coverage.check(estimate, result.coverage, maxRmse >= 0 || maxRmseDeg >= 0, context);
+    const bool isJudged = maxRmse >= 0 || maxRmseDeg >= 0;
+    coverage.check(estimate, result.coverage, isJudged ? ScoreIs::Judged : ScoreIs::Shown, context);
 }
 }  // namespace
 

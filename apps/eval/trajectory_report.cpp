@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trajectory_report.h"
 
+#include <pointplane/core/read_errors.h>
 #include <pointplane/evaluation/trajectory_charts.h>
 #include <pointplane/mrpt_io/errors.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <utility>
 
 #include "OutputGuard.h"
@@ -23,15 +24,34 @@ namespace pointplane
 {
 namespace
 {
+bool isText(const std::string& bytes)
+{
+    const auto isControl = [](char c)
+    { return static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\r' && c != '\t'; };
+    return std::none_of(bytes.begin(), bytes.end(), isControl);
+}
+
+/** \throws InputError if it is not that of a configuration, which would fill the page */
 std::string textOf(const std::string& path)
 {
+    constexpr std::size_t kLongest = 1 << 20;
     std::ifstream file(path);
     if (!file || std::filesystem::is_directory(path))
     {
         throw InputError(
             "cannot open " + path + ": " + (file ? "is a directory" : std::strerror(errno)));
     }
-    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    std::string text(kLongest + 1, ' ');
+    file.read(text.data(), static_cast<std::streamsize>(text.size()));
+    requireRead(file, path);
+    text.resize(static_cast<std::size_t>(file.gcount()));
+    if (!isText(text) || text.size() > kLongest)
+    {
+        throw InputError(
+            path + (isText(text) ? ": is longer than 1 MiB" : ": is not text") +
+            "; give the configuration of the run");
+    }
+    return text;
 }
 }  // namespace
 

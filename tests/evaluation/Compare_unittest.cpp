@@ -163,6 +163,14 @@ TEST(Compare, ofRunsThatAreTooShortItDoesNotTellHowSureItIs)
     EXPECT_GT(behind.value, 0);
 }
 
+TEST(Compare, oneRunIsNotTheBest)
+{
+    const Trajectory truth = randomTrajectory(100, 1);
+    const Comparison c = compareRuns(truth, {perturbed(truth, 0.02, 2)}, overOneSecond(), {}, {});
+    EXPECT_FALSE(c.isComparable());
+    EXPECT_FALSE(c.bestAte.has_value());
+}
+
 /** Few of the pairs that overlap are drawn: blocks are of fewer pairs. */
 TEST(Compare, pairsThatWereDrawnAreInShorterBlocks)
 {

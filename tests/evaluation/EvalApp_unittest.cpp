@@ -221,13 +221,19 @@ TEST_F(EvalApp, aRunThatLostMostOfItsFramesPassesNoGate)
                       "passed; --min-coverage sets another limit\n"));
         args.insert(args.end(), {"--min-coverage", "10"});
         EXPECT_EQ(run(args).code, 0);
-        EXPECT_THAT(run(args).err, HasSubstr("lost.txt: only 10.0 % of the recording were judged"));
+        EXPECT_THAT(run(args).err, HasSubstr("lost.txt: only 10.0 % of the recording was scored"));
         args.back() = "10.1";
         EXPECT_EQ(run(args).code, 1);
         EXPECT_THAT(run(args).err, HasSubstr("lost.txt: coverage 10.0 % is below 10.1 %"));
     }
     EXPECT_EQ(run({"ate", truth, lost}).code, 0);  // no gate
-    EXPECT_EQ(run({"ate", truth, lost}).err, "");
+    for (const char* command : {"ate", "rpe", "compare"})
+    {
+        std::vector<std::string> args{command, truth, lost, "--delta", "0.2", "--fixed-delta"};
+        args.resize(std::string(command) == "ate" ? 3 : 6);
+        EXPECT_THAT(run(args).err, HasSubstr("lost.txt: only 10.0 % of the recording was scored"));
+    }
+    EXPECT_EQ(run({"ate", truth, estimate}).err, "");
     EXPECT_EQ(run({"ate", truth, lost, "--min-coverage", "50"}).code, 1);
     EXPECT_EQ(run({"compare", truth, lost, "--delta", "0.2", "--min-coverage", "50"}).code, 1);
     EXPECT_EQ(run({"ate", truth, lost, "--min-coverage", "101"}).code, 2);
@@ -242,8 +248,37 @@ TEST_F(EvalApp, aGateOfAShortRunWithoutMarksIsWarnedOf)
     EXPECT_EQ(r.code, 0);
     EXPECT_THAT(
         r.err,
-        HasSubstr("warning: " + part + ": only 18.0 % of the ground truth's time were judged"));
+        HasSubstr("warning: " + part + ": only 18.0 % of the ground truth's time was scored"));
     EXPECT_EQ(run({"ate", truth, part, "--max-rmse", "1", "--min-coverage", "50"}).code, 1);
+}
+
+/** Three numbers of the alignment fit two positions. */
+TEST_F(EvalApp, anAteOfFewPosesIsWarnedOf)
+{
+    const std::string line = straightLine(2);
+    const auto run2 = [&](std::size_t numPoses)
+    {
+        std::size_t end = 0;
+        for (std::size_t k = 0; k < numPoses; ++k)
+        {
+            end = line.find('\n', end) + 1;
+        }
+        return run({"ate", truth, writeFile(files, "few.txt", line.substr(0, end))});
+    };
+    EXPECT_EQ(run2(2).code, 0);
+    EXPECT_THAT(run2(2).err, HasSubstr("few.txt: only 2 poses have ground truth; the alignment"));
+    EXPECT_THAT(run2(10).err, testing::Not(HasSubstr("poses have ground truth")));
+}
+
+TEST_F(EvalApp, compareOfOneRunHasNoBest)
+{
+    const test::AppRun r = run({"compare", truth, estimate, "--json", files / "out.json"});
+    EXPECT_EQ(r.code, 0) << r.err;
+    EXPECT_THAT(r.out, testing::StartsWith("Comparison of 1 run: "));
+    EXPECT_THAT(r.out, HasSubstr("give others to compare it with"));
+    EXPECT_THAT(r.out, testing::Not(HasSubstr("* ")));
+    EXPECT_THAT(r.out, testing::Not(HasSubstr("different frames")));
+    EXPECT_TRUE(nlohmann::json::parse(test::readBytes(files / "out.json"))["bestAte"].is_null());
 }
 
 TEST_F(EvalApp, whoGivesUpIsNotTheBestInAte)
@@ -441,6 +476,16 @@ TEST_F(EvalApp, theReportSaysHowItWasMade)
     EXPECT_THAT(
         run({"ate", truth, estimate, "--report", files / "r", "--run-config", files / ""}).err,
         HasSubstr("cannot open " + files / "" + ": is a directory\n"));
+    for (const auto& [text, why] :
+         {std::pair(std::string("PK\x03\x04"), "is not text"),
+          {std::string(2 << 20, 'x'), "is longer than 1 MiB"}})
+    {
+        const std::string bad = writeFile(files, "bad.ini", text);
+        const test::AppRun r =
+            run({"ate", truth, estimate, "--report", files / "r", "--run-config", bad});
+        EXPECT_EQ(r.code, 2);
+        EXPECT_THAT(r.err, HasSubstr(bad + ": " + why + "; give the configuration of the run\n"));
+    }
     for (const char* part : {"--run-config", "--diagnostics"})
     {
         const test::AppRun refused = run({"ate", truth, estimate, part, config});

@@ -731,6 +731,23 @@ TEST(MrptTrajectories, neesTestsThePosesWhereIncrementsAreNotTold)
     EXPECT_THAT(test::readBytes(dir / "r/index.html"), HasSubstr("are not tested"));
 }
 
+/** It has poses alone: --since would not help. */
+TEST(MrptTrajectories, ofASimplemapNeesAsksForARawlog)
+{
+    test::TempDir dir;
+    mrpt::maps::CSimpleMap map;
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+        const auto pdf = mrpt::poses::CPose3DPDFGaussian::Create(toMrpt(gaussianAt(k)));
+        const auto frame = mrpt::obs::CSensoryFrame::Create(frameAt(k));
+        map.insert(pdf, frame);
+    }
+    ASSERT_TRUE(map.saveToFile(dir / "a.simplemap"));
+    const test::AppRun r = run({"nees", writeTruth(dir), dir / "a.simplemap", "--interval", "1f"});
+    EXPECT_THAT(
+        r.err, HasSubstr("A .simplemap cannot: test the rawlog of pointplane-odometry --since"));
+}
+
 TEST(MrptTrajectories, neesSavesIncrements)
 {
     test::TempDir dir;

@@ -48,6 +48,20 @@ std::vector<double> removeNotFinite(std::vector<StampedPose>& poses)
     poses.erase(bad, poses.end());
     return stamps;
 }
+
+void warnOfNanoseconds(Trajectory& trajectory)
+{
+    constexpr double kLongest = 1000;
+    // The mean is at least about half of the median, which takes longer to compute.
+    const double mean = trajectory.duration() / static_cast<double>(trajectory.size() + 1);
+    if (std::isfinite(mean) && mean > 0.2 * kLongest &&
+        medianInterval(trajectory.stamps) > kLongest)
+    {
+        trajectory.warnings.push_back(
+            trajectory.name + ": poses are " + numberText(medianInterval(trajectory.stamps), 0) +
+            " s apart; are stamps in nanoseconds? They must be in seconds");
+    }
+}
 }  // namespace
 
 Trajectory makeTrajectory(std::string name, std::vector<StampedPose> poses)
@@ -107,6 +121,7 @@ Trajectory makeTrajectory(std::string name, std::vector<StampedPose> poses)
             out.name + ": " + std::to_string(repeated) +
             " pose(s) with a repeated stamp; the last one of each was used");
     }
+    warnOfNanoseconds(out);
     return out;
 }
 

@@ -184,7 +184,7 @@ Comparison compareRuns(
     }
     out.bestTranslation = smallest(out.runs, [](const auto& r) { return r.translation.value; });
     out.bestRotation = smallest(out.runs, [](const auto& r) { return r.rotation.value; });
-    if (haveSameAteFrames(estimates, out.runs))
+    if (estimates.size() > 1 && haveSameAteFrames(estimates, out.runs))
     {
         out.bestAte = smallest(out.runs, [](const auto& r) { return r.ate.translation.rmse; });
     }
