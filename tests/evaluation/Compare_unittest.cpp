@@ -2,6 +2,7 @@
 #include <pointplane/evaluation/compare.h>
 
 #include <cmath>
+#include <iostream>
 
 #include "test_trajectories.h"
 #include <gtest/gtest.h>
@@ -99,6 +100,43 @@ TEST(Bootstrap, fewerThanFourBlocksHaveNoInterval)
             EXPECT_EQ(std::isnan(r.lower) && std::isnan(r.upper), length > 3);
             EXPECT_TRUE(r.isKnown() || !r.excludesZero());
         }
+    }
+}
+
+/** Of two runs that are equally good, so many intervals of the difference should hold zero. */
+TEST(Bootstrap, intervalsOfFewBlocksHoldTheTruth)
+{
+    constexpr std::size_t kLength = 10;
+    constexpr int kRuns = 300;
+    test::GaussianSampler random(7);
+    const auto overlapping = [&](std::size_t n)
+    {
+        std::vector<double> walk{0};
+        for (std::size_t k = 0; k < n + kLength; ++k)
+        {
+            walk.push_back(walk.back() + random.normal());
+        }
+        std::vector<double> out;
+        for (std::size_t k = 0; k < n; ++k)
+        {
+            out.push_back(std::abs(walk[k + kLength] - walk[k]));
+        }
+        return out;
+    };
+    BootstrapOptions options;
+    options.blockLength = kLength;
+    options.resamples = 300;
+    for (const std::size_t blocks : {4, 8, 16})
+    {
+        int held = 0;
+        for (int run = 0; run < kRuns; ++run)
+        {
+            const std::vector<double> a = overlapping(blocks * kLength);
+            const std::vector<double> b = overlapping(blocks * kLength);
+            held += bootstrapRmseDifference(a, b, options).excludesZero() ? 0 : 1;
+        }
+        std::cout << blocks << " blocks: " << 100 * held / kRuns << " %\n";
+        EXPECT_GT(held, 0.86 * kRuns) << blocks;  // 70 to 80 % without Student's t
     }
 }
 

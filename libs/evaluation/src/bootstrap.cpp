@@ -45,6 +45,16 @@ class BlockSums
     std::vector<double> sums_;
 };
 
+/** How much wider an interval of so many blocks is than their spread tells: they are few to tell
+ * it, and resampled they spread less. Student's t for 95 % over the normal distribution's
+ * (Abramowitz and Stegun 26.7.5), and Bessel's correction. */
+double widening(std::size_t numBlocks)
+{
+    const double dof = static_cast<double>(numBlocks) - 1;
+    const double t = 1 + (1.21 + (1.44 + 1.30 / dof) / dof) / dof;
+    return t * std::sqrt((dof + 1) / dof);
+}
+
 /** Percentile interval of statistic(starts of the drawn blocks). */
 template <class Statistic>
 BootstrapInterval interval(
@@ -73,8 +83,10 @@ BootstrapInterval interval(
     std::sort(samples.begin(), samples.end());
     const double tail = 0.5 * (1 - options.confidence);
     const auto last = static_cast<double>(samples.size() - 1);
-    out.lower = samples[static_cast<std::size_t>(std::floor(tail * last))];
-    out.upper = samples[static_cast<std::size_t>(std::ceil((1 - tail) * last))];
+    const double lower = samples[static_cast<std::size_t>(std::floor(tail * last))];
+    const double upper = samples[static_cast<std::size_t>(std::ceil((1 - tail) * last))];
+    out.lower = value + widening(out.independent) * (lower - value);
+    out.upper = value + widening(out.independent) * (upper - value);
     return out;
 }
 
@@ -95,11 +107,13 @@ BootstrapInterval bootstrapRmse(const std::vector<double>& errors, const Bootstr
     POINTPLANE_CHECK(errors.size() >= 2, "a bootstrap of " << errors.size() << " values");
     const std::size_t length = std::clamp<std::size_t>(options.blockLength, 1, errors.size());
     const BlockSums sums(errors, length);
-    return interval(
+    BootstrapInterval out = interval(
         errors.size(),
         options,
         rmse(errors),
         [&](const auto& starts) { return rmseOfBlocks(sums, starts, length); });
+    out.lower = out.lower < 0 ? 0 : out.lower;  // NaN stays
+    return out;
 }
 
 BootstrapInterval bootstrapRmseDifference(

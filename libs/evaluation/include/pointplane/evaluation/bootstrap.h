@@ -18,7 +18,7 @@ struct BootstrapOptions
     std::uint64_t seed{1};
 };
 
-/** A value and its percentile bootstrap interval. */
+/** A value and its percentile bootstrap interval, wider where few blocks tell it. */
 struct BootstrapInterval
 {
     double value{0};
