@@ -85,6 +85,7 @@ Aligner::Aligner(const OdometryParams& params)
     : params_(params.pipeline),
       searchesAhead_(params.pipeline.searchesAhead()),
       minOverlap_(params.reference.keyframeMinOverlap),
+      memory_(params.noiseScale.timeConstant),
       solver_(params.poseSolver),
       judge_(params)
 {
@@ -352,7 +353,7 @@ void Aligner::estimate(
     problem.noise = scene.errors.noise();
     if (params_.fuses())
     {
-        problem.surfaces = rememberedInliers(alignment.associations, scene.current);
+        problem.surfaces = rememberedInliers(alignment.associations, scene.current, memory_);
     }
     PoseEstimate out;
     out.motion = scene.predicted.motion;

@@ -90,7 +90,7 @@ class Aligner
 
     PipelineParams params_;
     bool searchesAhead_;
-    double minOverlap_;
+    double minOverlap_, memory_;
     PoseSolver solver_;
     Judge judge_;
 };

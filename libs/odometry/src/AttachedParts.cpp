@@ -171,7 +171,7 @@ Cell compareDepth(
             {
                 out.depth.nearest = std::min(out.depth.nearest, now);
                 out.depth.farthest = std::max(out.depth.farthest, now);
-                const auto most = static_cast<float>(sameDepth(noise, static_cast<double>(now)));
+                const auto most = static_cast<float>(noise.sameDepth(static_cast<double>(now)));
                 numOther += std::abs(before - now) > most ? 1 : 0;
                 ++numCompared;
             }

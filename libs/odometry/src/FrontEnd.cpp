@@ -9,26 +9,24 @@
 #include "Judge.h"
 #include "Stopwatch.h"
 #include "frame_checks.h"
+#include "surface_comparison.h"
 
 namespace pointplane
 {
 namespace
 {
-/** Of a reading: with a larger standard deviation it tells no distance. */
-constexpr double kMostNoise = 0.25;
-
 /** Whether most readings tell no distance. */
 bool isNoise(const cv::Mat& depth, const DepthNoise& noise)
 {
-    constexpr int kStep = 16;
+    const PixelGrid grid(depth.size(), PixelGrid::kSamples / 2);
     int numReadings = 0, numNoise = 0;
-    for (int v = kStep / 2; v < depth.rows; v += kStep)
+    for (int row = 0; row < grid.size.height; ++row)
     {
-        for (int u = kStep / 2; u < depth.cols; u += kStep)
+        for (int column = 0; column < grid.size.width; ++column)
         {
-            const double z = static_cast<double>(depth.at<float>(v, u));
+            const auto z = static_cast<double>(depth.at<float>(grid.pixel(column, row)));
             numReadings += z > 0 ? 1 : 0;
-            numNoise += z > 0 && noise.sigmaZ(z) > kMostNoise * z ? 1 : 0;
+            numNoise += z > 0 && !noise.tellsDistance(z) ? 1 : 0;
         }
     }
     return 2 * numNoise > numReadings;

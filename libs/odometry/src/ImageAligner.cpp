@@ -65,7 +65,7 @@ class ReprojectionTest
             const double du = camera_.fx * (p.x() / p.z() - q.x() / q.z());
             const double dv = camera_.fy * (p.y() / p.z() - q.y() / q.z());
             const double inverse = std::abs(1 / p.z() - 1 / q.z());
-            const double same = M_SQRT2 * widening * sameDepth(noise_, q.z()) / (q.z() * q.z());
+            const double same = M_SQRT2 * widening * noise_.sameDepth(q.z()) / (q.z() * q.z());
             if (du * du + dv * dv < most * most && inverse < same)
             {
                 out.push_back(i);
@@ -83,7 +83,7 @@ class ReprojectionTest
             const double before = (pairs_.ref[a] - pairs_.ref[b]).norm();
             const double now = (pairs_.cur[a] - pairs_.cur[b]).norm();
             const double z = std::max(pairs_.cur[a].z(), pairs_.cur[b].z());
-            if (std::abs(before - now) > 2 * sameDepth(noise_, z) || before < 0.05 * z)
+            if (std::abs(before - now) > 2 * noise_.sameDepth(z) || before < 0.05 * z)
             {
                 return false;
             }

@@ -29,9 +29,9 @@ constexpr double kMostSurprise = 5;
  */
 constexpr double kConvincingRise = 4;
 
-/** Residuals four times as large as in the frames before, squared: such a motion is none of
- * anything in view, but lies between that of the still world and that of what moves. */
-constexpr double kNoMotionRise = 16;
+/** Twice that rise: such a motion is none of anything in view, but lies between that of the still
+ * world and that of what moves. */
+constexpr double kNoMotionRise = kConvincingRise * kConvincingRise;
 
 /** Share of the view in which something stands where key frames looked through: more than holes of
  * the depth image and thin things make, so something moves. */
@@ -141,7 +141,8 @@ bool Judge::areSame(const Alignment& a, const Alignment& b)
 
 bool Judge::isConvincing(const Alignment& a, const NoiseFactors& usual)
 {
-    const int worth = a.estimate.numPointInliers + 3 * static_cast<int>(a.problem.planes.size());
+    const int worth =
+        a.estimate.numPointInliers + PlanePair::dof() * static_cast<int>(a.problem.planes.size());
     const bool isSeen =
         a.agreement.seen() > 0 ? a.agreement.fraction() > kConvincingSurfaces : mostPointsAgree(a);
     return a.holds && worth >= kFewPoints && (isConfirmed(a) || a.numSought < kFewPoints) &&

@@ -39,7 +39,6 @@ void makeOwn(cv::Mat& image)
 
 void keepReadings(const cv::Mat& depth, float least, float most, cv::Mat& out)
 {
-    constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
     out.create(depth.size(), depth.type());
     for (int v = 0; v < depth.rows; ++v)
     {
@@ -47,7 +46,8 @@ void keepReadings(const cv::Mat& depth, float least, float most, cv::Mat& out)
         auto* row = out.ptr<float>(v);
         for (int u = 0; u < depth.cols; ++u)
         {
-            row[u] = in[u] >= least && in[u] <= most ? in[u] : kNone;  // NaN is outside
+            const bool isReading = in[u] >= least && in[u] <= most;  // NaN is not
+            row[u] = isReading ? in[u] : std::numeric_limits<float>::quiet_NaN();
         }
     }
 }

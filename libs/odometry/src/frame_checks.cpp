@@ -14,18 +14,6 @@ bool sameCamera(const PinholeCamera& a, const PinholeCamera& b)
            a.cx == b.cx && a.cy == b.cy && a.distortion == b.distortion;
 }
 
-namespace
-{
-/** NaN: unknown. */
-bool isPlausible(const ShutterModel& shutter)
-{
-    constexpr double kLongest = 1;  // [s]
-    return !(std::abs(shutter.readoutColour) > kLongest) &&
-           !(std::abs(shutter.readoutDepth) > kLongest) &&
-           !(std::abs(shutter.depthDelay) > kLongest);
-}
-}  // namespace
-
 std::string problemOf(const cv::Size& maskSize, const RgbdFrame& frame)
 {
     if (maskSize.empty() || maskSize == frame.depth.size())
@@ -50,7 +38,7 @@ std::string problemOf(const RgbdFrame& frame)
     {
         out << "the time stamp is not finite";
     }
-    else if (!isPlausible(frame.shutter))
+    else if (!frame.shutter.isPlausible())
     {
         out << "its shutter takes longer than a second";
     }

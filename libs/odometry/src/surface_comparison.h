@@ -12,18 +12,6 @@
 
 namespace pointplane
 {
-/** Depth cameras err by as much of the distance, differently in different parts of the image. */
-constexpr double kDistortion = 0.02;
-
-/** A deviation of so many standard deviations is none. */
-constexpr double kSigmas = 4;
-
-/** How far a reading may be from a surface at depth z [m]. */
-inline double sameDepth(const DepthNoise& noise, double z)
-{
-    return std::hypot(kSigmas * noise.sigmaZ(z), kDistortion * z);
-}
-
 /** Readings of some pixels of a depth image. */
 struct DepthRange
 {
@@ -111,7 +99,7 @@ class ComparedDepth
  private:
     [[nodiscard]] float tolerance(float z) const
     {
-        return static_cast<float>(sameDepth(noise_, static_cast<double>(z))) + slack_ +
+        return static_cast<float>(noise_.sameDepth(static_cast<double>(z))) + slack_ +
                slackShare_ * z;
     }
 
@@ -158,7 +146,7 @@ inline Eigen::Vector3f surfaceAt(const RgbdFrame& frame, const cv::Point& pixel)
     if (z > 0)
     {
         const DepthRange range = rangeAround(frame.depth, pixel.x, pixel.y);
-        if (range.farthest - range.nearest < static_cast<float>(2 * kDistortion) * z)
+        if (range.farthest - range.nearest < static_cast<float>(2 * DepthNoise::kDistortion) * z)
         {
             const Eigen::Vector2d xy = frame.camera.normalisedOfDepth(
                 {static_cast<double>(pixel.x), static_cast<double>(pixel.y)});

@@ -6,13 +6,6 @@
 
 namespace pointplane
 {
-namespace
-{
-/** Time [s] after which the points of a frame count for 1/e of what they did. A fifth of a second
- * and five seconds do about as well: docs/experiments_archive.md. */
-constexpr double kMemory = 2;
-}  // namespace
-
 int surfaceAt(const Eigen::Vector2d& depthUv_px, const PlaneSet& planes)
 {
     const cv::Point pixel(
@@ -23,14 +16,14 @@ int surfaceAt(const Eigen::Vector2d& depthUv_px, const PlaneSet& planes)
 }
 
 std::vector<InlierRatio> rememberedInliers(
-    const std::vector<Association>& associations, const Features& current)
+    const std::vector<Association>& associations, const Features& current, double memory)
 {
     std::vector<InlierRatio> out(current.planes.planes.size());
     std::vector<bool> isKnown(out.size(), false);
     for (const Association& association : associations)
     {
         const Reference& reference = *association.reference;
-        const double fading = std::exp((reference.stamp - current.frame.stamp) / kMemory);
+        const double fading = std::exp((reference.stamp - current.frame.stamp) / memory);
         for (const std::vector<PlaneMatch>* matches :
              {&association.planes, &association.movingPlanes})
         {

@@ -14,9 +14,9 @@ namespace pointplane
 
 /** What earlier frames tell of each plane of the current frame: how many points on it have agreed
  * with the camera's motion so far. A plane is known from the first reference that it is matched
- * with. */
+ * with. \param memory [s] after which the points of a frame count for 1/e of what they did */
 [[nodiscard]] std::vector<InlierRatio> rememberedInliers(
-    const std::vector<Association>& associations, const Features& current);
+    const std::vector<Association>& associations, const Features& current, double memory);
 
 /** Counts points that go with what moves (Association::movingPoints) as outliers. */
 void countMoving(

@@ -187,7 +187,10 @@ double NormalEquations::gain(size_t i) const
     return ofSurface(i) * g;  // [P17 Eq. 10]
 }
 
-int NormalEquations::dof(size_t i) const { return isPoint(i) ? points_[i].dof() : 3; }
+int NormalEquations::dof(size_t i) const
+{
+    return isPoint(i) ? points_[i].dof() : PlanePair::dof();
+}
 
 /** Squared norm over the median of those of its kind. */
 double NormalEquations::relativeNorm(size_t i) const

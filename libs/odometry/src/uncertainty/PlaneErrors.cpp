@@ -8,9 +8,6 @@ namespace pointplane
 {
 namespace
 {
-/** What is believed of a camera before its first frame counts as the residuals of one plane. */
-constexpr double kPriorDof = 3;
-
 /** What one frame says, over what is known: a wrong match must not count like many right ones. */
 constexpr double kMostChange = 10;
 
@@ -41,11 +38,12 @@ void PlaneErrors::update(
     raised_ = std::max(1.0, residuals.followed / own_);
 }
 
-/** With the prior, that both are 1. Neither is negative. */
+/** Before the first frame both are 1, which counts as the residuals of one plane. Neither is
+ * negative. */
 void PlaneErrors::fit()
 {
-    const double n = sum_ + kPriorDof, xx = xx_ + kPriorDof;
-    const double y = y_ + kPriorDof, xy = xy_ + kPriorDof;
+    const double prior = PlanePair::dof();
+    const double n = sum_ + prior, xx = xx_ + prior, y = y_ + prior, xy = xy_ + prior;
     const double determinant = n * xx - x_ * x_;
     own_ = (y * xx - xy * x_) / determinant;
     byView_ = (n * xy - x_ * y) / determinant;

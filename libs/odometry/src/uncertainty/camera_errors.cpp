@@ -7,10 +7,6 @@ namespace pointplane
 {
 namespace
 {
-/** What cameras of one model differ by, where nobody calibrated this one: focal length, and the
- * principal point over the width of the image. */
-constexpr double kNominal = 0.02;
-
 /** Mean squared distance of the image's pixels from its centre, over the focal length: of the
  * normalised radius. */
 double meanSquaredRadius(const PinholeCamera& camera)
@@ -27,9 +23,10 @@ CameraVector lensVariances(const PinholeCamera& camera, double bend)
     sigmas[kRadial] = bend / meanSquaredRadius(camera);
     if (camera.isNominal)
     {
-        sigmas[kPrincipalPointX] = sigmas[kPrincipalPointY] = kNominal * camera.width;
-        sigmas[kFocalLength] = kNominal;
-        sigmas[kRadial] = std::max(bend, kNominal) / meanSquaredRadius(camera);
+        sigmas[kPrincipalPointX] = sigmas[kPrincipalPointY] =
+            PinholeCamera::kNominal * camera.width;
+        sigmas[kFocalLength] = PinholeCamera::kNominal;
+        sigmas[kRadial] = std::max(bend, PinholeCamera::kNominal) / meanSquaredRadius(camera);
     }
     return sigmas.cwiseAbs2();
 }

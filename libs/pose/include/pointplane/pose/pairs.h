@@ -27,8 +27,8 @@ using MotionByCamera = Eigen::Matrix<double, 12, kNumCameraErrors>;  //!< pose a
 
 /** A smooth error of depth scales the depths of each patch of an image by a factor of its own. */
 constexpr int kPatchesPerSide = 4;
-constexpr int kNumPatches = kPatchesPerSide * kPatchesPerSide;
-using MotionByPatches = Eigen::Matrix<double, 12, kNumPatches>;  //!< pose and velocity
+/** Pose and velocity by the scale of depth in each patch. */
+using MotionByPatches = Eigen::Matrix<double, 12, kPatchesPerSide * kPatchesPerSide>;
 
 /** The same point seen twice.
  *
@@ -63,5 +63,8 @@ struct PlanePair
     ByCamera dCur_dCamera{ByCamera::Zero()};  //!< of cur, likewise
     int reference{0};                         //!< which of the frames that cur is compared with
     int feature{-1};                          //!< pairs of equal ones err together; -1: of its own
+
+    /** Directions in which the two can disagree. */
+    [[nodiscard]] static int dof() { return 3; }
 };
 }  // namespace pointplane

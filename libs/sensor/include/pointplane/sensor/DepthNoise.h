@@ -33,6 +33,20 @@ struct DepthNoise
                                           : z * z * std::sqrt(inverseDepthVariance(1 / z));
     }
 
+    /** Depth cameras err by as much of the distance, differently in different parts of the image.
+     */
+    static constexpr double kDistortion = 0.02;
+
+    /** How far readings of one surface at depth z may be apart: four standard deviations, and
+     * distortion. [m] */
+    [[nodiscard]] double sameDepth(double z) const
+    {
+        return std::hypot(4 * sigmaZ(z), kDistortion * z);
+    }
+
+    /** Whether a reading at depth z [m] is more than noise. */
+    [[nodiscard]] bool tellsDistance(double z) const { return sigmaZ(z) <= 0.25 * z; }
+
     /** Variance of an inverse depth. \param q [1/m] \return [1/m^2] */
     [[nodiscard]] double inverseDepthVariance(double q) const
     {

@@ -26,6 +26,10 @@ struct PinholeCamera
     /** Nobody calibrated this camera: its intrinsics are those of its model, or a guess. */
     bool isNominal{false};
 
+    /** What cameras of one model differ by (standard deviation): the focal length, relative, and
+     * the principal point over the width of the image. */
+    static constexpr double kNominal = 0.02;
+
     /** \return what is wrong (NaN, zero focal length, empty image...); empty if the camera is
      * usable */
     [[nodiscard]] std::string problem() const;

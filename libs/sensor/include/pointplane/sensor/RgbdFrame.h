@@ -5,6 +5,7 @@
 
 #include <opencv2/core/mat.hpp>
 
+#include <cmath>
 #include <limits>
 
 namespace pointplane
@@ -17,6 +18,13 @@ struct ShutterModel
     double readoutColour{kUnknown};  //!< first to last row of the colour image [s]; 0 = global
     double readoutDepth{kUnknown};   //!< first to last row of the depth image [s]
     double depthDelay{kUnknown};     //!< middle of the depth exposure minus middle of colour's [s]
+
+    /** No camera takes longer than a second. */
+    [[nodiscard]] bool isPlausible() const
+    {
+        const auto isLong = [](double seconds) { return std::abs(seconds) > 1; };  // NaN is not
+        return !isLong(readoutColour) && !isLong(readoutDepth) && !isLong(depthDelay);
+    }
 };
 
 /** One registered RGB-D image. The pose of a frame is the camera's at `stamp`, the middle of the
