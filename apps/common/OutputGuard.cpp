@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 
 #include "standard_streams.h"
 #include <sys/stat.h>
@@ -52,6 +53,23 @@ void requireShortName(const std::string& option, const std::string& path, const 
             " bytes while it is written, but " + std::to_string(most) +
             " are the most; give a shorter one");
     }
+}
+
+/** Whether nothing is lost if `text` replaces this file. */
+[[nodiscard]] bool isReplaceable(
+    const std::string& path, const std::string& text, const std::string& mark)
+{
+    std::error_code error;
+    if (!fs::is_regular_file(path, error))
+    {
+        return true;
+    }
+    std::ifstream file(path, std::ios::binary);
+    std::string start(std::max(text.size(), mark.size()) + 1, '\0');
+    file.read(start.data(), static_cast<std::streamsize>(start.size()));
+    start.resize(static_cast<std::size_t>(file.gcount()));
+    return !file.bad() && (start == text || fs::file_size(path, error) == 0 ||
+                           (!mark.empty() && start.compare(0, mark.size(), mark) == 0));
 }
 
 [[noreturn]] void failToWrite(const std::string& option, const std::string& path)
@@ -286,7 +304,8 @@ OutputGuard::Output OutputGuard::folderAt(
     return {option, path, {fileAt(path)}, true, extension};
 }
 
-void OutputGuard::addGroundTruth(const std::string& rawlog)
+void OutputGuard::addGroundTruth(
+    const std::string& rawlog, const std::string& text, const std::string& mark)
 {
     if (!hasPlaceBeside(rawlog))
     {
@@ -304,6 +323,12 @@ void OutputGuard::addGroundTruth(const std::string& rawlog)
             other + "; give another name");
     }
     addOutput("ground truth of -o", truth);
+    if (!isReplaceable(truth, text, mark))
+    {
+        throw InputError(
+            "-o " + rawlog + ": its ground truth would replace " + truth +
+            ", which is a different one; move that file or give another name");
+    }
 }
 
 void OutputGuard::addFolderBeside(

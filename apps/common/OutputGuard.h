@@ -43,8 +43,11 @@ class OutputGuard
         const std::string& option, const std::string& path, const std::string& extension);
 
     /** The ground truth beside a rawlog that is an output itself, if there is a place for it.
-     * Refused where it is that of another rawlog: a.rawlog and a.rawlog.gz have one name for it. */
-    void addGroundTruth(const std::string& rawlog);
+     * Nobody named that file, so what may be a user's is refused: that of another rawlog (a.rawlog
+     * and a.rawlog.gz have one name for it), and a file that is neither empty nor the same. \param
+     * text that will be written \param mark a file that begins so is one that can be made again */
+    void addGroundTruth(
+        const std::string& rawlog, const std::string& text, const std::string& mark = "");
 
     /** As addOutputFolder(), for one beside a rawlog that is an output itself, and for the partial
      * one (partialFolderOf()). */

@@ -206,7 +206,7 @@ int convertTum(
     {
         return convert(recording, output, guard, out, err);
     }
-    guard.addGroundTruth(output.path);
+    guard.addGroundTruth(output.path, recording.groundTruth());
     addOutputs(output, guard);
     const RecordingSummary summary = convertRecording(recording, output, err);
     std::vector<std::string> notes = recording.notes();

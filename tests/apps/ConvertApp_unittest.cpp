@@ -477,9 +477,24 @@ TEST_F(ConvertApp, groundTruthOfAnotherRawlogIsNotReplacedAndNotAdopted)
     EXPECT_EQ(test::readBytes(truth), "the first");
     EXPECT_FALSE(std::filesystem::exists(out_ + ".gz"));
 
-    ASSERT_EQ(run({in_, "-o", out_}), kExitOk) << text_;
-    EXPECT_THAT(text_, Not(HasSubstr("warning")));
-    EXPECT_THAT(test::readBytes(truth), HasSubstr("# truth"));
+    // Nobody named this file: it may be a user's.
+    const std::string rawlog = test::readBytes(out_);
+    EXPECT_EQ(run({in_, "-o", out_, "--label", "other"}), kExitBadInput);
+    EXPECT_THAT(
+        text_,
+        HasSubstr(
+            "-o " + out_ + ": its ground truth would replace " + truth +
+            ", which is a different one; move that file or give another name\n"));
+    EXPECT_EQ(test::readBytes(truth), "the first");
+    EXPECT_EQ(test::readBytes(out_), rawlog);
+
+    for (const std::string& own : {test::readBytes(dir_ / "in/groundtruth.txt"), std::string()})
+    {
+        writeBytes(truth, own);
+        ASSERT_EQ(run({in_, "-o", out_}), kExitOk) << text_;
+        EXPECT_THAT(text_, Not(HasSubstr("warning")));
+        EXPECT_THAT(test::readBytes(truth), HasSubstr("# truth"));
+    }
 
     std::filesystem::remove(dir_ / "in/groundtruth.txt");
     EXPECT_EQ(run({in_, "-o", out_}), kExitOk) << text_;

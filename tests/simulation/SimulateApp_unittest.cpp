@@ -313,6 +313,30 @@ TEST(SimulateApp, groundTruthOfAnotherRawlogIsNotReplaced)
     EXPECT_FALSE(std::filesystem::exists(dir / "b.rawlog.gz"));
 }
 
+/** Nobody named it, so it may be a user's. What this program wrote can be rendered again. */
+TEST(SimulateApp, aGroundTruthThatIsNotItsOwnIsNotReplaced)
+{
+    const test::TempDir dir;
+    const std::string truth = dir / "a.groundtruth.txt";
+    test::writeBytes(truth, "my mocap\n");
+    const Finished refused = run(smallRun(dir / "a.rawlog"));
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_EQ(
+        refused.err,
+        "pointplane-simulate: -o " + (dir / "a.rawlog") + ": its ground truth would replace " +
+            truth + ", which is a different one; move that file or give another name\n");
+    EXPECT_EQ(test::readBytes(truth), "my mocap\n");
+    EXPECT_FALSE(std::filesystem::exists(dir / "a.rawlog"));
+    std::filesystem::remove(truth);
+    for (const char* seed : {"1", "1", "2"})
+    {
+        std::vector<std::string> args = smallRun(dir / "a.rawlog");
+        args[8] = seed;
+        const Finished again = run(args);
+        EXPECT_EQ(again.code, 0) << again.err;
+    }
+}
+
 TEST(SimulateApp, unwritableOutputIsTheEnvironmentsFault)
 {
     const Finished result = run({"corner", "-o", "/no/such/dir/a.rawlog", "--duration", "0"});
