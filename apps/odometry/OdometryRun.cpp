@@ -96,7 +96,9 @@ class Run
     {
         if (!options.mask.empty())
         {
-            odometry_.setMask(readMask(options.mask));
+            const cv::Mat mask = readMask(options.mask);
+            maskSize_ = mask.size();
+            odometry_.setMask(mask);
         }
         odometry_.setMinLoggingLevel(mrpt::system::LVL_ERROR);  // the summary says it
         if (!options.quiet)
@@ -219,6 +221,7 @@ class Run
         {
             return item;
         }
+        checkMask(item.source);
         FrameRecord& record = item.frame.emplace();
         record.motion = odometry_.process(*item.source.converted);
         if (keepFeatures_)
@@ -231,6 +234,18 @@ class Run
             bar_->update(item.source.progress, summary_.numFrames);
         }
         return item;
+    }
+
+    /** By the first frame that has images; of those after it, the odometry says what is wrong. */
+    void checkMask(const SourceItem& item)
+    {
+        const RgbdFrame& frame = item.converted->frame;
+        if (!maskSize_.empty() && !frame.depth.empty())
+        {
+            requireMaskSize(
+                options_.mask, maskSize_, frame.depth.size(), item.observation->sensorLabel);
+            maskSize_ = {};
+        }
     }
 
     void write(const OutputItem& item)
@@ -288,6 +303,7 @@ class Run
     Sinks sinks_;
     bool keepFeatures_;
     VisualOdometry odometry_;
+    cv::Size maskSize_;  //!< until it is known to be that of the images
     std::optional<ProgressBar> bar_;
     RunSummary summary_;
 };

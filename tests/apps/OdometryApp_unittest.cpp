@@ -230,13 +230,35 @@ TEST_F(OdometryApp, aMaskLeavesOutTheRobot)
         return readBytes(dir_ / "poses.txt");
     };
     EXPECT_NE(poses({"--mask", dir_ / "mask.png"}), poses({}));
-    cv::imwrite(dir_ / "small.png", mask.colRange(0, 10));
-    const Outcome small = run({in_, "--mask", dir_ / "small.png"});
-    EXPECT_EQ(small.code, kExitIncomplete);
-    EXPECT_THAT(small.out, HasSubstr("the mask (10x"));
     EXPECT_THAT(
         run({in_, "--mask", dir_ / "mask.png", "--trajectory", dir_ / "mask.png"}).err,
         HasSubstr("is an input"));
+}
+
+/** As one that was drawn for another camera. What an earlier run wrote stays. */
+TEST_F(OdometryApp, aMaskOfAnotherSizeEndsTheRunAtTheFirstFrame)
+{
+    test::writeObservations(in_, 5);
+    ASSERT_EQ(run({in_, "--trajectory", out_}).code, kExitOk);
+    const std::string before = readBytes(out_);
+    cv::Mat mask(10, 20, CV_8UC1, cv::Scalar(255));
+    mask.row(0).setTo(0);
+    cv::imwrite(dir_ / "small.png", mask);
+    const cv::Size size =
+        sampleScan(0)->intensityImage.asCvMat<cv::Mat>(mrpt::img::SHALLOW_COPY).size();
+    for (const char* jobs : {"1", "2"})
+    {
+        const Outcome outcome =
+            run({in_, "--mask", dir_ / "small.png", "--jobs", jobs, "--trajectory", out_});
+        EXPECT_EQ(outcome.code, kExitBadInput);
+        EXPECT_EQ(
+            outcome.err,
+            "pointplane-odometry: " + (dir_ / "small.png") +
+                ": is 20x10, but images of camera 'RGBD' are " + std::to_string(size.width) + "x" +
+                std::to_string(size.height) + "; draw it in that size\n");
+        EXPECT_EQ(readBytes(out_), before);
+        EXPECT_FALSE(std::filesystem::exists(out_ + ".partial"));
+    }
 }
 
 /** Depth whose units are wrong by a thousand, and a camera that hangs. */
