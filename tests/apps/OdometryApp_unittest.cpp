@@ -704,6 +704,25 @@ TEST_F(OdometryApp, picturesOfEveryFrame)
     EXPECT_FALSE(std::filesystem::exists(dir_ / "few/000001.jpg"));
 }
 
+/** They stay, as they may be wanted, and are not taken for pictures of this run. */
+TEST_F(OdometryApp, picturesOfAnEarlierRunAreTold)
+{
+    test::writeObservations(in_, 5);
+    const std::string folder = dir_ / "pictures";
+    const Outcome first = run({in_, "--overlay", folder});
+    EXPECT_THAT(first.out, HasSubstr("pictures: 5 pictures\n"));
+    for (const char* name : {"photo.jpg", "000009.png", "12.jpg", "-00009.jpg"})
+    {
+        writeBytes(folder + "/" + name, "of somebody else");
+    }
+    EXPECT_EQ(run({in_, "--overlay", folder}).out.find("earlier"), std::string::npos);
+    const Outcome shorter = run({in_, "--overlay", folder, "--count", "2"});
+    EXPECT_EQ(shorter.code, kExitOk);
+    EXPECT_THAT(
+        shorter.out, HasSubstr("pictures: 2 pictures, and 3 of an earlier run, e.g. 000002.jpg\n"));
+    EXPECT_TRUE(std::filesystem::exists(folder + "/000004.jpg"));
+}
+
 TEST_F(OdometryApp, dumpedConfigurationIsItsOwnInput)
 {
     const Outcome dumped = run({"--dump-config", "--set", "DepthNoise.sigmaPixelPx=0.7"});
