@@ -109,7 +109,6 @@ class Run
 
     [[nodiscard]] RunSummary run()
     {
-        const auto start = std::chrono::steady_clock::now();
         try
         {
             runFrames();
@@ -137,7 +136,8 @@ class Run
             throw std::logic_error(oneLine(e));  // a bug: the options are good by now
         }
         summary_.seconds =
-            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - source_.start())
+                .count();
         return std::move(summary_);
     }
 

@@ -10,12 +10,17 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include <algorithm>
+#include <chrono>
+#include <cstdio>
 #include <filesystem>
+#include <fstream>
+#include <future>
 #include <limits>
 #include <map>
 #include <random>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "TempDir.h"
@@ -23,6 +28,7 @@
 #include "rawlog_samples.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 namespace pointplane
 {
@@ -211,6 +217,50 @@ TEST_F(OdometryApp, theSummaryGroupsTheFramesThatWereNotTracked)
                   "frame's\n"
                   "  frames 6-7 (stamp 1000.187500000): lost: observation has no range image\n"));
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+}
+
+/** Here by a pipe that pauses in the middle of them. */
+TEST_F(OdometryApp, theTimePerFrameIsWithoutTheFramesThatAreSkipped)
+{
+    RawlogWriterOptions plain;
+    plain.compressionLevel = 0;
+    test::writeObservations(in_, 300, plain);  // more bytes than a reader takes in advance
+    const std::string bytes = readBytes(in_), pipe = dir_ / "pipe.rawlog";
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    for (const char* jobs : {"1", "2"})
+    {
+        auto writer = std::async(
+            std::launch::async,
+            [&]
+            {
+                std::ofstream out(pipe, std::ios::binary);
+                out << bytes.substr(0, bytes.size() / 2) << std::flush;
+                std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+                out << bytes.substr(bytes.size() / 2);
+            });
+        const Outcome outcome = run({pipe, "--first", "297", "--jobs", jobs});
+        writer.get();
+        double milliseconds = 0;
+        const std::size_t at = outcome.out.find("path ");
+        ASSERT_NE(at, std::string::npos) << outcome.out << outcome.err;
+        ASSERT_EQ(
+            std::sscanf(outcome.out.c_str() + at, "path %*f m; %lf ms/frame", &milliseconds), 1);
+        EXPECT_LT(milliseconds, 300) << outcome.out;  // 500, if the pause counts
+        EXPECT_GT(milliseconds, 0);
+    }
+}
+
+TEST_F(OdometryApp, oneFrameIsTheFirstAndTellsNoMotion)
+{
+    test::writeObservations(in_, 3);
+    EXPECT_THAT(
+        run({in_, "--count", "1"}).out,
+        HasSubstr("RGBD: 1 frame, the first: nothing to compare it with; "));
+    EXPECT_THAT(run({in_, "--count", "2"}).out, HasSubstr("RGBD: 2 frames: 2 tracked, "));
+    const Outcome lost =
+        runOn(1, [](int, CObservation3DRangeScan& scan) { scan.hasRangeImage = false; });
+    EXPECT_THAT(lost.out, HasSubstr("1 frame: 0 tracked, 0 predicted, 1 lost; path"));
+    EXPECT_THAT(lost.err, HasSubstr("1 of 1 frame could not be used, first"));
 }
 
 /** The uppermost sixth of the images is the robot. */
