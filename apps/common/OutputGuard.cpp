@@ -56,20 +56,20 @@ void requireShortName(const std::string& option, const std::string& path, const 
 }
 
 /** Whether nothing is lost if `text` replaces this file. */
-[[nodiscard]] bool isReplaceable(
-    const std::string& path, const std::string& text, const std::string& mark)
+[[nodiscard]] bool isReplaceable(const std::string& path, const std::string& text)
 {
     std::error_code error;
     if (!fs::is_regular_file(path, error))
     {
         return true;
     }
+    const std::string rendered = kRenderedTruth;
     std::ifstream file(path, std::ios::binary);
-    std::string start(std::max(text.size(), mark.size()) + 1, '\0');
+    std::string start(std::max(text.size(), rendered.size()) + 1, '\0');
     file.read(start.data(), static_cast<std::streamsize>(start.size()));
     start.resize(static_cast<std::size_t>(file.gcount()));
-    return !file.bad() && (start == text || fs::file_size(path, error) == 0 ||
-                           (!mark.empty() && start.compare(0, mark.size(), mark) == 0));
+    return file.is_open() &&
+           (start.empty() || start == text || start.compare(0, rendered.size(), rendered) == 0);
 }
 
 [[noreturn]] void failToWrite(const std::string& option, const std::string& path)
@@ -279,6 +279,22 @@ void OutputGuard::addOutput(const std::string& option, const std::string& path)
     add(output);
 }
 
+void OutputGuard::addRawlog(const std::string& option, const std::string& path)
+{
+    addOutput(option, path);
+    fs::path name = fs::path(path).filename();
+    const bool isCompressed = name.extension() == ".gz";
+    name = isCompressed ? name.stem() : name;
+    const bool isNamedSo = name.extension() == ".rawlog" ||
+                           (!isCompressed && name.string().find('.') == std::string::npos);
+    if (!path.empty() && !isNamedSo && hasPlaceBeside(path))
+    {
+        throw InputError(
+            option + " " + path +
+            ": would be a rawlog; give a name that ends in .rawlog or .rawlog.gz");
+    }
+}
+
 void OutputGuard::addOutputFolder(
     const std::string& option, const std::string& path, const std::string& extension)
 {
@@ -304,8 +320,7 @@ OutputGuard::Output OutputGuard::folderAt(
     return {option, path, {fileAt(path)}, true, extension};
 }
 
-void OutputGuard::addGroundTruth(
-    const std::string& rawlog, const std::string& text, const std::string& mark)
+void OutputGuard::addGroundTruth(const std::string& rawlog, const std::string& text)
 {
     if (!hasPlaceBeside(rawlog))
     {
@@ -323,7 +338,7 @@ void OutputGuard::addGroundTruth(
             other + "; give another name");
     }
     addOutput("ground truth of -o", truth);
-    if (!isReplaceable(truth, text, mark))
+    if (!isReplaceable(truth, text))
     {
         throw InputError(
             "-o " + rawlog + ": its ground truth would replace " + truth +

@@ -157,7 +157,7 @@ CLI::App* addBagCommand(CLI::App& app, BagOptions& options, RecordingOutput& out
 
 void addOutputs(const RecordingOutput& output, OutputGuard& guard)
 {
-    guard.addOutput("-o", output.path);
+    guard.addRawlog("-o", output.path);
     if (output.external)
     {
         guard.addFolderBeside("images of -o", output.path, imagesFolderOf(output.path));

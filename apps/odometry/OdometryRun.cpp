@@ -72,12 +72,12 @@ using Sinks = std::vector<std::unique_ptr<Sink>>;
     {
         guard.addInputRawlog(input);
     }
-    guard.addOutput("-o", options.output);
     guard.addOutput("--simplemap", options.simplemap);
     guard.addOutput("--graph", options.graph);
     guard.addOutput("--trajectory", options.trajectory);
     guard.addOutput("--diagnostics", options.diagnostics);
     guard.addOutputFolder("--overlay", options.overlay, ".jpg");
+    guard.addRawlog("-o", options.output);
     return guard;
 }
 

@@ -78,14 +78,11 @@ void writeMasks(const SimulatedSequence& sequence, const std::string& folder)
     }
 }
 
-/** How every ground truth of this program begins. */
-constexpr const char* kTruthMark = "# exact pose in the world of the ";
-
 [[nodiscard]] std::string groundTruthText(
     const SimulatedSequence& sequence, const SequenceOutput& output)
 {
     const bool robot = output.truthFrame == "robot";
-    std::string text = kTruthMark;
+    std::string text = kRenderedTruth;
     text += robot ? "robot, axes x forward, y left, z up; its camera has sensorPose = identity\n"
                   : "camera, optical axes x right, y down, z forward\n";
     text += "# stamp tx ty tz qx qy qz qw\n";
@@ -144,9 +141,9 @@ void writeSequence(
     const SimulatedSequence& sequence, const SequenceOutput& output, std::ostream& progress)
 {
     OutputGuard guard;
-    guard.addOutput("-o", output.path);
+    guard.addRawlog("-o", output.path);
     const std::string truth = groundTruthText(sequence, output);
-    guard.addGroundTruth(output.path, truth, kTruthMark);
+    guard.addGroundTruth(output.path, truth);
     if (output.external)
     {
         guard.addFolderBeside("images of -o", output.path, imagesFolderOf(output.path));

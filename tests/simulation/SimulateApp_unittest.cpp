@@ -248,6 +248,7 @@ TEST(SimulateApp, badUsageIsNamedAndLeavesNoFile)
          "--set foo=1: unknown key 'foo' (see --list-settings)"},
         {{"corner", "-o", path, "--label", "a\nb"}, "new line or another control character"},
         {{"corner", "-o", path, "--set", "fps=0"}, "fps"},
+        {{"corner", "-o", path + ".txt"}, "a.rawlog.txt: would be a rawlog; give a name that ends"},
         {{"corner", "-o", path, "--size", "640"}, "--size"},
         {{"corner", "-o", path, "--size", "640x480px"}, "--size"},
         {{"corner", "-o", path, "--duration", "-1"}, "duration"},
