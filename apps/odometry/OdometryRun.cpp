@@ -31,34 +31,51 @@ namespace
 {
 using Sinks = std::vector<std::unique_ptr<Sink>>;
 
+template <class S, class... Args>
+void addSink(Sinks& sinks, const std::string& option, const Args&... args)
+{
+    try
+    {
+        sinks.push_back(std::make_unique<S>(args...));
+    }
+    catch (const EnvironmentError& e)
+    {
+        throw EnvironmentError(option + ": " + e.what());
+    }
+}
+
 [[nodiscard]] Sinks openSinks(const OdometryOptions& options)
 {
     Sinks sinks;
     if (!options.output.empty())
     {
-        sinks.push_back(std::make_unique<RawlogSink>(options));
+        addSink<RawlogSink>(sinks, "-o", options);
     }
     if (!options.simplemap.empty())
     {
-        sinks.push_back(std::make_unique<SimplemapSink>(
-            options.simplemap, options.keyframeDistance, options.keyframeAngleDeg));
+        addSink<SimplemapSink>(
+            sinks,
+            "--simplemap",
+            options.simplemap,
+            options.keyframeDistance,
+            options.keyframeAngleDeg);
     }
     if (!options.graph.empty())
     {
-        sinks.push_back(std::make_unique<GraphSink>(options.graph));
+        addSink<GraphSink>(sinks, "--graph", options.graph);
     }
     if (!options.trajectory.empty())
     {
-        sinks.push_back(std::make_unique<TrajectorySink>(
-            options.trajectory, options.trajectoryFrame == "robot"));
+        addSink<TrajectorySink>(
+            sinks, "--trajectory", options.trajectory, options.trajectoryFrame == "robot");
     }
     if (!options.diagnostics.empty())
     {
-        sinks.push_back(std::make_unique<DiagnosticsSink>(options.diagnostics));
+        addSink<DiagnosticsSink>(sinks, "--diagnostics", options.diagnostics);
     }
     if (!options.overlay.empty())
     {
-        sinks.push_back(std::make_unique<OverlaySink>(options.overlay, options.overlayEvery));
+        addSink<OverlaySink>(sinks, "--overlay", options.overlay, options.overlayEvery);
     }
     return sinks;
 }

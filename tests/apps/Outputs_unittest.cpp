@@ -359,7 +359,7 @@ TEST_F(Outputs, aPartialNameThatIsSomethingElseIsLeftAlone)
         {
             const AppRun outcome = run({in_, option, out_});
             EXPECT_EQ(outcome.code, kExitEnvironment) << k << option;
-            EXPECT_THAT(outcome.err, HasSubstr("cannot create " + partial)) << k << option;
+            EXPECT_THAT(outcome.err, HasSubstr(option + ": cannot create " + partial)) << k;
             EXPECT_EQ(files(), before) << k << option;
         }
         EXPECT_EQ(readBytes(precious), "precious") << k;
