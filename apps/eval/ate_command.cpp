@@ -17,6 +17,8 @@ namespace pointplane
 {
 namespace
 {
+constexpr std::size_t kFewPoses = 10;
+
 struct AteCommand
 {
     std::string groundTruth, estimate;
@@ -114,6 +116,8 @@ void AteCommand::run(CommandContext& context) const
     ReportedRun run;
     run.groundTruth = input.loadTruth(groundTruth, context);
     run.estimate = input.loadEstimate(estimate, context);
+    checkOrder(run.groundTruth, run.estimate, context);
+    const ReportInputs inputs = report.read(run.estimate);
     run.rpe.offset = run.nees.offset = options.offset;
     run.rpe.scale = options.scale;
     run.rpe.fixedDelta = true;
@@ -143,12 +147,16 @@ void AteCommand::run(CommandContext& context) const
         printScriptLines(result.translation, context.out);
     }
     writeResult(scored, files, context.out, !verbose);
-    if (!report.directory.empty())
-    {
-        writeTrajectoryReport(run, report, context);
-    }
+    writeTrajectoryReport(run, report, inputs, context);
     checkThreshold("RMSE", scored.rows[0], maxRmse, context);
-    coverage.check(estimate, result.coverage, maxRmse >= 0, context);
+    if (result.errors.size() < kFewPoses)
+    {
+        context.err
+            << context.program << ": warning: " << estimate << ": only " << result.errors.size()
+            << " poses have ground truth; the alignment fits so few, whatever their errors\n";
+    }
+    coverage.check(
+        estimate, result.coverage, maxRmse >= 0 ? ScoreIs::Judged : ScoreIs::Shown, context);
 }
 }  // namespace
 

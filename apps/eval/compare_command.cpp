@@ -73,6 +73,7 @@ void CompareCommand::run(CommandContext& context)
     for (const std::string& path : estimates)
     {
         loaded.push_back(withoutLost(input.loadEstimate(path, context)));
+        checkOrder(truth, loaded.back(), context);
     }
     const Comparison comparison = compareRuns(truth, loaded, resolved, ate, bootstrap);
     const std::string protocol = describe(resolved, comparison.runs.front().rpe) +
@@ -91,7 +92,7 @@ void CompareCommand::run(CommandContext& context)
     }
     for (const ComparedRun& run : comparison.runs)
     {
-        coverage.check(run.name, run.rpe.coverage, false, context);
+        coverage.check(run.name, run.rpe.coverage, ScoreIs::Shown, context);
     }
 }
 }  // namespace

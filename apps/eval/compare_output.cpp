@@ -13,7 +13,8 @@ namespace pointplane
 {
 namespace
 {
-std::string behindText(const std::optional<BootstrapInterval>& behind, bool best, double unit)
+std::string behindText(
+    const Comparison& c, const std::optional<BootstrapInterval>& behind, bool best, double unit)
 {
     if (best)
     {
@@ -21,7 +22,11 @@ std::string behindText(const std::optional<BootstrapInterval>& behind, bool best
     }
     if (!behind)
     {
-        return "no common pairs";
+        return c.runs.size() == 1 ? "-" : "no common pairs";
+    }
+    if (!behind->isKnown())
+    {
+        return format("%+.3f too short", behind->value * unit);
     }
     return format(
         "%+.3f [%+.3f, %+.3f]%s",
@@ -29,6 +34,11 @@ std::string behindText(const std::optional<BootstrapInterval>& behind, bool best
         behind->lower * unit,
         behind->upper * unit,
         behind->excludesZero() ? "" : " ns");
+}
+
+std::string titleOf(const Comparison& c)
+{
+    return format("Comparison of %zu run%s", c.runs.size(), c.runs.size() == 1 ? "" : "s");
 }
 
 bool isBest(const Comparison& c, std::size_t run, std::size_t best)
@@ -43,8 +53,12 @@ nlohmann::ordered_json nameOfBest(const Comparison& c, std::size_t best)
 }
 
 /** What a reader must know of runs that have different frames; empty otherwise. */
-std::string noteOf(const Comparison& c)
+std::string noteOnFrames(const Comparison& c)
 {
+    if (c.runs.size() == 1)
+    {
+        return "this is one run; give others to compare it with";
+    }
     const std::string ofAte =
         c.bestAte ? "" : "; ATE is each run's own, so none is marked as the best in ATE";
     if (c.sameFrames)
@@ -61,18 +75,55 @@ std::string noteOf(const Comparison& c)
                  "cannot be compared";
 }
 
+/** Why differences have no interval; empty if they have one. */
+std::string noteOnLength(const Comparison& c)
+{
+    for (const ComparedRun& run : c.runs)
+    {
+        for (const auto& behind : {run.translationBehindBest, run.rotationBehindBest})
+        {
+            if (behind && !behind->isKnown())
+            {
+                return format(
+                    "too short for an interval: %zu pair(s) without overlap, at least %zu are "
+                    "needed (--delta sets their length)",
+                    behind->independent,
+                    BootstrapInterval::kLeastIndependent);
+            }
+        }
+    }
+    return "";
+}
+
+std::string noteOf(const Comparison& c)
+{
+    const std::string frames = noteOnFrames(c);
+    const std::string length = noteOnLength(c);
+    return frames + (frames.empty() || length.empty() ? "" : "; ") + length;
+}
+
+/** Ends are null if there is no interval. */
 nlohmann::ordered_json intervalJson(const BootstrapInterval& interval, double unit)
 {
     return {
         {"value", interval.value * unit},
         {"lower95", interval.lower * unit},
-        {"upper95", interval.upper * unit}};
+        {"upper95", interval.upper * unit},
+        {"independent", interval.independent}};
+}
+
+/** A value with the ends of its interval, which are empty if there is none. */
+std::string intervalFields(const BootstrapInterval& interval, double unit)
+{
+    return format(",%.9g", interval.value * unit) +
+           (interval.isKnown() ? format(",%.9g,%.9g", interval.lower * unit, interval.upper * unit)
+                               : ",,");
 }
 }  // namespace
 
 void printTable(const Comparison& c, const std::string& protocol, std::ostream& out)
 {
-    out << "Comparison of " << c.runs.size() << " runs: " << protocol << "\n"
+    out << titleOf(c) << ": " << protocol << "\n"
         << "RPE RMSE, its distance to the best with the bootstrap's 95 % interval (ns: not "
            "significant), ATE RMSE\n\n"
         << format(
@@ -95,10 +146,10 @@ void printTable(const Comparison& c, const std::string& protocol, std::ostream& 
             name.c_str(),
             1000 * r.translation.value,
             isBest(c, k, c.bestTranslation) ? "*" : " ",
-            behindText(r.translationBehindBest, isBest(c, k, c.bestTranslation), 1000).c_str(),
+            behindText(c, r.translationBehindBest, isBest(c, k, c.bestTranslation), 1000).c_str(),
             kDegreesPerRadian * r.rotation.value,
             isBest(c, k, c.bestRotation) ? "*" : " ",
-            behindText(r.rotationBehindBest, isBest(c, k, c.bestRotation), kDegreesPerRadian)
+            behindText(c, r.rotationBehindBest, isBest(c, k, c.bestRotation), kDegreesPerRadian)
                 .c_str(),
             1000 * r.ate.translation.rmse,
             c.bestAte == k ? "*" : " ",
@@ -155,17 +206,10 @@ std::string toCsv(const Comparison& c)
         "rpe_deg_upper95,ate_m\n";
     for (const ComparedRun& r : c.runs)
     {
-        out += csvField(r.name) + format(
-                                      ",%zu,%.6g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n",
-                                      r.rpe.translation.count,
-                                      r.rpe.coverage.share,
-                                      r.translation.value,
-                                      r.translation.lower,
-                                      r.translation.upper,
-                                      r.rotation.value * kDegreesPerRadian,
-                                      r.rotation.lower * kDegreesPerRadian,
-                                      r.rotation.upper * kDegreesPerRadian,
-                                      r.ate.translation.rmse);
+        out += csvField(r.name) +
+               format(",%zu,%.6g", r.rpe.translation.count, r.rpe.coverage.share) +
+               intervalFields(r.translation, 1) + intervalFields(r.rotation, kDegreesPerRadian) +
+               format(",%.9g\n", r.ate.translation.rmse);
     }
     return out;
 }
@@ -177,9 +221,7 @@ HtmlReport reportOf(
     const Trajectory& truth,
     const std::vector<Trajectory>& estimates)
 {
-    HtmlReport report(
-        format("Comparison of %zu runs", c.runs.size()),
-        protocol + (noteOf(c).empty() ? "" : "; " + noteOf(c)));
+    HtmlReport report(titleOf(c), protocol + (noteOf(c).empty() ? "" : "; " + noteOf(c)));
     std::vector<std::vector<std::string>> rows;
     std::vector<DrawnPath> paths;
     std::vector<Chart> errors;
@@ -189,9 +231,9 @@ HtmlReport reportOf(
         rows.push_back(
             {r.name,
              format("%.3f", 1000 * r.translation.value),
-             behindText(r.translationBehindBest, isBest(c, k, c.bestTranslation), 1000),
+             behindText(c, r.translationBehindBest, isBest(c, k, c.bestTranslation), 1000),
              format("%.4f", kDegreesPerRadian * r.rotation.value),
-             behindText(r.rotationBehindBest, isBest(c, k, c.bestRotation), kDegreesPerRadian),
+             behindText(c, r.rotationBehindBest, isBest(c, k, c.bestRotation), kDegreesPerRadian),
              format("%.3f", 1000 * r.ate.translation.rmse),
              format("%.1f %%", 100 * r.rpe.coverage.share)});
         paths.push_back({r.name, estimates[k], r.ate, rpe.scale});

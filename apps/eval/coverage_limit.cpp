@@ -25,13 +25,14 @@ void CoverageLimit::addTo(CLI::App& command)
 void CoverageLimit::check(
     const std::string& estimate,
     const Coverage& coverage,
-    bool judged,
+    ScoreIs score,
     CommandContext& context) const
 {
     const double scored = 100 * coverage.share + kRounding;
     const bool isGiven = percent >= 0;
-    const double limit = isGiven ? percent : judged && coverage.ofRecording ? kLeastPercent : 0;
-    if (scored < limit)
+    const bool isJudged = score == ScoreIs::Judged && coverage.ofRecording;
+    const double limit = isGiven ? percent : isJudged ? kLeastPercent : 0;
+    if (!(scored >= limit))
     {
         context.err << context.program << ": " << estimate
                     << format(": coverage %.1f %% is below %g %%", scored, limit)
@@ -41,12 +42,12 @@ void CoverageLimit::check(
                     << "\n";
         context.exitCode = kExitIncomplete;
     }
-    else if (judged && scored < kLeastPercent)
+    else if (score != ScoreIs::OfAllFrames && scored < kLeastPercent)
     {
         context.err << context.program << ": warning: " << estimate
                     << format(": only %.1f %% of the ", scored)
                     << (coverage.ofRecording ? "recording" : "ground truth's time")
-                    << " were judged\n";
+                    << " was scored\n";
     }
 }
 }  // namespace pointplane

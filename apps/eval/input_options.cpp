@@ -6,11 +6,14 @@
 #include <pointplane/evaluation/nees.h>
 #include <pointplane/evaluation/units.h>
 
+#include <algorithm>
 #include <cmath>
+#include <ostream>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 
+#include "command.h"
 #include "load_trajectory.h"
 #include "result_output.h"
 
@@ -98,6 +101,20 @@ std::string hintAtAxes(
                      score,
                      estimate.name.c_str())
                : "";
+}
+
+void checkOrder(const Trajectory& truth, const Trajectory& estimate, CommandContext& context)
+{
+    const auto isZero = [](const Matrix6d& cov) { return cov.isZero(0); };
+    const auto isOfOdometry = [&](const Trajectory& t)
+    { return t.marksFrames || !std::all_of(t.covs.begin(), t.covs.end(), isZero); };
+    if (isOfOdometry(truth) && !isOfOdometry(estimate))
+    {
+        context.err << context.program << ": warning: '" << truth.name << "' has "
+                    << (truth.marksFrames ? "marks of tracked and lost frames" : "covariances")
+                    << ", and '" << estimate.name
+                    << "' has not; is the ground truth given first?\n";
+    }
 }
 
 Trajectory InputOptions::loadTruth(const std::string& path, CommandContext& context) const

@@ -34,6 +34,10 @@ struct InputOptions
     [[nodiscard]] Trajectory loadEstimate(const std::string& path, CommandContext& context) const;
 };
 
+/** Warns if the ground truth is what an odometry writes (with marks of frames, or covariances) and
+ * the estimate is not: they may be in the wrong order. */
+void checkOrder(const Trajectory& truth, const Trajectory& estimate, CommandContext& context);
+
 /** Poses of a rawlog are usually in MRPT's axes and TUM ground truth in optical ones; forgetting
  * --body-from-gt then gives errors that look like a bad odometry.
  * \param scoreWith the score (the less the better) with another body of the ground truth

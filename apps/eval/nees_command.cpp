@@ -22,6 +22,9 @@ namespace pointplane
 {
 namespace
 {
+constexpr double kLargestSigma = 1000;    // [m] whose square is far from overflow
+constexpr double kLargestSigmaDeg = 180;  // no rotation is larger
+
 struct NeesCommand
 {
     std::vector<std::string> files;
@@ -56,12 +59,12 @@ Eigen::Vector3d sigmaFromOption(const std::string& text)
     {
         v.resize(3, v.front());
     }
-    const auto isSigma = [](double value) { return std::isfinite(value) && value >= 0; };
+    const auto isSigma = [](double value) { return value >= 0 && value <= kLargestSigmaDeg; };
     if (v.size() != 3 || !std::all_of(v.begin(), v.end(), isSigma))
     {
         throw std::invalid_argument(
             "--gt-sigma-rot-deg: '" + text +
-            "' is neither a standard deviation in deg nor three as x,y,z");
+            "' is neither a standard deviation in deg nor three as x,y,z (from 0 to 180)");
     }
     return Eigen::Vector3d(v[0], v[1], v[2]) / kDegreesPerRadian;
 }
@@ -85,7 +88,7 @@ void NeesCommand::addTo(CLI::App& command)
             options.truthSigmaTranslation,
             "Standard deviation of each ground-truth position, per axis [m]")
         ->capture_default_str()
-        ->check(isNotNegative())
+        ->check(isBetween(0, kLargestSigma))
         ->group("Protocol");
     command
         .add_option(
@@ -231,7 +234,8 @@ void NeesCommand::checkRange(
     for (const NeesResult& result : results)
     {
         const double nees = result.joint.nees;
-        if ((maxNees >= 0 && nees > maxNees) || (minNees >= 0 && nees < minNees))
+        if ((maxNees >= 0 && !(nees <= maxNees)) ||
+            (minNees >= 0 && !(nees >= minNees)))  // nor NaN
         {
             context.err << "pointplane-eval: NEES per dof " << numberText(nees, 3) << " at "
                         << nameOf(result.interval) << " is outside the stated range\n";
@@ -264,6 +268,8 @@ void NeesCommand::run(CommandContext& context) const
     {
         const Trajectory truth = input.loadTruth(files[k], context);
         const Trajectory estimate = input.loadEstimate(files[k + 1], context);
+        checkOrder(truth, estimate, context);
+        const ReportInputs inputs = html.read(estimate);
         const NeesRun run = neesRun(truth, estimate, lengths, report.options);
         poolRun(pools, run);
         untold = run.untold.empty() ? untold : run.note;
@@ -280,7 +286,7 @@ void NeesCommand::run(CommandContext& context) const
             ReportedRun reported{truth, estimate, {}, {}, report.options, lengths, hint};
             reported.rpe.fixedDelta = true;
             reported.rpe.offset = reported.ate.offset = report.options.offset;
-            writeTrajectoryReport(reported, html, context);
+            writeTrajectoryReport(reported, html, inputs, context);
         }
     }
     for (const Pool& pool : pools)
@@ -291,8 +297,7 @@ void NeesCommand::run(CommandContext& context) const
     checkRange(report.results, untold, context);
     for (std::size_t k = 0; k < report.coverages.size(); ++k)
     {
-        // Not judged by it: the covariances of lost frames are tested, too.
-        coverage.check(files[2 * k + 1], report.coverages[k], false, context);
+        coverage.check(files[2 * k + 1], report.coverages[k], ScoreIs::OfAllFrames, context);
     }
 }
 }  // namespace

@@ -20,17 +20,10 @@ double shown(double value, std::size_t axis)
     return value * (axis < 3 ? 1000 : kDegreesPerRadian);
 }
 
-std::string word(const ConsistencyTest& test)
-{
-    return test.isOptimistic()     ? "optimistic"
-           : test.isConservative() ? "conservative"
-                                   : "consistent";
-}
-
 std::string testColumns(const ConsistencyTest& test)
 {
     return numberText(test.nees, 3, 10) +
-           format("   [%.3f, %.3f]  %s\n", test.lower, test.upper, word(test).c_str());
+           format("   [%.3f, %.3f]  %s\n", test.lower, test.upper, shortVerdict(test).c_str());
 }
 
 /** The most optimistic direction in its larger components. */
@@ -54,7 +47,7 @@ nlohmann::ordered_json testJson(const ConsistencyTest& test)
         {"neesPerDof", test.nees},
         {"lower95", test.lower},
         {"upper95", test.upper},
-        {"verdict", word(test)}};
+        {"verdict", shortVerdict(test)}};
 }
 
 void printInterval(const NeesResult& r, std::ostream& out)

@@ -22,7 +22,7 @@ std::vector<std::string> consistencyCells(const std::string& name, const NeesRes
         t.isOptimistic() ? "optimistic, sigmas x " + numberText(std::sqrt(t.nees), 2) + " too small"
         : t.isConservative()
             ? "conservative, sigmas x " + numberText(1 / std::sqrt(t.nees), 2) + " too large"
-            : "consistent";
+            : shortVerdict(t);
     std::vector<std::string> cells{name, judgement, std::to_string(r.independent)};
     for (const ConsistencyTest& test : {r.joint, r.translation, r.rotation})
     {

@@ -5,9 +5,8 @@
 #include <pointplane/mrpt_io/errors.h>
 
 #include <algorithm>
-#include <cstddef>
 #include <filesystem>
-#include <utility>
+#include <stdexcept>
 #include <vector>
 
 #include "result_output.h"
@@ -18,45 +17,54 @@ namespace
 {
 constexpr std::size_t kWorstFrames = 4;
 
-/** Numbers that pointplane-odometry gave to frames. */
-class FrameNumbers
+/** \throws InputError saying why it is none */
+void requireFolder(const std::string& path)
 {
- public:
-    /** \param table in the order of the recording: frames that are lost for a late stamp are not in
-     * the order of stamps */
-    explicit FrameNumbers(const FrameTable& table)
+    std::error_code error;
+    if (!std::filesystem::is_directory(path, error))
     {
-        const std::vector<double> frames = table.column("frame");
-        std::vector<std::pair<double, double>> sorted;
-        for (std::size_t k = 0; k < frames.size(); ++k)
-        {
-            if (frames[k] >= 0)  // not NaN
-            {
-                sorted.emplace_back(table.stamps()[k], frames[k]);
-            }
-        }
-        std::sort(sorted.begin(), sorted.end());
-        for (const auto& [stamp, frame] : sorted)
-        {
-            stamps_.push_back(stamp);
-            frames_.push_back(static_cast<std::size_t>(frame));
-        }
+        throw InputError(
+            "cannot open " + path + ": " + (error ? error.message() : "is not a folder"));
     }
-
-    /** \param index of the pose, its number where there is no table */
-    [[nodiscard]] std::size_t of(double stamp, std::size_t index) const
-    {
-        return stamps_.empty() ? index : frames_[nearestIndex(stamps_, stamp)];
-    }
-
- private:
-    std::vector<double> stamps_;
-    std::vector<std::size_t> frames_;
-};
+}
 }  // namespace
 
-void addWorstFrames(
-    HtmlReport& report, const ReportedRun& run, const FrameTable& table, const std::string& folder)
+FramePictures picturesOf(
+    const Trajectory& estimate,
+    const FrameTable& table,
+    const std::string& tablePath,
+    const std::string& folder)
+{
+    requireFolder(folder);
+    const std::vector<double> frames = table.column("frame");
+    if (frames.empty())
+    {
+        throw InputError(tablePath + ":1: no column 'frame', which tells the pictures' names");
+    }
+    FramePictures out;
+    const Trajectory measured = withoutLost(estimate);
+    for (const auto& [pose, row] : rowsOf(measured.stamps, table))
+    {
+        if (!(frames[row] >= 0))  // NaN
+        {
+            continue;
+        }
+        const auto frame = static_cast<std::size_t>(frames[row]);
+        const std::string picture = folder + format("/%06zu.jpg", frame);
+        if (std::filesystem::exists(picture))
+        {
+            out[measured.stamps[pose]] = {frame, picture};
+        }
+    }
+    if (out.empty())
+    {
+        throw InputError(
+            folder + ": no picture 000001.jpg, ... of the frames of " + tablePath + " is in it");
+    }
+    return out;
+}
+
+void addWorstFrames(HtmlReport& report, const ReportedRun& run, const FramePictures& pictures)
 {
     RpeOptions frameToFrame = run.rpe;
     frameToFrame.fixedDelta = true;
@@ -64,19 +72,17 @@ void addWorstFrames(
     frameToFrame.unit = DeltaUnit::Frames;
     frameToFrame.truthAt = TruthAt::Interpolated;
     const Trajectory truth = withBody(run.groundTruth, run.nees.T_truth_body);
-    std::vector<RpePair> pairs = relativePoseError(truth, run.estimate, frameToFrame).pairs;
+    const Trajectory measured = withoutLost(run.estimate);
+    std::vector<RpePair> pairs = relativePoseError(truth, measured, frameToFrame).pairs;
     std::sort(
         pairs.begin(),
         pairs.end(),
         [](const RpePair& a, const RpePair& b) { return a.translation > b.translation; });
-    const FrameNumbers numbers(table);
     std::size_t numPictures = 0;
     for (const RpePair& pair : pairs)
     {
-        const double stamp = run.estimate.stamps[pair.j];
-        const std::size_t frame = numbers.of(stamp, pair.j);
-        const std::string picture = folder + format("/%06zu.jpg", frame);
-        if (numPictures == kWorstFrames || !std::filesystem::exists(picture))
+        const auto found = pictures.find(measured.stamps[pair.j]);
+        if (numPictures == kWorstFrames || found == pictures.end())
         {
             continue;
         }
@@ -84,15 +90,15 @@ void addWorstFrames(
         report.addPicture(
             format(
                 "Frame %zu at %.2f s: motion off by %.1f mm, %.2f deg",
-                frame,
-                stamp - run.estimate.stamps.front(),
+                found->second.frame,
+                found->first - run.estimate.stamps.front(),
                 1000 * pair.translation,
                 kDegreesPerRadian * pair.rotation),
-            picture);
+            found->second.path);
     }
     if (numPictures == 0)
     {
-        throw InputError(folder + ": no picture 000001.jpg, ... of these frames is in it");
+        throw std::runtime_error("none is of a frame that has ground truth");
     }
 }
 }  // namespace pointplane

@@ -4,16 +4,35 @@
 #include <pointplane/evaluation/FrameTable.h>
 #include <pointplane/evaluation/HtmlReport.h>
 
+#include <cstddef>
+#include <map>
 #include <string>
 
 #include "ReportedRun.h"
 
 namespace pointplane
 {
-/** Adds pictures, of those that there are, of the frames whose motion from the previous frame is
- * the most wrong.
- * \param table tells the frames' numbers; without rows, poses are counted
- * \param folder of pointplane-odometry --overlay \throws InputError if none of them is there */
-void addWorstFrames(
-    HtmlReport& report, const ReportedRun& run, const FrameTable& table, const std::string& folder);
+/** A picture of pointplane-odometry --overlay. */
+struct FramePicture
+{
+    std::size_t frame{0};  //!< counted as there, lost and skipped ones too
+    std::string path;
+};
+
+/** By stamp of the estimate's pose. */
+using FramePictures = std::map<double, FramePicture>;
+
+/** Pictures, of those that there are, of frames that are not lost.
+ * \param table tells the frames' numbers by their stamps \param tablePath its file
+ * \param folder of pointplane-odometry --overlay
+ * \throws InputError if there are none, or if table or folder are not of the estimate */
+[[nodiscard]] FramePictures picturesOf(
+    const Trajectory& estimate,
+    const FrameTable& table,
+    const std::string& tablePath,
+    const std::string& folder);
+
+/** Adds pictures of the frames whose motion from the frame before that was not lost is the most
+ * wrong. \throws std::runtime_error if there is none that can be scored */
+void addWorstFrames(HtmlReport& report, const ReportedRun& run, const FramePictures& pictures);
 }  // namespace pointplane

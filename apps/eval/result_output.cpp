@@ -227,7 +227,7 @@ void writeResult(
 void checkThreshold(
     const std::string& name, const StatisticsRow& row, double threshold, CommandContext& context)
 {
-    if (threshold >= 0 && row.statistics.rmse > threshold)
+    if (threshold >= 0 && !(row.statistics.rmse <= threshold))
     {
         context.err << format(
             "pointplane-eval: %s %.6f %s exceeds the threshold %g %s\n",

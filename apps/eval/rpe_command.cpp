@@ -108,6 +108,7 @@ ScoredResult RpeCommand::scored(
     out.details = {
         {"pairs", result.translation.count},
         {"candidatePairs", result.candidatePairs},
+        {"pairsOffDelta", result.pairsOffDelta},
         {"coverage", toJson(result.coverage)},
         {"fixedDelta", rpe.fixedDelta},
         {"delta", rpe.delta},
@@ -129,6 +130,8 @@ void RpeCommand::run(CommandContext& context) const
     ReportedRun run;
     run.groundTruth = input.loadTruth(groundTruth, context);
     run.estimate = input.loadEstimate(estimate, context);
+    checkOrder(run.groundTruth, run.estimate, context);
+    const ReportInputs inputs = report.read(run.estimate);
     run.rpe = rpe;
     run.ate.offset = rpe.offset;
     run.ate.scale = rpe.scale;
@@ -158,13 +161,11 @@ void RpeCommand::run(CommandContext& context) const
     }
     const ScoredResult score = scored(rpe, result, measured);
     writeResult(score, files, context.out, !verbose);
-    if (!report.directory.empty())
-    {
-        writeTrajectoryReport(run, report, context);
-    }
+    writeTrajectoryReport(run, report, inputs, context);
     checkThreshold("translation RMSE", score.rows[0], maxRmse, context);
     checkThreshold("rotation RMSE", score.rows[1], maxRmseDeg, context);
-    coverage.check(estimate, result.coverage, maxRmse >= 0 || maxRmseDeg >= 0, context);
+    const bool isJudged = maxRmse >= 0 || maxRmseDeg >= 0;
+    coverage.check(estimate, result.coverage, isJudged ? ScoreIs::Judged : ScoreIs::Shown, context);
 }
 }  // namespace
 

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trajectory_report.h"
 
+#include <pointplane/core/read_errors.h>
 #include <pointplane/evaluation/trajectory_charts.h>
 #include <pointplane/mrpt_io/errors.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <utility>
 
 #include "OutputGuard.h"
@@ -23,33 +24,56 @@ namespace pointplane
 {
 namespace
 {
+bool isText(const std::string& bytes)
+{
+    const auto isControl = [](char c)
+    { return static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\r' && c != '\t'; };
+    return std::none_of(bytes.begin(), bytes.end(), isControl);
+}
+
+/** \throws InputError if it is not that of a configuration, which would fill the page */
 std::string textOf(const std::string& path)
 {
+    constexpr std::size_t kLongest = 1 << 20;
     std::ifstream file(path);
     if (!file || std::filesystem::is_directory(path))
     {
         throw InputError(
             "cannot open " + path + ": " + (file ? "is a directory" : std::strerror(errno)));
     }
-    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    std::string text(kLongest + 1, ' ');
+    file.read(text.data(), static_cast<std::streamsize>(text.size()));
+    requireRead(file, path);
+    text.resize(static_cast<std::size_t>(file.gcount()));
+    if (!isText(text) || text.size() > kLongest)
+    {
+        throw InputError(
+            path + (isText(text) ? ": is longer than 1 MiB" : ": is not text") +
+            "; give the configuration of the run");
+    }
+    return text;
 }
 }  // namespace
 
 void ReportOptions::addTo(CLI::App& command)
 {
-    CLI::Option* report = command.add_option(
+    CLI::Option* const report = command.add_option(
         "--report", directory, "Write DIR/index.html, with charts, and each chart as SVG");
     report->type_name("DIR")->group("Output");
-    const auto addPart =
-        [&](const char* name, std::string& path, const char* type, const char* description) {
-            command.add_option(name, path, description)
-                ->type_name(type)
-                ->needs(report)
-                ->group("Output");
-        };
-    addPart("--diagnostics", diagnostics, "FILE", "Table of pointplane-odometry --diagnostics");
-    addPart("--run-config", runConfig, "FILE", "Configuration of the run, to be shown");
-    addPart("--overlays", overlays, "DIR", "Folder of pointplane-odometry --overlay");
+    const auto addPart = [&](const char* name,
+                             std::string& path,
+                             const char* type,
+                             const char* description,
+                             CLI::Option* needed)
+    {
+        CLI::Option* const part = command.add_option(name, path, description);
+        return part->type_name(type)->needs(needed)->group("Output");
+    };
+    CLI::Option* const table = addPart(
+        "--diagnostics", diagnostics, "FILE", "Table of pointplane-odometry --diagnostics", report);
+    addPart("--run-config", runConfig, "FILE", "Configuration of the run, to be shown", report);
+    // Only the table tells the numbers of frames.
+    addPart("--overlays", overlays, "DIR", "Folder of pointplane-odometry --overlay", table);
 }
 
 void ReportOptions::guardedBy(OutputGuard& guard) const
@@ -59,9 +83,40 @@ void ReportOptions::guardedBy(OutputGuard& guard) const
     guardReport(guard, directory);
 }
 
-void writeTrajectoryReport(
-    const ReportedRun& run, const ReportOptions& options, CommandContext& context)
+ReportInputs ReportOptions::read(const Trajectory& estimate) const
 {
+    ReportInputs out;
+    if (!diagnostics.empty())
+    {
+        out.table = FrameTable::read(diagnostics);
+        if (rowsOf(estimate.stamps, out.table).empty())
+        {
+            throw InputError(
+                diagnostics + ": has none of the stamps of " + estimate.name +
+                "; give the table that --diagnostics wrote in the same run");
+        }
+    }
+    if (!overlays.empty())
+    {
+        out.pictures = picturesOf(estimate, out.table, diagnostics, overlays);
+    }
+    if (!runConfig.empty())
+    {
+        out.runConfig = textOf(runConfig);
+    }
+    return out;
+}
+
+void writeTrajectoryReport(
+    const ReportedRun& run,
+    const ReportOptions& options,
+    const ReportInputs& inputs,
+    CommandContext& context)
+{
+    if (options.directory.empty())
+    {
+        return;
+    }
     HtmlReport report(
         std::filesystem::path(run.estimate.name).filename().string(),
         "estimate " + run.estimate.name + ", ground truth " + run.groundTruth.name);
@@ -74,23 +129,20 @@ void writeTrajectoryReport(
     {
         addSection(report, "NEES", [&] { addConsistency(report, run); });
     }
-    FrameTable table;
-    if (!options.diagnostics.empty())
+    for (const Chart& chart : frameCharts(inputs.table, run.estimate.stamps.front()))
     {
-        table = FrameTable::read(options.diagnostics);
-        for (const Chart& chart : frameCharts(table))
-        {
-            report.addChart(chart);
-        }
+        report.addChart(chart);
     }
     if (!options.overlays.empty())
     {
-        addWorstFrames(report, run, table, options.overlays);
+        addSection(
+            report,
+            "pictures of the worst frames",
+            [&] { addWorstFrames(report, run, inputs.pictures); });
     }
     if (!options.runConfig.empty())
     {
-        report.addDetails(
-            "Configuration of the run: " + options.runConfig, textOf(options.runConfig));
+        report.addDetails("Configuration of the run: " + options.runConfig, inputs.runConfig);
     }
     writeReportFile(std::move(report), options.directory, context);
 }

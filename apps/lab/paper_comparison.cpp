@@ -41,6 +41,10 @@ std::string changeText(
         return "-";
     }
     const double sign = better ? -1000 : 1000;
+    if (!behind->isKnown())
+    {
+        return format("%+.1f too short", sign * behind->value);
+    }
     const double ends[] = {sign * behind->lower, sign * behind->upper};
     return format(
         "%+.1f [%+.1f, %+.1f]%s",

@@ -100,6 +100,11 @@ void RunSummary::add(const OutputItem& item)
             addUntracked(item);
             break;
     }
+    if (attachedShare == 0)
+    {
+        firstAttached = item.source.frameIndex;
+    }
+    attachedShare = std::max(attachedShare, motion.diagnostics.attachedShare);
     pathLength += motion.increment.mean.norm();
     const FrameDiagnostics& d = motion.diagnostics;
     sum.msPoints += d.msPoints;
@@ -151,6 +156,18 @@ void RunSummary::print(std::ostream& out, bool profile) const
     {
         out << "  " << numInPart << " of the tracked frames in part, first " << lineOf(firstInPart)
             << "\n";
+    }
+    if (attachedShare > 0)
+    {
+        std::snprintf(
+            line,
+            sizeof(line),
+            "  from frame %zu on, up to %.0f %% of the view moved with the camera: left out as a part "
+            "of the robot; until then it may have misled the poses (--mask leaves it out from the "
+            "start)\n",
+            firstAttached,
+            100 * attachedShare);
+        out << line;
     }
     for (const std::string& note : notes)
     {

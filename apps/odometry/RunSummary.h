@@ -30,6 +30,8 @@ struct RunSummary
     std::size_t numUntrackedMore{0};         //!< frames of the others
     std::size_t numInPart{0};                //!< tracked ones that have a reason
     UntrackedFrames firstInPart;
+    std::size_t firstAttached{0};      //!< frame in which a part of the robot was seen
+    double attachedShare{0};           //!< the largest part of the view that it took; 0: none
     bool hasMotion{false};             //!< one at least was measured
     double pathLength{0};              //!< of the robot [m]
     double seconds{0};                 //!< wall time, without that of frames that were skipped

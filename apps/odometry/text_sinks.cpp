@@ -56,8 +56,8 @@ DiagnosticsSink::DiagnosticsSink(const std::string& path) : file_(path)
     file_.writeLine(
         "frame,stamp,status,reason,numPoints,numPlanes,numPointPairs,numPlanePairs,numPointInliers,"
         "numPointsDoubted,numPointsRejected,numReferences,iterations,observableDirections,"
-        "pointChi2PerDof,planeChi2PerDof,surfaceAgreement,movingShare,maxSigmaTranslation,"
-        "maxSigmaRotation,"
+        "pointChi2PerDof,planeChi2PerDof,surfaceAgreement,movingShare,attachedShare,"
+        "maxSigmaTranslation,maxSigmaRotation,"
         "msPoints,msPlanes,msMatching,msPose,msTotal");
 }
 
@@ -78,8 +78,8 @@ void DiagnosticsSink::add(const OutputItem& item)
         << d.numPointsDoubted << ',' << d.numPointsRejected << ',' << d.numReferences << ','
         << d.iterations << ',' << d.observableDirections;
     out << std::setprecision(6) << ',' << d.pointChi2PerDof << ',' << d.planeChi2PerDof << ','
-        << d.surfaceAgreement << ',' << d.movingShare << ',' << d.maxSigmaTranslation << ','
-        << d.maxSigmaRotation;
+        << d.surfaceAgreement << ',' << d.movingShare << ',' << d.attachedShare << ','
+        << d.maxSigmaTranslation << ',' << d.maxSigmaRotation;
     out << std::fixed << std::setprecision(3) << ',' << d.msPoints << ',' << d.msPlanes << ','
         << d.msMatching << ',' << d.msPose << ',' << d.msTotal;
     file_.writeLine(out.str());

@@ -79,10 +79,54 @@ TEST(Bootstrap, pairedDifferenceCancelsWhatIsCommon)
 TEST(Bootstrap, isRepeatable)
 {
     const std::vector<double> errors{1, 2, 3, 4, 5, 6, 7};
-    BootstrapOptions options;
-    EXPECT_EQ(bootstrapRmse(errors, options).lower, bootstrapRmse(errors, options).lower);
-    options.blockLength = 100;  // longer than the data: clamped
-    EXPECT_EQ(bootstrapRmse(errors, options).lower, bootstrapRmse(errors, options).value);
+    EXPECT_EQ(bootstrapRmse(errors, {}).lower, bootstrapRmse(errors, {}).lower);
+}
+
+/** Blocks hardly differ then: an interval of no width would not hold zero, whatever the runs. */
+TEST(Bootstrap, fewerThanFourBlocksHaveNoInterval)
+{
+    const std::vector<double> a{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12};
+    const std::vector<double> b{2, 2, 3, 3, 6, 6, 7, 8, 9, 10, 11, 11};
+    for (const std::size_t length : {1, 3, 4, 8, 12, 100})
+    {
+        BootstrapOptions options;
+        options.blockLength = length;
+        for (const BootstrapInterval& r :
+             {bootstrapRmse(a, options), bootstrapRmseDifference(a, b, options)})
+        {
+            EXPECT_EQ(r.independent, 12 / std::min<std::size_t>(length, 12));
+            EXPECT_EQ(r.isKnown(), length <= 3);
+            EXPECT_EQ(std::isnan(r.lower) && std::isnan(r.upper), length > 3);
+            EXPECT_TRUE(r.isKnown() || !r.excludesZero());
+        }
+    }
+}
+
+/** Blocks that end with the data draw the first and the last errors the least. */
+TEST(Bootstrap, anIntervalHoldsItsValueWhereverErrorsAreLarge)
+{
+    for (const std::size_t n : {120, 135, 159, 200})
+    {
+        for (std::size_t peak = 0; peak < n; peak += 9)
+        {
+            std::vector<double> errors(n, 0.01);
+            const std::vector<double> even = errors;
+            for (std::size_t k = 0; k < 10; ++k)
+            {
+                errors[(peak + k) % n] = 1;
+            }
+            BootstrapOptions options;
+            options.blockLength = 30;
+            options.resamples = 500;
+            for (const BootstrapInterval& r :
+                 {bootstrapRmse(errors, options), bootstrapRmseDifference(errors, even, options)})
+            {
+                EXPECT_LE(r.lower, r.value) << n << " " << peak;
+                EXPECT_LE(r.value, r.upper) << n << " " << peak;
+                EXPECT_GT(r.upper - r.lower, 0.01) << n << " " << peak;
+            }
+        }
+    }
 }
 
 TEST(Compare, findsTheBestAndHowSureThatIs)
@@ -105,6 +149,38 @@ TEST(Compare, findsTheBestAndHowSureThatIs)
     EXPECT_FALSE(c.runs[best].translationBehindBest.has_value());
     EXPECT_FALSE(c.runs[equal].translationBehindBest->excludesZero());
     EXPECT_EQ(c.runs[0].pairsInCommon, c.runs[0].rpe.pairs.size());
+}
+
+TEST(Compare, ofRunsThatAreTooShortItDoesNotTellHowSureItIs)
+{
+    const Trajectory truth = randomTrajectory(25, 1);  // 10 Hz: pairs of 1 s overlap
+    const Comparison c = compareRuns(
+        truth, {perturbed(truth, 0.02, 2), perturbed(truth, 0.01, 3)}, overOneSecond(), {}, {});
+    const BootstrapInterval& behind = *c.runs[1 - c.bestTranslation].translationBehindBest;
+    EXPECT_FALSE(behind.isKnown());
+    EXPECT_EQ(behind.independent, 1u);
+    EXPECT_FALSE(behind.excludesZero());
+    EXPECT_GT(behind.value, 0);
+}
+
+TEST(Compare, oneRunIsNotTheBest)
+{
+    const Trajectory truth = randomTrajectory(100, 1);
+    const Comparison c = compareRuns(truth, {perturbed(truth, 0.02, 2)}, overOneSecond(), {}, {});
+    EXPECT_FALSE(c.isComparable());
+    EXPECT_FALSE(c.bestAte.has_value());
+}
+
+/** Few of the pairs that overlap are drawn: blocks are of fewer pairs. */
+TEST(Compare, pairsThatWereDrawnAreInShorterBlocks)
+{
+    const Trajectory truth = randomTrajectory(400, 1);
+    RpeOptions drawn = overOneSecond();
+    drawn.maxPairs = 39;
+    const Comparison c = compareRuns(truth, {perturbed(truth, 0.02, 2)}, drawn, {}, {});
+    EXPECT_EQ(c.numCommonPairs, 39u);
+    EXPECT_NEAR(static_cast<double>(c.runs[0].translation.independent), 39, 20);
+    EXPECT_TRUE(c.runs[0].translation.isKnown());
 }
 
 TEST(Compare, whoGivesUpBeforeTheHardPartIsNotTheBest)

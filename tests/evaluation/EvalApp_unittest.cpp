@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
+#include <functional>
 #include <sstream>
 
 #include "run_app.h"
@@ -121,6 +123,22 @@ TEST_F(EvalApp, compareMarksTheBest)
     EXPECT_EQ(run({"compare", truth}).code, 2);
 }
 
+TEST_F(EvalApp, compareTellsWhatIsTooShortForAnInterval)
+{
+    const std::string worse = writeFile(files, "worse.txt", straightLine(1.1));
+    std::vector<std::string> args{"compare", truth, worse, estimate, "--delta", "2"};
+    args.insert(args.end(), {"--json", files / "out.json", "--csv", files / "out.csv"});
+    const test::AppRun r = run(args);
+    EXPECT_EQ(r.code, 0) << r.err;
+    EXPECT_THAT(r.out, HasSubstr("200.000  +100.000 too short "));
+    EXPECT_THAT(r.out, HasSubstr("too short for an interval: 1 pair(s) without overlap, at least"));
+    const auto behind = nlohmann::json::parse(
+        test::readBytes(files / "out.json"))["runs"][0]["translationBehindBest"];
+    EXPECT_TRUE(behind["lower95"].is_null());
+    EXPECT_EQ(behind["independent"], 1);
+    EXPECT_THAT(test::readBytes(files / "out.csv"), testing::ContainsRegex(",0.2,,,0(.0)?,,,"));
+}
+
 TEST_F(EvalApp, runsThatCannotBeComparedHaveNoBest)
 {
     const std::string shifted = writeFile(files, "shifted.txt", straightLine(1.1, 0.001));
@@ -203,13 +221,19 @@ TEST_F(EvalApp, aRunThatLostMostOfItsFramesPassesNoGate)
                       "passed; --min-coverage sets another limit\n"));
         args.insert(args.end(), {"--min-coverage", "10"});
         EXPECT_EQ(run(args).code, 0);
-        EXPECT_THAT(run(args).err, HasSubstr("lost.txt: only 10.0 % of the recording were judged"));
+        EXPECT_THAT(run(args).err, HasSubstr("lost.txt: only 10.0 % of the recording was scored"));
         args.back() = "10.1";
         EXPECT_EQ(run(args).code, 1);
         EXPECT_THAT(run(args).err, HasSubstr("lost.txt: coverage 10.0 % is below 10.1 %"));
     }
     EXPECT_EQ(run({"ate", truth, lost}).code, 0);  // no gate
-    EXPECT_EQ(run({"ate", truth, lost}).err, "");
+    for (const char* command : {"ate", "rpe", "compare"})
+    {
+        std::vector<std::string> args{command, truth, lost, "--delta", "0.2", "--fixed-delta"};
+        args.resize(std::string(command) == "ate" ? 3 : 6);
+        EXPECT_THAT(run(args).err, HasSubstr("lost.txt: only 10.0 % of the recording was scored"));
+    }
+    EXPECT_EQ(run({"ate", truth, estimate}).err, "");
     EXPECT_EQ(run({"ate", truth, lost, "--min-coverage", "50"}).code, 1);
     EXPECT_EQ(run({"compare", truth, lost, "--delta", "0.2", "--min-coverage", "50"}).code, 1);
     EXPECT_EQ(run({"ate", truth, lost, "--min-coverage", "101"}).code, 2);
@@ -224,8 +248,37 @@ TEST_F(EvalApp, aGateOfAShortRunWithoutMarksIsWarnedOf)
     EXPECT_EQ(r.code, 0);
     EXPECT_THAT(
         r.err,
-        HasSubstr("warning: " + part + ": only 18.0 % of the ground truth's time were judged"));
+        HasSubstr("warning: " + part + ": only 18.0 % of the ground truth's time was scored"));
     EXPECT_EQ(run({"ate", truth, part, "--max-rmse", "1", "--min-coverage", "50"}).code, 1);
+}
+
+/** Three numbers of the alignment fit two positions. */
+TEST_F(EvalApp, anAteOfFewPosesIsWarnedOf)
+{
+    const std::string line = straightLine(2);
+    const auto run2 = [&](std::size_t numPoses)
+    {
+        std::size_t end = 0;
+        for (std::size_t k = 0; k < numPoses; ++k)
+        {
+            end = line.find('\n', end) + 1;
+        }
+        return run({"ate", truth, writeFile(files, "few.txt", line.substr(0, end))});
+    };
+    EXPECT_EQ(run2(2).code, 0);
+    EXPECT_THAT(run2(2).err, HasSubstr("few.txt: only 2 poses have ground truth; the alignment"));
+    EXPECT_THAT(run2(10).err, testing::Not(HasSubstr("poses have ground truth")));
+}
+
+TEST_F(EvalApp, compareOfOneRunHasNoBest)
+{
+    const test::AppRun r = run({"compare", truth, estimate, "--json", files / "out.json"});
+    EXPECT_EQ(r.code, 0) << r.err;
+    EXPECT_THAT(r.out, testing::StartsWith("Comparison of 1 run: "));
+    EXPECT_THAT(r.out, HasSubstr("give others to compare it with"));
+    EXPECT_THAT(r.out, testing::Not(HasSubstr("* ")));
+    EXPECT_THAT(r.out, testing::Not(HasSubstr("different frames")));
+    EXPECT_TRUE(nlohmann::json::parse(test::readBytes(files / "out.json"))["bestAte"].is_null());
 }
 
 TEST_F(EvalApp, whoGivesUpIsNotTheBestInAte)
@@ -241,47 +294,135 @@ TEST_F(EvalApp, whoGivesUpIsNotTheBestInAte)
     EXPECT_EQ(std::count(r.out.begin(), r.out.end(), '*'), 2) << r.out;
 }
 
+namespace
+{
+/** A run of 51 frames whose motion into one of them is off by a metre, with pictures and a table of
+ * the frames. */
+struct RunWithPictures
+{
+    test::TempDir dir;
+    std::string estimate, table;
+
+    /** \param jump frame of the jump \param isLost frames that have no pose */
+    RunWithPictures(int jump, const std::function<bool(int)>& isLost)
+    {
+        std::string poses = "# pointplane-status: what such lines mean\n";
+        table = "frame,stamp,status\n";
+        for (int k = 0; k <= 50; ++k)
+        {
+            const std::string stamp = std::to_string(0.1 * k);
+            poses += isLost(k) ? "# pointplane-status " + stamp + " lost: no depth\n"
+                               : stamp + " " + stamp + (k < jump ? " 0" : " 1") + " 0 0 0 0 1\n";
+            table += std::to_string(k) + "," + stamp + (isLost(k) ? ",lost\n" : ",tracked\n");
+            char name[32];
+            std::snprintf(name, sizeof name, "%06d.jpg", k);
+            writeFile(dir, name, "JPEG " + std::to_string(k));
+        }
+        estimate = writeFile(dir, "run.txt", poses);
+    }
+
+    [[nodiscard]] test::AppRun report(const std::string& truth, const std::string& rows) const
+    {
+        const std::string csv = writeFile(dir, "frames.csv", rows);
+        return run(
+            {"ate",
+             truth,
+             estimate,
+             "--report",
+             dir / "r",
+             "--diagnostics",
+             csv,
+             "--overlays",
+             dir / "",
+             "--json",
+             dir / "r.json"});
+    }
+    [[nodiscard]] std::string html() const { return test::readBytes(dir / "r/index.html"); }
+};
+}  // namespace
+
 /** Frames that are lost for a late stamp are in the table in order of the file. */
 TEST_F(EvalApp, picturesAreThoseOfTheWorstFrames)
 {
-    std::string jumps;
-    std::string table = "frame,stamp,status\n";
-    for (int k = 0; k <= 50; ++k)
-    {
-        if (k == 26)
-        {
-            table += "27,0.05,lost\n";
-        }
-        const std::string stamp = std::to_string(0.1 * k);
-        jumps += stamp + " " + stamp + (k < 8 ? " 0" : " 1") + " 0 0 0 0 1\n";
-        table += std::to_string(k < 26 ? k + 1 : k + 2) + "," + stamp + ",tracked\n";
-    }
-    const std::string path = writeFile(files, "jumps.txt", jumps);
-    const std::string diagnostics = writeFile(files, "frames.csv", table);
-    writeFile(files, "000009.jpg", "JPEG");
-    const test::AppRun r = run(
-        {"ate",
-         truth,
-         path,
-         "--report",
-         files / "r",
-         "--diagnostics",
-         diagnostics,
-         "--overlays",
-         files / ""});
+    const RunWithPictures made(30, [](int k) { return k >= 5 && k < 15; });
+    std::string table = made.table;
+    table.insert(table.find("\n26,") + 1, "99,2.5,lost\n");
+    const test::AppRun r = made.report(truth, table);
     EXPECT_EQ(r.code, 0) << r.err;
-    EXPECT_THAT(
-        test::readBytes(files / "r/index.html"),
-        HasSubstr("Frame 9 at 0.80 s: motion off by 1000"));
+    EXPECT_THAT(made.html(), HasSubstr("Frame 30 at 3.00 s: motion off by 1000"));
+    EXPECT_THAT(made.html(), HasSubstr(";base64,SlBFRyAzMA=="));  // JPEG 30
+    EXPECT_THAT(made.html(), testing::Not(HasSubstr("Frame 99")));
+
+    const test::AppRun uncounted =
+        run({"ate", truth, made.estimate, "--report", made.dir / "r", "--overlays", made.dir / ""});
+    EXPECT_EQ(uncounted.code, 2);
+    EXPECT_THAT(uncounted.err, HasSubstr("--overlays requires --diagnostics"));
 
     const std::string bad = writeFile(files, "bad.csv", "frame,stamp\n1,0\n\n2,x\n");
     const test::AppRun refused =
-        run({"ate", truth, path, "--report", files / "r", "--diagnostics", bad});
+        run({"ate", truth, estimate, "--report", files / "r", "--diagnostics", bad});
     EXPECT_EQ(refused.code, 2);
     EXPECT_THAT(refused.err, HasSubstr("bad.csv:4: the stamp is not a number"));
     EXPECT_THAT(
-        run({"ate", truth, path, "--report", files / "r", "--diagnostics", "/proc/self/mem"}).err,
+        run({"ate", truth, estimate, "--report", files / "r", "--diagnostics", "/proc/self/mem"})
+            .err,
         HasSubstr("cannot read /proc/self/mem: "));
+}
+
+/** --first 20 --count 10: the rows of frames that were not run are not those of the nearest. */
+TEST_F(EvalApp, aTableOfAPartHasPicturesOfItsOwnFramesAlone)
+{
+    const RunWithPictures made(5, [](int) { return false; });
+    const std::size_t first = made.table.find("\n20,") + 1;
+    const std::size_t end = made.table.find("\n30,") + 1;
+    const test::AppRun r =
+        made.report(truth, "frame,stamp,status\n" + made.table.substr(first, end - first));
+    EXPECT_EQ(r.code, 0) << r.err;
+    EXPECT_THAT(made.html(), testing::ContainsRegex("Frame 2[0-9] at 2[.]"));
+    EXPECT_THAT(made.html(), testing::Not(testing::ContainsRegex("Frame 2[0-9] at [^2]")));
+    EXPECT_THAT(made.html(), testing::Not(HasSubstr("motion off by 1000")));
+}
+
+TEST_F(EvalApp, aTableOfAnotherRunIsRefusedBeforeAnythingIsWritten)
+{
+    const RunWithPictures made(5, [](int) { return false; });
+    const test::AppRun other =
+        made.report(truth, "frame,stamp,status\n0,1e9,tracked\n1,1000000000.1,tracked\n");
+    EXPECT_EQ(other.code, 2);
+    EXPECT_THAT(other.err, HasSubstr("frames.csv: has none of the stamps of "));
+    const test::AppRun noNumbers = made.report(truth, "stamp\n0.1\n");
+    EXPECT_EQ(noNumbers.code, 2);
+    EXPECT_THAT(noNumbers.err, HasSubstr("frames.csv:1: no column 'frame'"));
+    const test::AppRun noPictures = made.report(truth, "frame,stamp\n1000,0.1\n");
+    EXPECT_EQ(noPictures.code, 2);
+    EXPECT_THAT(noPictures.err, HasSubstr("no picture 000001.jpg, ... of the frames of "));
+    EXPECT_FALSE(std::filesystem::exists(made.dir / "r.json"));
+    EXPECT_EQ(other.out + noNumbers.out + noPictures.out, "");
+}
+
+TEST_F(EvalApp, inputsOfAReportAreCheckedBeforeAnythingIsWritten)
+{
+    const std::string table = writeFile(files, "frames.csv", "frame,stamp\n1,0\n");
+    const std::vector<std::pair<std::vector<std::string>, std::string>> refused{
+        {{"--diagnostics", files / "nope.csv"}, "nope.csv: No such file or directory"},
+        {{"--run-config", files / "nope.ini"}, "nope.ini: No such file or directory"},
+        {{"--diagnostics", table, "--overlays", files / "nope"}, "nope: No such file or directory"},
+        {{"--diagnostics", table, "--overlays", table}, "frames.csv: is not a folder"}};
+    for (const auto& [options, message] : refused)
+    {
+        for (const char* command : {"rpe", "ate"})
+        {
+            std::vector<std::string> args{command, truth, estimate, "--json", files / "r.json"};
+            args.insert(args.end(), {"--report", files / "r"});
+            args.insert(args.end(), options.begin(), options.end());
+            const test::AppRun r = run(args);
+            EXPECT_EQ(r.code, 2);
+            EXPECT_THAT(r.err, HasSubstr("cannot open "));
+            EXPECT_THAT(r.err, HasSubstr(message));
+            EXPECT_EQ(r.out, "");
+            EXPECT_FALSE(std::filesystem::exists(files / "r.json"));
+        }
+    }
 }
 
 TEST_F(EvalApp, reportsOfOneRun)
@@ -335,7 +476,17 @@ TEST_F(EvalApp, theReportSaysHowItWasMade)
     EXPECT_THAT(
         run({"ate", truth, estimate, "--report", files / "r", "--run-config", files / ""}).err,
         HasSubstr("cannot open " + files / "" + ": is a directory\n"));
-    for (const char* part : {"--run-config", "--diagnostics", "--overlays"})
+    for (const auto& [text, why] :
+         {std::pair(std::string("PK\x03\x04"), "is not text"),
+          {std::string(2 << 20, 'x'), "is longer than 1 MiB"}})
+    {
+        const std::string bad = writeFile(files, "bad.ini", text);
+        const test::AppRun r =
+            run({"ate", truth, estimate, "--report", files / "r", "--run-config", bad});
+        EXPECT_EQ(r.code, 2);
+        EXPECT_THAT(r.err, HasSubstr(bad + ": " + why + "; give the configuration of the run\n"));
+    }
+    for (const char* part : {"--run-config", "--diagnostics"})
     {
         const test::AppRun refused = run({"ate", truth, estimate, part, config});
         EXPECT_EQ(refused.code, 2) << part;
@@ -473,6 +624,26 @@ TEST_F(EvalApp, theProtocolTellsWhatWasChanged)
         run({"compare", truth, estimate, "--offset", "-0.001"}).out,
         HasSubstr("estimate's stamps -0.001 s, "));
     EXPECT_THAT(run({"rpe", truth, estimate}).out, testing::Not(HasSubstr("estimate's")));
+}
+
+/** A truth that jumps looks like an estimate that does: the scores are alike. */
+TEST_F(EvalApp, trajectoriesInTheWrongOrderAreWarnedOf)
+{
+    const std::string marked = writeFile(files, "marked.txt", mostlyLost(30));
+    for (const char* command : {"rpe", "ate", "compare"})
+    {
+        const test::AppRun swapped = run({command, marked, truth});
+        EXPECT_EQ(swapped.code, 0) << swapped.err;
+        EXPECT_THAT(
+            swapped.err,
+            HasSubstr(
+                "warning: '" + marked + "' has marks of tracked and lost frames, and '" + truth +
+                "' has not; is the ground truth given first?\n"));
+        for (const std::string& first : {truth, marked})
+        {
+            EXPECT_THAT(run({command, first, marked}).err, testing::Not(HasSubstr("given first")));
+        }
+    }
 }
 
 /** All pairs have every distance: --delta without --fixed-delta would be ignored. */

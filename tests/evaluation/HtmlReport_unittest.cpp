@@ -75,9 +75,25 @@ TEST(FrameTable, readsNumbersStatusAndQuotes)
     EXPECT_EQ(splitCsvLine("a,\"b \"\"c\"\", d\",")[1], "b \"c\", d");
     EXPECT_EQ(splitCsvLine("a,\"b\",").size(), 3u);
 
-    const std::vector<Chart> charts = frameCharts(table);
+    const std::vector<Chart> charts = frameCharts(table, 8);
     ASSERT_EQ(charts.size(), 2u);  // no times in this table
     EXPECT_EQ(charts[1].series[0].y, (std::vector<double>{2, 0}));
+    EXPECT_EQ(charts[1].series[0].x, (std::vector<double>{2.5, 3.5}));
+}
+
+/** Of two frames lost for a late stamp, one has that of a pose. */
+TEST(FrameTable, rowsAreFoundByStampsAndOnlyTheirOwn)
+{
+    test::TempDir dir;
+    const FrameTable table = FrameTable::read(writeFile(
+        dir,
+        "f.csv",
+        "frame,stamp,status\n7,10.0,first\n8,10.1,tracked\n9,9.9,lost\n10,10.0,lost\n"
+        "11,10.2,tracked\n12,10.3,tracked\n13,10.4,lost\n"));
+    using Rows = std::vector<std::pair<std::size_t, std::size_t>>;
+    EXPECT_EQ(rowsOf({10, 10.2000004, 10.34}, table), (Rows{{0, 0}, {1, 4}, {2, 5}}));
+    EXPECT_EQ(rowsOf({9, 9.84, 9.9, 10.4, 1e9}, table), Rows{});
+    EXPECT_EQ(rowsOf({1}, FrameTable()), Rows{});
 }
 
 TEST(FrameTable, namesFileAndLineOfMalformedInput)
@@ -95,7 +111,9 @@ TEST(FrameTable, namesFileAndLineOfMalformedInput)
         }
         return "no exception";
     };
-    EXPECT_THAT(messageOf(dir / "none.csv"), HasSubstr("none.csv"));
+    EXPECT_THAT(messageOf(dir / "none.csv"), HasSubstr("none.csv: No such file or directory"));
+    EXPECT_THAT(messageOf(dir / ""), HasSubstr(": is a directory"));
+    EXPECT_THAT(messageOf(writeFile(dir, "e.csv", "")), HasSubstr("e.csv: is empty, not a table"));
     EXPECT_THAT(messageOf(writeFile(dir, "a.csv", "x,y\n")), HasSubstr("a.csv:1: no column"));
     EXPECT_THAT(messageOf(writeFile(dir, "b.csv", "stamp,y\n1,2\n3\n")), HasSubstr("b.csv:3: 1 f"));
     EXPECT_THAT(messageOf(writeFile(dir, "c.csv", "stamp,y\nq,2\n")), HasSubstr("c.csv:2: the st"));
@@ -211,4 +229,76 @@ TEST(TrajectoryCharts, posesBesideTheTruthHaveTheirSigmas)
     Trajectory withoutCovs = estimate;
     withoutCovs.covs.clear();
     EXPECT_EQ(poseCharts(truth, withoutCovs, options, aligned)[4].series.size(), 1u);
+}
+
+namespace
+{
+std::size_t holesIn(const ChartSeries& series)
+{
+    return static_cast<std::size_t>(std::count_if(
+        series.y.begin(), series.y.end(), [](double y) { return !std::isfinite(y); }));
+}
+}  // namespace
+
+/** Nobody measured the way through them; that of the ground truth is known. */
+TEST(TrajectoryCharts, linesEndAtLostFramesButThoseOfTheTruthDoNot)
+{
+    const Trajectory truth = randomTrajectory(120, 1, 0.05);
+    Trajectory marked = odometry(truth, 2);
+    marked.status.assign(120, FrameStatus::Tracked);
+    std::fill(marked.status.begin() + 40, marked.status.begin() + 80, FrameStatus::Lost);
+    marked.status[100] = FrameStatus::Lost;
+    const Trajectory estimate = withoutLost(marked);
+    const AteResult ate = absoluteTrajectoryError(truth, estimate, {});
+
+    const std::vector<ChartSeries> path = pathCharts(truth, {{"one", estimate, ate}})[0].series;
+    EXPECT_EQ(path[3].name, "ground truth");
+    EXPECT_EQ(path[3].y.size(), 120U);
+    EXPECT_EQ(path[3].y[60], truth.poses[60].translation().y());
+    EXPECT_EQ(holesIn(path[3]), 0U);
+    for (const ChartSeries& series :
+         {path[0],
+          path[1],
+          pathCharts(truth, {{"a", estimate, ate}, {"b", estimate, ate}})[1].series[1],
+          positionErrorChart(estimate, ate).series[0]})
+    {
+        EXPECT_EQ(series.y.size(), 79U + 2U) << series.name;
+        EXPECT_TRUE(std::isnan(series.y[40])) << series.name;
+        EXPECT_TRUE(std::isnan(series.y[61])) << series.name;
+    }
+    const std::vector<Chart> poses = poseCharts(truth, estimate, {}, ate);
+    const ChartSeries& band = poses[1].series[0];
+    EXPECT_TRUE(std::isnan(band.y[40]) && std::isnan(band.yUpper[61]));
+    EXPECT_EQ(holesIn(poses[1].series[1]), 2U);
+    EXPECT_EQ(holesIn(poses[4].series[1]), 2U);
+    EXPECT_EQ(poses[1].series[2].name, "ground truth");
+    EXPECT_EQ(poses[1].series[2].y.size(), 120U);
+    EXPECT_EQ(poses[1].series[2].y[60], truth.poses[60].translation().y());
+    EXPECT_EQ(holesIn(poses[1].series[2]), 0U);
+
+    RpeOptions options;
+    options.fixedDelta = true;
+    const RpeResult rpe = relativePoseError(truth, estimate, options);
+    EXPECT_EQ(holesIn(relativeErrorCharts(estimate, options, rpe)[0].series[0]), 1U);
+}
+
+/** It may turn on while the estimate is lost. */
+TEST(TrajectoryCharts, anglesGoOnAsThoseOfTheTruth)
+{
+    std::vector<StampedPose> turning;
+    for (int k = 0; k < 200; ++k)
+    {
+        Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+        T.linear() = so3Exp({0, 0, 0.05 * k});
+        T.translation().x() = 0.01 * k;
+        turning.push_back({0.1 * k, T, {}});
+    }
+    const Trajectory truth = makeTrajectory("truth", turning);
+    turning.erase(turning.begin() + 10, turning.begin() + 190);
+    const Trajectory estimate = makeTrajectory("estimate", turning);
+    const AteResult ate = absoluteTrajectoryError(truth, estimate, {});
+    const Chart yaw = poseCharts(truth, estimate, {}, ate)[8];
+    EXPECT_EQ(yaw.title, "yaw");
+    EXPECT_NEAR(yaw.series[0].y.back(), 0.05 * 199 * 180 / M_PI, 1e-6);
+    EXPECT_NEAR(yaw.series[1].y.back(), 0.05 * 199 * 180 / M_PI, 1e-6);
 }

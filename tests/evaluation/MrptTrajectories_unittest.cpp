@@ -382,6 +382,43 @@ TEST(MrptTrajectories, numbersThatAreTooLongAreInScientificForm)
         html.substr(html.find("<table")), testing::Not(testing::ContainsRegex(digits + "[.]")));
 }
 
+/** NaN is neither above a limit nor below one. */
+TEST(MrptTrajectories, aNeesThatIsNotFinitePassesNoGate)
+{
+    test::TempDir dir;
+    {
+        RawlogWriter writer(dir / "sure.rawlog");
+        for (std::size_t k = 0; k < estimate().size(); ++k)
+        {
+            auto observation = observationOf(k, "RGBD_pose");
+            observation.pose.cov *= 1e-305;
+            writer.write(observation);
+        }
+        writer.close();
+    }
+    const std::string truthFile = writeTruth(dir);
+    std::vector<std::string> args{"nees", truthFile, dir / "sure.rawlog", "--interval", "1f"};
+    args.insert(args.end(), {"--report", dir / "r"});
+    EXPECT_EQ(run(args).code, 0);
+    EXPECT_THAT(run(args).out, HasSubstr("verdict: cannot be judged: NEES is not finite"));
+    EXPECT_THAT(test::readBytes(dir / "r/index.html"), HasSubstr("<td>cannot be judged</td>"));
+    for (const auto& [option, limit] : {std::pair("--max-nees", "2"), {"--min-nees", "0.5"}})
+    {
+        args.resize(5);
+        args.insert(args.end(), {option, limit});
+        EXPECT_EQ(run(args).code, 1) << option;
+        EXPECT_THAT(run(args).err, HasSubstr("is outside the stated range"));
+    }
+    writeFormat2(dir / "a.rawlog", {"VO"});
+    for (const auto& [option, sigma] :
+         {std::pair("--gt-sigma-trans", "1e154"), {"--gt-sigma-rot-deg", "1e154"}})
+    {
+        const test::AppRun r = run({"nees", truthFile, dir / "a.rawlog", option, sigma});
+        EXPECT_EQ(r.code, 2) << option;
+        EXPECT_THAT(r.err, testing::AllOf(HasSubstr(option), HasSubstr("1e154"))) << option;
+    }
+}
+
 TEST(MrptTrajectories, interpolatorTextAsMrptWritesIt)
 {
     test::TempDir dir;
@@ -575,6 +612,48 @@ TEST(MrptTrajectories, marksOfLostFramesInARawlogAreReadAndSaid)
     }
 }
 
+TEST(MrptTrajectories, covariancesShowWhichIsTheEstimate)
+{
+    test::TempDir dir;
+    writeFormat2(dir / "a.rawlog", {"VO"});
+    const std::string truthFile = writeTruth(dir);
+    EXPECT_THAT(
+        run({"nees", dir / "a.rawlog", truthFile}).err,
+        HasSubstr("a.rawlog' has covariances, and '" + truthFile + "' has not; is the ground"));
+    EXPECT_THAT(
+        run({"nees", truthFile, dir / "a.rawlog"}).err, testing::Not(HasSubstr("given first")));
+}
+
+/** They are black: what was to be seen is in the frames around them. */
+TEST(MrptTrajectories, noPictureOfALostFrameIsInAReport)
+{
+    test::TempDir dir;
+    writeOdometry(dir / "a.rawlog", true, Eigen::Isometry3d::Identity());
+    std::string table = "frame,stamp\n";
+    for (int k = 0; k < 40; ++k)
+    {
+        table += std::to_string(k) + "," + std::to_string(100 + 0.1 * k) + "\n";
+        if (k >= 15 && k <= 20)  // the last of them is not lost
+        {
+            writeFile(dir, "0000" + std::to_string(k) + ".jpg", "JPEG");
+        }
+    }
+    const test::AppRun r = run(
+        {"rpe",
+         writeTruth(dir),
+         dir / "a.rawlog",
+         "--report",
+         dir / "r",
+         "--diagnostics",
+         writeFile(dir, "frames.csv", table),
+         "--overlays",
+         dir / ""});
+    EXPECT_EQ(r.code, 0) << r.err;
+    const std::string html = test::readBytes(dir / "r/index.html");
+    EXPECT_THAT(html, HasSubstr("Frame 20 at 2.00 s: motion off by "));
+    EXPECT_THAT(html, testing::Not(HasSubstr("Frame 1")));
+}
+
 /** A regular expression would take the stack. */
 TEST(MrptTrajectories, labelsAndCommentsOfAnyLengthAndInLinesAreRead)
 {
@@ -650,6 +729,23 @@ TEST(MrptTrajectories, neesTestsThePosesWhereIncrementsAreNotTold)
     EXPECT_THAT(gate.err, HasSubstr("cannot be checked"));
     EXPECT_EQ(run({"ate", truthFile, dir / "a.rawlog", "--report", dir / "r"}).code, 0);
     EXPECT_THAT(test::readBytes(dir / "r/index.html"), HasSubstr("are not tested"));
+}
+
+/** It has poses alone: --since would not help. */
+TEST(MrptTrajectories, ofASimplemapNeesAsksForARawlog)
+{
+    test::TempDir dir;
+    mrpt::maps::CSimpleMap map;
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+        const auto pdf = mrpt::poses::CPose3DPDFGaussian::Create(toMrpt(gaussianAt(k)));
+        const auto frame = mrpt::obs::CSensoryFrame::Create(frameAt(k));
+        map.insert(pdf, frame);
+    }
+    ASSERT_TRUE(map.saveToFile(dir / "a.simplemap"));
+    const test::AppRun r = run({"nees", writeTruth(dir), dir / "a.simplemap", "--interval", "1f"});
+    EXPECT_THAT(
+        r.err, HasSubstr("A .simplemap cannot: test the rawlog of pointplane-odometry --since"));
 }
 
 TEST(MrptTrajectories, neesSavesIncrements)

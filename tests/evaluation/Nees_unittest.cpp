@@ -119,6 +119,18 @@ TEST(Nees, boundsHoldInNineteenOfTwentyRuns)
     EXPECT_NEAR(outside, 0.05 * kRuns, 9);  // three sigmas of the binomial
 }
 
+TEST(Nees, whatIsNotFiniteIsNotJudged)
+{
+    for (const double nees : {std::nan(""), HUGE_VAL})
+    {
+        const ConsistencyTest test{nees, 0.5, 2};
+        EXPECT_FALSE(test.isOptimistic() || test.isConservative());
+        EXPECT_THAT(verdict(test), testing::StartsWith("cannot be judged: NEES is not finite"));
+        EXPECT_EQ(shortVerdict(test), "cannot be judged");
+    }
+    EXPECT_EQ(shortVerdict({1, 0.5, 2}), "consistent");
+}
+
 TEST(Nees, optimismIsFoundAndItsFactorNamed)
 {
     const Trajectory truth = randomTrajectory(2000, 3);

@@ -61,7 +61,7 @@ std::string sampleReport(const test::TempDir& dir)
         dir,
         "frames.csv",
         "stamp,status,numPoints,numPlanes,msTotal\n1,first,9,2,5\n2,lost,0,0,4\n3,tracked,8,3,6\n");
-    for (const Chart& chart : frameCharts(FrameTable::read(table)))
+    for (const Chart& chart : frameCharts(FrameTable::read(table), 0))
     {
         report.addChart(chart);
     }

@@ -274,6 +274,33 @@ TEST(Rpe, refusesWhatCannotBeScored)
     EXPECT_THROW((void)relativePoseError(truth, truth, options), std::runtime_error);
 }
 
+/** As in the script: the nearest pose counts, however far it is. But it is told. */
+TEST(Rpe, pairsThatAreFarOffTheirDeltaAreCounted)
+{
+    RpeOptions options;
+    options.fixedDelta = true;
+    options.unit = DeltaUnit::Metres;
+    const Trajectory even = line({0, 1, 2, 3, 4, 5, 6});
+    EXPECT_EQ(relativePoseError(even, even, options).pairsOffDelta, 0U);
+    EXPECT_THAT(
+        describe(options, relativePoseError(even, even, options)),
+        testing::Not(HasSubstr("off by")));
+
+    const Trajectory leap = line({0, 1, 2, 3.6, 4.6, 5.6, 6.6});  // 2 to 3.6: 1.6 instead of 1
+    const RpeResult result = relativePoseError(leap, leap, options);
+    EXPECT_EQ(result.pairsOffDelta, 1U);
+    EXPECT_THAT(
+        describe(options, result),
+        HasSubstr("5 of 5 pairs, 1 off by more than half of delta, coverage"));
+
+    const Trajectory stuck = line({0, 1, 2, 5, 6, 7, 8});  // 2 is nearer to 3 than 5 is
+    const RpeResult both = relativePoseError(stuck, stuck, options);
+    EXPECT_EQ(both.pairsOffDelta, 1U);
+    EXPECT_THAT(
+        describe(options, both),
+        HasSubstr("1 of a pose with itself, as nothing is at its delta, coverage"));
+}
+
 /** As in the script, over gaps; but it does not count for a measurement without a word. */
 TEST(Rpe, aPoseIsNotComparedWithItselfWithoutAWord)
 {

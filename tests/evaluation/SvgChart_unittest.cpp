@@ -131,6 +131,22 @@ TEST(SvgChart, levelsColourALineAndHaveABar)
     EXPECT_THAT(svg, HasSubstr("error [mm]"));
 }
 
+TEST(SvgChart, levelsAndBandsHaveHoles)
+{
+    const double hole = std::numeric_limits<double>::quiet_NaN();
+    ChartSeries series{"path", {0, 1, 1, 2, 3}, {0, 0, hole, 0, 0}};
+    series.level = {5, 5, hole, 5, 5};
+    const std::string path = svgOf(chartOf(series));
+    EXPECT_EQ(count(path, "<polyline class=\"level\""), 2u);
+    EXPECT_THAT(path, Not(HasSubstr("nan")));
+    series.level.clear();
+    series.style = ChartSeries::Style::Band;
+    series.yUpper = {1, 1, hole, 1, 1};
+    const std::string band = svgOf(chartOf(series));
+    EXPECT_EQ(count(band, "<polygon class=\"band"), 2u);
+    EXPECT_THAT(band, Not(HasSubstr("nan")));
+}
+
 TEST(SvgChart, aFileOfItsOwnNeedsNoStyleSheet)
 {
     const std::string file = svgFileOf(chartOf({"line", {0, 1}, {0, 1}}));
@@ -149,10 +165,11 @@ TEST(Thinned, keepsExtremesGapsAndTheLast)
     }
     y[54321] = 77;
     y[12345] = -77;
-    y[777] = std::numeric_limits<double>::quiet_NaN();
+    y[777] = y[54200] = std::numeric_limits<double>::quiet_NaN();
+    y[54202] = 78;
     const std::vector<std::size_t> keep = thinned(y);
     EXPECT_LE(keep.size(), 3100u);
-    for (const std::size_t wanted : {54321u, 12345u, 777u, 99999u, 0u})
+    for (const std::size_t wanted : {54321u, 12345u, 777u, 99999u, 0u, 54200u, 54202u})
     {
         EXPECT_THAT(keep, testing::Contains(wanted));
     }

@@ -139,6 +139,37 @@ TEST(TrajectoryText, leavesOutNanZeroQuaternionsAndRepeatsButSaysSo)
             HasSubstr("zero quaternion left out, the first is line 3")));
 }
 
+TEST(TrajectoryText, hintsAtWhatIsOftenWrong)
+{
+    test::TempDir files;
+    EXPECT_THAT(
+        messageOf(writeFile(files, "h.csv", "stamp,x,y,z,qx,qy,qz,qw\n1,0,0,0,0,0,0,1\n")),
+        HasSubstr("h.csv:1: 'stamp' is not a number; a header must begin with #"));
+    const auto warningsOf = [&](const std::string& text)
+    { return readTrajectoryText(writeFile(files, "w.txt", text)).warnings; };
+    EXPECT_THAT(
+        warningsOf("1000000000000000000 0 0 0 0 0 0 1\n1000000000050000000 0 0 0 0 0 0 1\n"),
+        testing::ElementsAre(
+            HasSubstr("w.txt: poses are 50000000 s apart; are stamps in nanoseconds? They must")));
+    EXPECT_THAT(
+        warningsOf("1 0 0 0 0 0 0\n2 0 0 0 -90 0 0\n3 0 0 0 180 0 0\n"),
+        testing::ElementsAre(HasSubstr(
+            "2 line(s) with an angle beyond 2 pi, the first is line 2; are angles in degrees?")));
+    EXPECT_THAT(warningsOf("1 0 0 0 0 0 -6.28\n900 0 0 0 6.28 0 0\n"), testing::IsEmpty());
+}
+
+/** Their bytes would do anything to a terminal. */
+TEST(TrajectoryText, filesThatAreNoTextAreNotShown)
+{
+    test::TempDir files;
+    for (const std::string& bytes :
+         {std::string("\x89PNG\r\n\x1a\n"), std::string("1 0 0 \0", 7), std::string("\x1b[2J 1,5")})
+    {
+        const std::string path = writeFile(files, "b.bin", bytes);
+        EXPECT_EQ(messageOf(path), path + ":1: is not text of numbers, as a trajectory is");
+    }
+}
+
 TEST(TrajectoryText, namesFileAndLineOfMalformedInput)
 {
     test::TempDir files;
@@ -146,7 +177,7 @@ TEST(TrajectoryText, namesFileAndLineOfMalformedInput)
     EXPECT_THAT(messageOf(files / ""), HasSubstr("is a directory"));
     EXPECT_THAT(
         messageOf(writeFile(files, "a.txt", "1 0 0 0 0 0 0 1\n2 0 0 x1 0 0 0 1\n")),
-        HasSubstr("a.txt:2: 'x1' is not a number"));
+        testing::EndsWith("a.txt:2: 'x1' is not a number"));
     EXPECT_THAT(
         messageOf(writeFile(files, "c.txt", "1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0\n")),
         HasSubstr("c.txt:2: 7 columns"));

@@ -135,6 +135,7 @@ const PapersValue kNamed[] = {
     {"Matching: consecutive frames", "Reference.reference", "adjacent"},
     {"Matching: one search", "Reference.keyframeMinOverlap", "0"},
     {"Fig. 1: nothing but points and planes tells the motion", "Pipeline.searchImages", "false"},
+    {"Fig. 1: all of the image shows the world", "Pipeline.findRobot", "false"},
     {"Eq. 9: plane residual", "PoseSolver.planeResidual", "closestPoint"},
     {"after Eq. 10: w = 1 / diag(Sigma_r)", "PoseSolver.weighting", "diagonal"},
     {"after Eq. 10: planes have no M-estimator", "PoseSolver.planeStudentDof", "0"},

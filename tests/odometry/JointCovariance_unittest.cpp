@@ -332,7 +332,7 @@ TEST(JointCovariance, predictedFramesShareTheErrorOfTheVelocity)
     measured.measure(12, kAtRest, kFrame, against(1));
     measured.predict(13, kAtRest, step);
     EXPECT_THAT(measured.relative(12, kAtRest), isTimesIdentity(0.01 * 4 + 0.01));
-    step.isVelocityNew = true;
+    joint.endCoasting();
     joint.predict(12, kAtRest, step);
     EXPECT_THAT(joint.relative(1, kAtRest), isTimesIdentity(4 + 0.04 + 11 * 0.01));
 
@@ -340,7 +340,6 @@ TEST(JointCovariance, predictedFramesShareTheErrorOfTheVelocity)
     JointCovariance gaining = started();
     step.velocityGain.setConstant(1);
     gaining.predict(2, kAtRest, step);
-    step.isVelocityNew = false;
     gaining.predict(3, kAtRest, step);
     EXPECT_THAT(gaining.relative(2, kAtRest), isTimesIdentity(0.01 * (4 + 1) + 0.01));
 }

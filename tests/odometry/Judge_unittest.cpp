@@ -153,6 +153,26 @@ bool isBetter(const Alignment& one, const Alignment& other)
     return kept(marked, other) == 1 && kept(other, marked) == 1;
 }
 
+TEST(Judge, alignmentsThatAgreeWithinTheirStandardDeviationsAreTheSame)
+{
+    const auto at = [](double x, double information)
+    {
+        Alignment out = makeAlignment(kCertain);
+        out.holds = true;
+        out.estimate.motion.mean.T_prev_cur.translation().x() = x;
+        out.estimate.motion.cov.topLeftCorner<6, 6>() = Matrix6d::Identity() / information;
+        return out;
+    };
+    // 1 mm and 1 mrad: 2 mm in one of six directions are 2 / sqrt(6) standard deviations.
+    EXPECT_TRUE(Judge::areSame(at(0, 1e6), at(0.002, 1e6)));
+    EXPECT_FALSE(Judge::areSame(at(0, 1e6), at(0.003, 1e6)));
+    EXPECT_FALSE(Judge::areSame(at(0, 1e2), at(0.003, 1e6))) << "the certain one decides";
+    EXPECT_FALSE(Judge::areSame(at(0.003, 1e6), at(0, 1e2)));
+    Alignment fails = at(0, 1e6);
+    fails.holds = false;
+    EXPECT_FALSE(Judge::areSame(at(0, 1e6), fails));
+}
+
 TEST(Judge, moreSurfacesAndMorePointsAreBetter)
 {
     const Alignment good = makeAlignment(kCertain);

@@ -101,6 +101,39 @@ TEST(OdometryFailures, noDepthAndNoPoints)
     EXPECT_EQ(Outcome(frame, params).at.status, TrackingStatus::Predicted);
 }
 
+/** Of the first frame's velocity nothing is known. */
+TEST(OdometryFailures, theSecondFrameIsLost)
+{
+    CheckedOdometry odometry;  // compares the covariances of the motion
+    EXPECT_EQ(odometry.process(good(0)).status, TrackingStatus::First);
+    for (int i = 1; i < 4; ++i)
+    {
+        RgbdFrame frame = good(i);
+        frame.depth.release();
+        EXPECT_EQ(odometry.process(frame).status, TrackingStatus::Lost);
+    }
+}
+
+/** Then the velocity is unknown, also to the joint covariance. */
+TEST(OdometryFailures, blindForLongerThanMaxGap)
+{
+    OdometryParams params;
+    params.pipeline.usePoints = false;
+    CheckedOdometry odometry(params);  // compares the covariances of the motion
+    EXPECT_EQ(odometry.run(0, 3).status, TrackingStatus::Tracked);
+    OdometryResult result;
+    for (int i = 4; i < 4 + 45; ++i)
+    {
+        RgbdFrame frame = good(4);
+        frame.stamp = good(3).stamp + (i - 3) / 30.0;
+        frame.depth.setTo(kNaN);
+        frame.gray.at<std::uint8_t>(0, 0) = static_cast<std::uint8_t>(i);  // not frozen
+        result = odometry.process(frame);
+        EXPECT_EQ(result.status, TrackingStatus::Predicted);
+    }
+    EXPECT_GT(std::sqrt(result.pose.cov(0, 0)), 0.1) << "half a second at an unknown velocity";
+}
+
 TEST(OdometryFailures, sequenceThatBeginsWithoutDepth)
 {
     CheckedOdometry odometry;

@@ -72,6 +72,14 @@ inline void expectSound(const OdometryResult& result)
     {
         EXPECT_FALSE(result.reason.empty());
         EXPECT_EQ(result.reason.find('\n'), std::string::npos);
+        if (!result.since.empty())
+        {
+            // The joint covariance and the motion model speak of the same motion.
+            const Vector6d ratio =
+                result.since.front().cov.diagonal().cwiseQuotient(result.increment.cov.diagonal());
+            EXPECT_GT(ratio.minCoeff(), 0.99) << ratio.transpose();
+            EXPECT_LT(ratio.maxCoeff(), 1.01) << ratio.transpose();
+        }
     }
 }
 

@@ -2,9 +2,13 @@
 #include <pointplane/core/number_text.h>
 #include <pointplane/core/read_errors.h>
 #include <pointplane/evaluation/FrameTable.h>
+#include <pointplane/evaluation/association.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <stdexcept>
@@ -49,12 +53,17 @@ std::vector<std::string> splitCsvLine(const std::string& line)
 FrameTable FrameTable::read(const std::string& path)
 {
     std::ifstream file(path);
+    if (!file || std::filesystem::is_directory(path))
+    {
+        throw std::runtime_error(
+            "cannot open " + path + ": " + (file ? "is a directory" : std::strerror(errno)));
+    }
     std::string line;
-    const bool hasHeader = file && std::getline(file, line);
+    const bool hasHeader = static_cast<bool>(std::getline(file, line));
     requireRead(file, path);
     if (!hasHeader)
     {
-        throw std::runtime_error("cannot read frame table '" + path + "'");
+        throw std::runtime_error(path + ": is empty, not a table of --diagnostics");
     }
     FrameTable table;
     table.names_ = splitCsvLine(line);
@@ -97,6 +106,39 @@ FrameTable FrameTable::read(const std::string& path)
     requireRead(file, path);
     table.stamps_ = table.column("stamp");
     return table;
+}
+
+std::vector<std::pair<std::size_t, std::size_t>> rowsOf(
+    const std::vector<double>& stamps, const FrameTable& table)
+{
+    std::vector<double> all = table.stamps();
+    std::sort(all.begin(), all.end());  // frames that are lost for a late stamp are not in order
+    constexpr double kRounding = 1e-6;  // of texts
+    const double tolerance = 0.5 * medianInterval(all) + kRounding;
+    std::vector<std::pair<double, std::size_t>> rows;
+    for (std::size_t row = 0; row < table.size(); ++row)
+    {
+        if (table.status().empty() || table.status()[row] != "lost")
+        {
+            rows.emplace_back(table.stamps()[row], row);
+        }
+    }
+    std::sort(rows.begin(), rows.end());
+    std::vector<double> sorted;
+    for (const auto& [stamp, row] : rows)
+    {
+        sorted.push_back(stamp);
+    }
+    std::vector<std::pair<std::size_t, std::size_t>> out;
+    for (std::size_t k = 0; k < stamps.size() && !sorted.empty(); ++k)
+    {
+        const std::size_t nearest = nearestIndex(sorted, stamps[k]);
+        if (std::abs(sorted[nearest] - stamps[k]) <= tolerance)
+        {
+            out.emplace_back(k, rows[nearest].second);
+        }
+    }
+    return out;
 }
 
 bool FrameTable::has(const std::string& column) const

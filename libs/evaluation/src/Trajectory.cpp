@@ -48,6 +48,20 @@ std::vector<double> removeNotFinite(std::vector<StampedPose>& poses)
     poses.erase(bad, poses.end());
     return stamps;
 }
+
+void warnOfNanoseconds(Trajectory& trajectory)
+{
+    constexpr double kLongest = 1000;
+    // The mean is at least about half of the median, which takes longer to compute.
+    const double mean = trajectory.duration() / static_cast<double>(trajectory.size() + 1);
+    if (std::isfinite(mean) && mean > 0.2 * kLongest &&
+        medianInterval(trajectory.stamps) > kLongest)
+    {
+        trajectory.warnings.push_back(
+            trajectory.name + ": poses are " + numberText(medianInterval(trajectory.stamps), 0) +
+            " s apart; are stamps in nanoseconds? They must be in seconds");
+    }
+}
 }  // namespace
 
 Trajectory makeTrajectory(std::string name, std::vector<StampedPose> poses)
@@ -107,6 +121,7 @@ Trajectory makeTrajectory(std::string name, std::vector<StampedPose> poses)
             out.name + ": " + std::to_string(repeated) +
             " pose(s) with a repeated stamp; the last one of each was used");
     }
+    warnOfNanoseconds(out);
     return out;
 }
 
@@ -216,6 +231,21 @@ void checkPositions(const Trajectory& trajectory, double scale)
                 " s" + (scale == 1 ? "" : " times " + numberText(scale, 3)) + text);
         }
     }
+}
+
+std::vector<bool> holesBefore(const Trajectory& trajectory)
+{
+    const std::vector<double>& stamps = trajectory.stamps;
+    const double longest = 5 * medianInterval(stamps);
+    std::vector<double> lost = trajectory.lostStamps;
+    std::sort(lost.begin(), lost.end());
+    std::vector<bool> out(trajectory.size(), false);
+    for (std::size_t i = 1; i < trajectory.size(); ++i)
+    {
+        const auto next = std::upper_bound(lost.begin(), lost.end(), stamps[i - 1]);
+        out[i] = stamps[i] - stamps[i - 1] > longest || (next != lost.end() && *next < stamps[i]);
+    }
+    return out;
 }
 
 double medianInterval(const std::vector<double>& stamps)

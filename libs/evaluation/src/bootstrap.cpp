@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 
 namespace pointplane
 {
 namespace
 {
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
 double rmse(const std::vector<double>& errors)
 {
     double squares = 0;
@@ -20,14 +23,15 @@ double rmse(const std::vector<double>& errors)
     return std::sqrt(squares / static_cast<double>(errors.size()));
 }
 
-/** Sums of squares of all blocks, by one running sum. */
+/** Sums of squares of the blocks that start at each error, by one running sum. */
 class BlockSums
 {
  public:
     BlockSums(const std::vector<double>& errors, std::size_t length) : length_(length), sums_{0}
     {
-        for (const double e : errors)
+        for (std::size_t k = 0; k < errors.size() + length; ++k)
         {
+            const double e = errors[k % errors.size()];
             sums_.push_back(sums_.back() + e * e);
         }
     }
@@ -49,6 +53,11 @@ BootstrapInterval interval(
     POINTPLANE_CHECK(n >= 2, "a bootstrap of " << n << " values");
     POINTPLANE_CHECK(options.resamples >= 2, "a bootstrap of " << options.resamples << " samples");
     const std::size_t length = std::clamp<std::size_t>(options.blockLength, 1, n);
+    BootstrapInterval out{value, kNaN, kNaN, n / length};
+    if (!out.isKnown())
+    {
+        return out;
+    }
     const std::size_t blocks = (n + length - 1) / length;
     std::mt19937_64 random(options.seed);
     std::vector<double> samples;
@@ -57,17 +66,16 @@ BootstrapInterval interval(
     {
         for (std::size_t& start : starts)
         {
-            start = static_cast<std::size_t>(random() % (n - length + 1));
+            start = static_cast<std::size_t>(random() % n);
         }
         samples.push_back(statistic(starts));
     }
     std::sort(samples.begin(), samples.end());
     const double tail = 0.5 * (1 - options.confidence);
     const auto last = static_cast<double>(samples.size() - 1);
-    return {
-        value,
-        samples[static_cast<std::size_t>(std::floor(tail * last))],
-        samples[static_cast<std::size_t>(std::ceil((1 - tail) * last))]};
+    out.lower = samples[static_cast<std::size_t>(std::floor(tail * last))];
+    out.upper = samples[static_cast<std::size_t>(std::ceil((1 - tail) * last))];
+    return out;
 }
 
 double rmseOfBlocks(

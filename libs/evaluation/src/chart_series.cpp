@@ -60,12 +60,18 @@ std::string levels(const ChartLayout& plot, const ChartSeries& series)
         return std::isfinite(f) ? std::lround(f * (kLevels - 1)) : 0;
     };
     const std::vector<std::size_t> keep = thinned(series.y);
+    const auto isHole = [&](std::size_t n) { return !std::isfinite(series.y[keep[n]]); };
     std::string out;
     for (std::size_t begin = 0; begin + 1 < keep.size();)
     {
+        if (isHole(begin) || isHole(begin + 1))
+        {
+            ++begin;
+            continue;
+        }
         const long bin = binOf(keep[begin]);
         std::size_t end = begin + 1;
-        while (end + 1 < keep.size() && binOf(keep[end]) == bin)
+        while (end + 1 < keep.size() && binOf(keep[end]) == bin && !isHole(end + 1))
         {
             ++end;
         }
@@ -82,20 +88,34 @@ std::string levels(const ChartLayout& plot, const ChartSeries& series)
     return out;
 }
 
+/** One area per line without holes. */
 std::string band(const ChartLayout& plot, const ChartSeries& series, const std::string& colour)
 {
     const ChartAxis& y = plot.yOf(series);
-    std::string points;
     const std::vector<std::size_t> keep = thinned(series.y);
-    for (const std::size_t k : keep)
+    const auto isHole = [&](std::size_t k) { return !std::isfinite(series.y[k]); };
+    std::string out;
+    for (auto begin = keep.begin(); begin != keep.end();)
     {
-        points += point(plot.x->pixelsOf(series.x[k]), y.pixelsOf(series.y[k])) + " ";
+        begin = std::find_if_not(begin, keep.end(), isHole);
+        const auto end = std::find_if(begin, keep.end(), isHole);
+        std::string points;
+        for (auto k = begin; k != end; ++k)
+        {
+            points += point(plot.x->pixelsOf(series.x[*k]), y.pixelsOf(series.y[*k])) + " ";
+        }
+        for (auto k = end; k != begin;)
+        {
+            --k;
+            points += point(plot.x->pixelsOf(series.x[*k]), y.pixelsOf(series.yUpper[*k])) + " ";
+        }
+        if (!points.empty())
+        {
+            out += "<polygon class=\"band " + colour + "\" points=\"" + points + "\"/>\n";
+        }
+        begin = end;
     }
-    for (auto k = keep.rbegin(); k != keep.rend(); ++k)
-    {
-        points += point(plot.x->pixelsOf(series.x[*k]), y.pixelsOf(series.yUpper[*k])) + " ";
-    }
-    return "<polygon class=\"band " + colour + "\" points=\"" + points + "\"/>\n";
+    return out;
 }
 
 std::string bars(const ChartLayout& plot, const ChartSeries& series, const std::string& colour)

@@ -21,15 +21,29 @@ std::vector<double> errorsOf(const RpeResult& result, double RpePair::*error)
     return out;
 }
 
-/** Pairs whose errors are alike because they overlap: as many as start within one of them. */
+/** Pairs whose errors are alike because they overlap: as many as start within one of them. If they
+ * were drawn, these are fewer than the frames between its ends. */
 std::size_t blockLengthOf(const RpeResult& result)
 {
-    std::vector<double> lengths;
-    for (const RpePair& pair : result.pairs)
+    const std::vector<RpePair>& pairs = result.pairs;
+    const auto firstFrom = [&](std::size_t frame)
     {
-        lengths.push_back(static_cast<double>(pair.j - std::min(pair.i, pair.j)));
+        const auto isBefore = [](const RpePair& pair, std::size_t f) { return pair.i < f; };
+        return std::lower_bound(pairs.begin(), pairs.end(), frame, isBefore);
+    };
+    std::vector<double> frames;
+    std::vector<double> starts;
+    for (const RpePair& pair : pairs)
+    {
+        const std::size_t end = std::max(pair.i, pair.j);
+        frames.push_back(static_cast<double>(end - pair.i));
+        if (end <= pairs.back().i)  // else not all that would start within it are there
+        {
+            starts.push_back(static_cast<double>(firstFrom(end) - firstFrom(pair.i)));
+        }
     }
-    return std::max<std::size_t>(1, static_cast<std::size_t>(statisticsOf(lengths).median));
+    const double median = statisticsOf(starts.empty() ? frames : starts).median;
+    return std::max<std::size_t>(1, static_cast<std::size_t>(median));
 }
 
 struct CommonErrors
@@ -170,7 +184,7 @@ Comparison compareRuns(
     }
     out.bestTranslation = smallest(out.runs, [](const auto& r) { return r.translation.value; });
     out.bestRotation = smallest(out.runs, [](const auto& r) { return r.rotation.value; });
-    if (haveSameAteFrames(estimates, out.runs))
+    if (estimates.size() > 1 && haveSameAteFrames(estimates, out.runs))
     {
         out.bestAte = smallest(out.runs, [](const auto& r) { return r.ate.translation.rmse; });
     }

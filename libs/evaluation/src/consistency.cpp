@@ -110,9 +110,19 @@ NeesResult consistencyOf(
     return out;
 }
 
+std::string shortVerdict(const ConsistencyTest& test)
+{
+    return !test.isJudged()        ? "cannot be judged"
+           : test.isOptimistic()   ? "optimistic"
+           : test.isConservative() ? "conservative"
+                                   : "consistent";
+}
+
 std::string verdict(const ConsistencyTest& test)
 {
-    return test.isOptimistic()
+    return !test.isJudged()
+               ? "cannot be judged: NEES is not finite, as covariances are too large or too small"
+           : test.isOptimistic()
                ? "optimistic: the stated standard deviations are too small by a factor of " +
                      numberText(std::sqrt(test.nees), 2)
            : test.isConservative()

@@ -9,7 +9,11 @@ namespace pointplane
 namespace
 {
 ChartSeries columnSeries(
-    const FrameTable& table, const std::string& column, const std::string& name, bool rightAxis)
+    const FrameTable& table,
+    double start,
+    const std::string& column,
+    const std::string& name,
+    bool rightAxis)
 {
     ChartSeries series;
     series.name = name;
@@ -17,7 +21,7 @@ ChartSeries columnSeries(
     series.y = table.column(column);
     for (const double stamp : table.stamps())
     {
-        series.x.push_back(stamp - table.stamps().front());
+        series.x.push_back(stamp - start);
     }
     return series;
 }
@@ -27,6 +31,7 @@ void addColumns(
     std::vector<Chart>& charts,
     Chart chart,
     const FrameTable& table,
+    double start,
     const std::vector<std::pair<std::string, std::string>>& left,
     const std::vector<std::pair<std::string, std::string>>& right)
 {
@@ -34,14 +39,14 @@ void addColumns(
     {
         if (table.has(column))
         {
-            chart.series.push_back(columnSeries(table, column, name, false));
+            chart.series.push_back(columnSeries(table, start, column, name, false));
         }
     }
     for (const auto& [column, name] : right)
     {
         if (table.has(column))
         {
-            chart.series.push_back(columnSeries(table, column, name, true));
+            chart.series.push_back(columnSeries(table, start, column, name, true));
         }
     }
     if (!chart.series.empty())
@@ -51,7 +56,7 @@ void addColumns(
 }
 }  // namespace
 
-std::vector<Chart> frameCharts(const FrameTable& table)
+std::vector<Chart> frameCharts(const FrameTable& table, double start)
 {
     std::vector<Chart> charts;
     if (table.size() == 0)
@@ -67,6 +72,7 @@ std::vector<Chart> frameCharts(const FrameTable& table)
         charts,
         features,
         table,
+        start,
         {{"numPoints", "points"}, {"numPointPairs", "point pairs"}, {"numPointInliers", "inliers"}},
         {{"numPlanes", "planes"}, {"numPlanePairs", "plane pairs"}});
 
@@ -83,7 +89,7 @@ std::vector<Chart> frameCharts(const FrameTable& table)
         for (std::size_t k = 0; k < table.size(); ++k)
         {
             const std::string& s = table.status()[k];
-            series.x.push_back(table.stamps()[k] - table.stamps().front());
+            series.x.push_back(table.stamps()[k] - start);
             series.y.push_back(s == "lost" ? 0 : s == "predicted" ? 1 : 2);
         }
         status.series.push_back(std::move(series));
@@ -97,6 +103,7 @@ std::vector<Chart> frameCharts(const FrameTable& table)
         charts,
         times,
         table,
+        start,
         {{"msTotal", "total"},
          {"msPoints", "points"},
          {"msPlanes", "planes"},

@@ -51,6 +51,14 @@ std::vector<std::pair<std::size_t, std::size_t>> endsOf(
     return out;
 }
 
+const std::string kMapTellsNone =
+    "A .simplemap cannot: test the rawlog of pointplane-odometry --since";
+
+bool isMap(const Trajectory& estimate)
+{
+    return estimate.name.find(".simplemap") != std::string::npos;
+}
+
 bool isTold(const Trajectory& estimate, std::size_t i, std::size_t j)
 {
     return j < estimate.sinceCovs.size() && j - i <= estimate.sinceCovs[j].size();
@@ -152,13 +160,14 @@ NeesRun neesRun(
     }
     if (!out.untold.empty())
     {
+        const std::string since = "pointplane-odometry --since " + std::to_string(longest);
         NeesInterval start;
         start.sinceStart = true;
         out.tested.push_back({start, neesIncrements(groundTruth, estimate, start, options)});
         out.note = "increments of " + names + " are not tested: '" + estimate.name +
                    "' does not tell their covariances, and the poses' covariances do not grow by "
-                   "them. Write them by pointplane-odometry --since " +
-                   std::to_string(longest) +
+                   "them. " +
+                   (isMap(estimate) ? kMapTellsNone : "Write them by " + since) +
                    ". The poses are tested instead, each as the motion since the first one";
     }
     return out;
@@ -174,9 +183,9 @@ std::string noteOnUntold(const Trajectory& estimate, const std::vector<NeesIncre
     {
         return "";
     }
-    return "'" + estimate.name +
-           "' does not tell the covariances of all these increments (pointplane-odometry --since); "
-           "they are taken for the growth of the poses', which is right if increments are "
+    return "'" + estimate.name + "' does not tell the covariances of all these increments (" +
+           (isMap(estimate) ? kMapTellsNone : "pointplane-odometry --since") +
+           "); they are taken for the growth of the poses', which is right if increments are "
            "independent";
 }
 }  // namespace pointplane

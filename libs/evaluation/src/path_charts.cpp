@@ -8,16 +8,25 @@
 #include <cmath>
 #include <limits>
 
+#include "chart_holes.h"
+
 namespace pointplane
 {
 namespace
 {
 constexpr std::size_t kEllipses = 12;
 
-/** Positions in two of the world's axes. */
+/** Positions with a hole before those that have one. */
+struct Path
+{
+    std::vector<Eigen::Vector3d> positions;
+    std::vector<bool> holes;
+};
+
+/** In two of the world's axes. */
 ChartSeries pathSeries(
     const std::string& name,
-    const std::vector<Eigen::Vector3d>& positions,
+    const Path& path,
     int horizontal,
     int vertical,
     const std::string& colour,
@@ -27,21 +36,38 @@ ChartSeries pathSeries(
     series.name = name;
     series.colour = colour;
     series.style = style;
-    for (const Eigen::Vector3d& p : positions)
+    for (std::size_t k = 0; k < path.positions.size(); ++k)
     {
-        series.x.push_back(p[horizontal]);
-        series.y.push_back(p[vertical]);
+        if (path.holes[k])
+        {
+            interrupt(series);
+        }
+        series.x.push_back(path.positions[k][horizontal]);
+        series.y.push_back(path.positions[k][vertical]);
     }
     return series;
 }
 
-/** Positions of a path in the ground truth's world. */
-std::vector<Eigen::Vector3d> positionsOf(const DrawnPath& path)
+/** In the ground truth's world. */
+Path pathOf(const DrawnPath& path)
 {
-    std::vector<Eigen::Vector3d> out;
+    Path out{{}, holesBefore(path.estimate)};
     for (const Eigen::Isometry3d& pose : path.estimate.poses)
     {
-        out.push_back(path.ate.T_truth_estimate * (path.scale * pose.translation()));
+        out.positions.push_back(path.ate.T_truth_estimate * (path.scale * pose.translation()));
+    }
+    return out;
+}
+
+/** Only the part of the ground truth that the estimate covers. */
+Path truthOf(const Trajectory& groundTruth, const AteResult& ate)
+{
+    const std::vector<bool> holes = holesBefore(groundTruth);
+    Path out;
+    for (std::size_t k = ate.errors.front().truth; k <= ate.errors.back().truth; ++k)
+    {
+        out.positions.push_back(groundTruth.poses[k].translation());
+        out.holes.push_back(holes[k]);
     }
     return out;
 }
@@ -110,13 +136,19 @@ namespace
 /** One path: coloured by its error, with ellipses. */
 void addPath(Chart& chart, const DrawnPath& path, int horizontal, int vertical)
 {
-    const std::vector<Eigen::Vector3d> positions = positionsOf(path);
-    chart.series.push_back(pathSeries("", positions, horizontal, vertical, "muted"));
+    const Path whole = pathOf(path);
+    chart.series.push_back(pathSeries("", whole, horizontal, vertical, "muted"));
     ChartSeries coloured = pathSeries(path.name, {}, horizontal, vertical, "muted");
+    std::size_t before = 0;
     for (const AteError& error : path.ate.errors)
     {
-        coloured.x.push_back(positions[error.estimate][horizontal]);
-        coloured.y.push_back(positions[error.estimate][vertical]);
+        if (isHoleBetween(whole.holes, before, error.estimate))
+        {
+            interrupt(coloured);
+        }
+        before = error.estimate;
+        coloured.x.push_back(whole.positions[error.estimate][horizontal]);
+        coloured.y.push_back(whole.positions[error.estimate][vertical]);
         coloured.level.push_back(1000 * error.translation);
     }
     chart.levelLabel = "position error [mm]";
@@ -131,12 +163,7 @@ void addPath(Chart& chart, const DrawnPath& path, int horizontal, int vertical)
 
 std::vector<Chart> pathCharts(const Trajectory& groundTruth, const std::vector<DrawnPath>& paths)
 {
-    // Only the part of the ground truth that the first estimate covers.
-    std::vector<Eigen::Vector3d> truth;
-    for (const AteError& pair : paths.front().ate.errors)
-    {
-        truth.push_back(groundTruth.poses[pair.truth].translation());
-    }
+    const Path truth = truthOf(groundTruth, paths.front().ate);
     std::vector<Chart> charts;
     for (const bool above : {true, false})
     {
@@ -154,14 +181,15 @@ std::vector<Chart> pathCharts(const Trajectory& groundTruth, const std::vector<D
             }
             else
             {
-                chart.series.push_back(pathSeries(path.name, positionsOf(path), 0, vertical, ""));
+                chart.series.push_back(pathSeries(path.name, pathOf(path), 0, vertical, ""));
             }
         }
         using Style = ChartSeries::Style;
         chart.series.push_back(pathSeries("ground truth", truth, 0, vertical, "ink"));
-        chart.series.push_back(
-            pathSeries("start", {truth.front()}, 0, vertical, "c2", Style::Start));
-        chart.series.push_back(pathSeries("end", {truth.back()}, 0, vertical, "alarm", Style::End));
+        chart.series.push_back(pathSeries(
+            "start", {{truth.positions.front()}, {false}}, 0, vertical, "c2", Style::Start));
+        chart.series.push_back(pathSeries(
+            "end", {{truth.positions.back()}, {false}}, 0, vertical, "alarm", Style::End));
         charts.push_back(std::move(chart));
     }
     return charts;

@@ -4,9 +4,12 @@
 #include <pointplane/evaluation/trajectory_charts.h>
 #include <pointplane/evaluation/units.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <stdexcept>
+
+#include "chart_holes.h"
 
 namespace pointplane
 {
@@ -15,13 +18,15 @@ namespace
 constexpr int kAxes = 6;
 constexpr std::array<const char*, kAxes> kNames{"x", "y", "z", "roll", "pitch", "yaw"};
 
-/** A pose of the estimate beside the ground truth's at its stamp. */
-struct PoseBeside
+/** A pose of the ground truth, or of the estimate with its error. */
+struct DrawnPose
 {
-    double time;               //!< since the first pose [s]
-    Vector6d estimate, truth;  //!< x y z [m], roll pitch yaw [rad]
-    Vector6d error;  //!< of the position [m] and, as a rotation vector, of the orientation [rad]
-    Vector6d sigma;  //!< of that error
+    double time{0};  //!< since the estimate's first pose [s]
+    bool afterHole{false};
+    Vector6d pose{Vector6d::Zero()};  //!< x y z [m], roll pitch yaw [rad]
+    /** Of the position [m] and, as a rotation vector, of the orientation [rad]. */
+    Vector6d error{Vector6d::Zero()};
+    Vector6d sigma{Vector6d::Zero()};  //!< of that error
 };
 
 Vector6d coordinatesOf(const Eigen::Isometry3d& T)
@@ -43,18 +48,56 @@ void unwrap(Vector6d& current, const Vector6d& near)
     }
 }
 
-std::vector<PoseBeside> posesBeside(
+/** At its own stamps, as long as the estimate is. */
+std::vector<DrawnPose> truthOf(
+    const Trajectory& groundTruth, const Trajectory& estimate, double offset)
+{
+    const std::vector<bool> holes = holesBefore(groundTruth);
+    std::vector<DrawnPose> out;
+    for (std::size_t k = 0; k < groundTruth.size(); ++k)
+    {
+        const double stamp = groundTruth.stamps[k] - offset;
+        if (stamp >= estimate.stamps.front() && stamp <= estimate.stamps.back())
+        {
+            DrawnPose drawn;
+            drawn.time = stamp - estimate.stamps.front();
+            drawn.afterHole = holes[k];
+            drawn.pose = coordinatesOf(groundTruth.poses[k]);
+            unwrap(drawn.pose, out.empty() ? drawn.pose : out.back().pose);
+            out.push_back(drawn);
+        }
+    }
+    return out;
+}
+
+/** The nearest in time. */
+const DrawnPose& nearestTo(double time, const std::vector<DrawnPose>& poses)
+{
+    const auto isBefore = [](const DrawnPose& pose, double t) { return pose.time < t; };
+    const auto after = std::lower_bound(poses.begin(), poses.end(), time, isBefore);
+    return after == poses.end() ||
+                   (after != poses.begin() && time - (after - 1)->time < after->time - time)
+               ? *(after - 1)
+               : *after;
+}
+
+/** Poses that have ground truth. \param drawnTruth tells how many turns there were */
+std::vector<DrawnPose> estimateOf(
     const Trajectory& groundTruth,
     const Trajectory& estimate,
     const AteOptions& options,
-    const AteResult& aligned)
+    const AteResult& aligned,
+    const std::vector<DrawnPose>& drawnTruth)
 {
     const SampledTruth truth =
         sampleTruth(groundTruth, estimate.stamps, options.offset, TruthAt::Interpolated);
     const Matrix6d Ad = adjoint(aligned.T_truth_estimate);
-    std::vector<PoseBeside> out;
+    const std::vector<bool> holes = holesBefore(estimate);
+    bool afterHole = false;
+    std::vector<DrawnPose> out;
     for (std::size_t k = 0; k < estimate.size(); ++k)
     {
+        afterHole = afterHole || holes[k] || truth.valid[k] == 0;
         if (truth.valid[k] == 0)
         {
             continue;
@@ -62,15 +105,16 @@ std::vector<PoseBeside> posesBeside(
         Eigen::Isometry3d scaled = estimate.poses[k];
         scaled.translation() *= options.scale;
         const Eigen::Isometry3d T = aligned.T_truth_estimate * scaled;
-        PoseBeside pose;
+        DrawnPose pose;
         pose.time = estimate.stamps[k] - estimate.stamps.front();
-        pose.truth = coordinatesOf(truth.poses[k]);
-        pose.estimate = coordinatesOf(T);
-        unwrap(pose.truth, out.empty() ? pose.truth : out.back().truth);
-        unwrap(pose.estimate, pose.truth);
+        pose.afterHole = afterHole;
+        afterHole = false;
+        pose.pose = coordinatesOf(T);
+        Vector6d beside = coordinatesOf(truth.poses[k]);
+        unwrap(beside, drawnTruth.empty() ? beside : nearestTo(pose.time, drawnTruth).pose);
+        unwrap(pose.pose, beside);
         pose.error << T.translation() - truth.poses[k].translation(),
             so3Log(T.linear() * truth.poses[k].linear().transpose());
-        pose.sigma.setZero();
         if (!estimate.covs.empty())
         {
             Matrix6d J = Matrix6d::Identity();  // of position and rotation by the left perturbation
@@ -82,7 +126,12 @@ std::vector<PoseBeside> posesBeside(
     return out;
 }
 
-Chart chartOf(const std::vector<PoseBeside>& poses, int axis, bool error, bool withSigma)
+Chart chartOf(
+    const std::vector<DrawnPose>& poses,
+    const std::vector<DrawnPose>& truths,
+    int axis,
+    bool error,
+    bool withSigma)
 {
     const bool angle = axis >= 3;
     const double unit = angle ? kDegreesPerRadian : (error ? 1000 : 1);
@@ -97,16 +146,28 @@ Chart chartOf(const std::vector<PoseBeside>& poses, int axis, bool error, bool w
     ChartSeries estimate{
         error ? "error" : "estimate", {}, {}, ChartSeries::Style::Line, false, "c0"};
     ChartSeries truth{"ground truth", {}, {}, ChartSeries::Style::Dashed, false, "ink"};
-    for (const PoseBeside& pose : poses)
+    for (const DrawnPose& pose : poses)
     {
-        const double middle = error ? 0 : pose.estimate[axis];
+        if (pose.afterHole)
+        {
+            interrupt(band);
+            interrupt(estimate);
+        }
+        const double middle = error ? 0 : pose.pose[axis];
         band.x.push_back(pose.time);
         band.y.push_back(unit * (middle - 3 * pose.sigma[axis]));
         band.yUpper.push_back(unit * (middle + 3 * pose.sigma[axis]));
         estimate.x.push_back(pose.time);
-        estimate.y.push_back(unit * (error ? pose.error[axis] : pose.estimate[axis]));
+        estimate.y.push_back(unit * (error ? pose.error[axis] : pose.pose[axis]));
+    }
+    for (const DrawnPose& pose : truths)
+    {
+        if (pose.afterHole)
+        {
+            interrupt(truth);
+        }
         truth.x.push_back(pose.time);
-        truth.y.push_back(unit * pose.truth[axis]);
+        truth.y.push_back(unit * pose.pose[axis]);
     }
     if (withSigma)
     {
@@ -127,7 +188,9 @@ std::vector<Chart> poseCharts(
     const AteOptions& options,
     const AteResult& aligned)
 {
-    const std::vector<PoseBeside> poses = posesBeside(groundTruth, estimate, options, aligned);
+    const std::vector<DrawnPose> truths = truthOf(groundTruth, estimate, options.offset);
+    const std::vector<DrawnPose> poses =
+        estimateOf(groundTruth, estimate, options, aligned, truths);
     if (poses.empty())
     {
         throw std::runtime_error("no pose has ground truth before and after it");
@@ -139,7 +202,7 @@ std::vector<Chart> poseCharts(
         {
             for (int axis = first; axis < first + 3; ++axis)
             {
-                charts.push_back(chartOf(poses, axis, error, !estimate.covs.empty()));
+                charts.push_back(chartOf(poses, truths, axis, error, !estimate.covs.empty()));
             }
         }
     }

@@ -46,10 +46,10 @@ std::vector<double> indexOf(const Trajectory& estimate, DeltaUnit unit)
 
 using IndexPairs = std::vector<std::pair<std::size_t, std::size_t>>;
 
-/** The drift per second of [P17, section Experiments], if delta is one second. */
-IndexPairs fixedDeltaPairs(const Trajectory& estimate, const RpeOptions& options)
+/** The drift per second of [P17, section Experiments], if delta is one second.
+ * \param index the poses in the unit of delta */
+IndexPairs fixedDeltaPairs(const std::vector<double>& index, const RpeOptions& options)
 {
-    const std::vector<double> index = indexOf(estimate, options.unit);
     IndexPairs pairs;
     for (std::size_t i = 0; i < index.size(); ++i)
     {
@@ -244,13 +244,18 @@ RpeResult relativePoseError(
     const auto maxPairs = static_cast<std::size_t>(std::max<std::int64_t>(0, options.maxPairs));
     if (options.fixedDelta)
     {
-        IndexPairs pairs = fixedDeltaPairs(estimate, options);
+        const std::vector<double> index = indexOf(estimate, options.unit);
+        IndexPairs pairs = fixedDeltaPairs(index, options);
         result.randomPairs = maxPairs > 0 && pairs.size() > maxPairs;
         if (result.randomPairs)
         {
             keepRandom(pairs, maxPairs, options.seed);
         }
         evaluateListed(pairs, truth, error, result);
+        const auto isOff = [&](const RpePair& pair)
+        { return std::abs(index[pair.j] - index[pair.i] - options.delta) > 0.5 * options.delta; };
+        result.pairsOffDelta = static_cast<std::size_t>(
+            std::count_if(result.pairs.begin(), result.pairs.end(), isOff));
         if (numWithThemselves(result) == result.pairs.size())
         {
             throw std::runtime_error(
@@ -301,10 +306,12 @@ std::string describe(const RpeOptions& options, const RpeResult& result)
         result.candidatePairs,
         result.randomPairs ? (" drawn with seed " + std::to_string(options.seed)).c_str() : "");
     const std::size_t alone = options.fixedDelta ? numWithThemselves(result) : 0;
+    const std::size_t off = result.pairsOffDelta - std::min(alone, result.pairsOffDelta);
     return describe(options) + counts +
            (alone > 0
                 ? std::to_string(alone) + " of a pose with itself, as nothing is at its delta, "
                 : "") +
+           (off > 0 ? std::to_string(off) + " off by more than half of delta, " : "") +
            describe(result.coverage);
 }
 }  // namespace pointplane

@@ -21,8 +21,8 @@ inline std::vector<std::size_t> thinned(const std::vector<double>& y)
         std::size_t high = begin;
         for (std::size_t k = begin; k < std::min(begin + stride, y.size()); ++k)
         {
-            low = y[k] < y[low] ? k : low;
-            high = y[k] > y[high] ? k : high;
+            low = std::isnan(y[low]) || y[k] < y[low] ? k : low;
+            high = std::isnan(y[high]) || y[k] > y[high] ? k : high;
             if (!std::isfinite(y[k]))
             {
                 keep.push_back(k);

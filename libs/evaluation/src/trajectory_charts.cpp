@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "chart_holes.h"
+
 namespace pointplane
 {
 namespace
@@ -32,6 +34,7 @@ ChartSeries levels(
 std::vector<Chart> relativeErrorCharts(
     const Trajectory& estimate, const RpeOptions& options, const RpeResult& result)
 {
+    const std::vector<bool> holes = holesBefore(estimate);
     std::vector<Chart> charts;
     for (const bool translation : {true, false})
     {
@@ -43,8 +46,14 @@ std::vector<Chart> relativeErrorCharts(
         ChartSeries series;
         series.name = "error";
         double end = 0;
+        std::size_t before = 0;
         for (const RpePair& pair : result.pairs)
         {
+            if (isHoleBetween(holes, before, pair.i))
+            {
+                interrupt(series);
+            }
+            before = pair.i;
             end = estimate.stamps[pair.i] - estimate.stamps.front();
             series.x.push_back(end);
             series.y.push_back(
@@ -71,8 +80,15 @@ Chart positionErrorChart(const Trajectory& estimate, const AteResult& result)
     chart.yLabel = "distance to the ground truth [mm]";
     ChartSeries series;
     series.name = "position error";
+    const std::vector<bool> holes = holesBefore(estimate);
+    std::size_t before = 0;
     for (const AteError& error : result.errors)
     {
+        if (isHoleBetween(holes, before, error.estimate))
+        {
+            interrupt(series);
+        }
+        before = error.estimate;
         series.x.push_back(estimate.stamps[error.estimate] - estimate.stamps.front());
         series.y.push_back(1000 * error.translation);
     }

@@ -27,7 +27,9 @@ constexpr double kNormTolerance = 0.01;  // files have four digits and more
     throw std::runtime_error(path + ":" + std::to_string(line) + ": " + what);
 }
 
-std::vector<double> parseNumbers(const std::string& text, const std::string& path, std::size_t line)
+/** \param hint to what may be wrong where there is no number */
+std::vector<double> parseNumbers(
+    const std::string& text, const std::string& path, std::size_t line, const std::string& hint)
 {
     std::vector<double> numbers;
     const char* const end = text.data() + text.size();
@@ -45,11 +47,25 @@ std::vector<double> parseNumbers(const std::string& text, const std::string& pat
         const auto number = parseNumber<double>(word);
         if (!number)
         {
-            failAt(path, line, "'" + word + "' is not a number");
+            failAt(path, line, "'" + word + "' is not a number" + hint);
         }
         numbers.push_back(*number);
         at = stop;
     }
+}
+
+/** Whether it is free of control characters and of letters beyond English, which numbers never
+ * have. Else it may be anything, and is not for messages. */
+bool isAscii(const std::string& line)
+{
+    const auto isPlain = [](char c) { return (c >= ' ' && c <= '~') || c == '\t' || c == '\r'; };
+    return std::all_of(line.begin(), line.end(), isPlain);
+}
+
+bool isBeyondATurn(double angle)
+{
+    constexpr double kTurn = 2 * 3.14159265358979323846;
+    return std::abs(angle) > kTurn;
 }
 
 /** \return a number like 1,5 in a line of columns separated by blanks, or nothing: commas alone
@@ -186,7 +202,7 @@ class PoseLines
     const std::string& path_;
     std::vector<StampedPose> poses_;
     std::size_t columns_{0};
-    NotedLines notFinite_, zeroQuaternion_, otherNorm_;
+    NotedLines notFinite_, zeroQuaternion_, otherNorm_, largeAngle_;
 };
 
 void PoseLines::requireColumns(std::size_t columns, std::size_t line)
@@ -205,11 +221,16 @@ void PoseLines::requireColumns(std::size_t columns, std::size_t line)
 
 void PoseLines::add(const std::string& text, std::size_t line)
 {
+    if (!isAscii(text))
+    {
+        failAt(path_, line, "is not text of numbers, as a trajectory is");
+    }
     if (text.find(',') != std::string::npos && !decimalComma(text).empty())
     {
         failAt(path_, line, "'" + decimalComma(text) + "' has a decimal comma; write points");
     }
-    const std::vector<double> v = parseNumbers(text, path_, line);
+    const std::vector<double> v =
+        parseNumbers(text, path_, line, columns_ == 0 ? "; a header must begin with #" : "");
     if (v.empty())
     {
         return;
@@ -230,6 +251,10 @@ void PoseLines::add(const std::string& text, std::size_t line)
         if (std::abs(norm - 1) > kNormTolerance)
         {
             otherNorm_.add(line);
+        }
+        if (!isTum && std::any_of(v.begin() + 4, v.end(), isBeyondATurn))
+        {
+            largeAngle_.add(line);
         }
         poses_.push_back({v[0], isTum ? poseFromQuaternion(v) : poseFromYawPitchRoll(v)});
     }
@@ -254,6 +279,8 @@ Trajectory PoseLines::result(FrameMarks marks, std::size_t numLines)
     notFinite_.warn(out, "NaN or infinity left out");
     zeroQuaternion_.warn(out, "a zero quaternion left out");
     otherNorm_.warn(out, "a quaternion whose norm is not 1", "; are columns 5 to 8 qx qy qz qw?");
+    largeAngle_.warn(
+        out, "an angle beyond 2 pi", "; are angles in degrees? They must be in radians");
     return out;
 }
 }  // namespace

@@ -236,8 +236,8 @@ void Aligner::distrustPoints(const Scene& scene, Alignment& alignment) const
     }
 }
 
-/** Motions that the images alone tell, until one is convincing: by their points, and where these
- * tell none, by their planes. */
+/** Motions that the images alone tell, until one is convincing, or leads to the motion that was
+ * found already: by their points, and where these tell none, by their planes. */
 void Aligner::searchImages(const Scene& scene, Alignment& best) const
 {
     for (const auto& motionOf : {&Aligner::motionOfPoints, &Aligner::motionOfPlanes})
@@ -252,8 +252,10 @@ void Aligner::searchImages(const Scene& scene, Alignment& best) const
             }
             isFound = true;
             const Motion start{*T_prev_cur, scene.predicted.motion.mean.velocity};
-            Judge::keepBetter(best, attempt(scene, start, Search::Wide), scene.errors.usual());
-            if (Judge::isConvincing(best, scene.errors.usual()))
+            Alignment other = attempt(scene, start, Search::Wide);
+            const bool isKnown = Judge::areSame(best, other);
+            Judge::keepBetter(best, std::move(other), scene.errors.usual());
+            if (isKnown || Judge::isConvincing(best, scene.errors.usual()))
             {
                 return;
             }

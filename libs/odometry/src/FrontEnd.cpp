@@ -59,6 +59,7 @@ Features FrontEnd::extract(const RgbdFrame& frame, FrameDiagnostics& diagnostics
     if (camera_ && !sameCamera(*camera_, frame.camera))
     {
         depthNoise_.reset();
+        attached_ = {};
     }
     camera_ = frame.camera;
     depthNoise_.update(frame.depth);
@@ -68,6 +69,7 @@ Features FrontEnd::extract(const RgbdFrame& frame, FrameDiagnostics& diagnostics
         out.frame.depth = cv::Mat(
             frame.depth.size(), frame.depth.type(), std::numeric_limits<float>::quiet_NaN());
     }
+    leaveOutAttached(out.frame, diagnostics);
     out.hasDepth = hasDepth(out.frame);
     planeExtractor_.setNoise(depthNoise_.noise());
     pointStage_.setNoise(depthNoise_.noise());
@@ -94,6 +96,21 @@ Features FrontEnd::extract(const RgbdFrame& frame, FrameDiagnostics& diagnostics
     diagnostics.msPoints = pointsMs.get();
     diagnostics.numPlanes = static_cast<int>(out.planes.planes.size());
     return out;
+}
+
+void FrontEnd::leaveOutAttached(RgbdFrame& frame, FrameDiagnostics& diagnostics)
+{
+    if (!params_.findRobot)
+    {
+        return;
+    }
+    attached_.update(frame, depthNoise_.noise());
+    diagnostics.attachedShare = attached_.share();
+    if (diagnostics.attachedShare > 0)
+    {
+        frame.depth = frame.depth.clone();
+        frame.depth.setTo(std::numeric_limits<float>::quiet_NaN(), attached_.mask());
+    }
 }
 
 PointReference FrontEnd::pointReference(const Features& features) const

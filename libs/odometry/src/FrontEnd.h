@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pointplane/odometry/AttachedParts.h>
 #include <pointplane/odometry/Features.h>
 #include <pointplane/odometry/MovingRegions.h>
 #include <pointplane/odometry/OdometryParams.h>
@@ -15,7 +16,8 @@
 namespace pointplane
 {
 /** Takes points and planes from images, and finds what two frames have in common. Of the past it
- * knows only the camera's noise, which it learns from the depth images. */
+ * knows the camera's noise, which it learns from the depth images, and what moves with the camera.
+ */
 class FrontEnd
 {
  public:
@@ -67,12 +69,16 @@ class FrontEnd
     }
 
  private:
+    /** Parts of the view that move with the camera tell nothing of its motion. */
+    void leaveOutAttached(RgbdFrame& frame, FrameDiagnostics& diagnostics);
+
     [[nodiscard]] MatchedPoints matchImages(
         const Reference& reference, const Features& current) const;
 
     PipelineParams params_;
     std::optional<PinholeCamera> camera_;  //!< of the frame before
     DepthNoiseLearner depthNoise_;
+    AttachedParts attached_;
     PlaneExtractor planeExtractor_;
     PlaneMatcher planeMatcher_;
     PointStage pointStage_;

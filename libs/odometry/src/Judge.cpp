@@ -133,6 +133,12 @@ void Judge::keepBetter(Alignment& best, Alignment other, const NoiseFactors& usu
     }
 }
 
+bool Judge::areSame(const Alignment& a, const Alignment& b)
+{
+    const PoseGaussian ofA = a.estimate.pose(), ofB = b.estimate.pose();
+    return a.holds && b.holds && surprise(ofA.mean, ofB) < 1 && surprise(ofB.mean, ofA) < 1;
+}
+
 bool Judge::isConvincing(const Alignment& a, const NoiseFactors& usual)
 {
     const int worth = a.estimate.numPointInliers + 3 * static_cast<int>(a.problem.planes.size());

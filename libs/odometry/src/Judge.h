@@ -34,6 +34,10 @@ class Judge
      * \param usual variance of the residuals so far, over the propagated one */
     static void keepBetter(Alignment& best, Alignment other, const NoiseFactors& usual);
 
+    /** Whether two alignments of a frame hold, and each is within the other's standard deviation.
+     */
+    [[nodiscard]] static bool areSame(const Alignment& a, const Alignment& b);
+
     /** Whether it needs no comparison with others, and is believed even far from the prediction. */
     [[nodiscard]] static bool isConvincing(const Alignment& alignment, const NoiseFactors& usual);
 

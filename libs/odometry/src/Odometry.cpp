@@ -183,8 +183,14 @@ Alignment Odometry::Impl::align(const Features& current, FrameDiagnostics& diagn
     }
     if (const auto place = aligner.recognise(frontEnd, current, track))
     {
+        const Track before = track;
         track.recall(*place);
         out = aligner.align(frontEnd, current, track, errors, diagnostics);
+        if (!out.holds)
+        {
+            track = before;  // key frames that may be in view do not make room for it
+            out.associations.clear();
+        }
     }
     if (!out.holds && track.restartAtUnmatched())
     {

@@ -18,6 +18,7 @@ void PoseHistory::predict(const PoseGaussian& increment)
     JointCovariance::Prediction errors;
     errors.motion = increment.cov;
     predict(increment.mean, errors);
+    joint_.endCoasting();
 }
 
 void PoseHistory::predict(

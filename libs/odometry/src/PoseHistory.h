@@ -26,6 +26,9 @@ class PoseHistory
     /** Likewise, by a motion that errs independently of any other. */
     void predict(const PoseGaussian& increment);
 
+    /** JointCovariance::endCoasting(). */
+    void endCoasting() { joint_.endCoasting(); }
+
     /** Adds a measured frame.
      * \param T_world_prev pose of the latest measured frame
      * \param decayed its velocity since then */

@@ -70,10 +70,10 @@ Prediction Track::prediction(double stamp)
 {
     Prediction out;
     out.dt = stepBetween(previous().stamp, stamp);
-    out.followsMeasured = latestStamp_ <= previous().stamp;
+    out.followsMeasured = isPreviousMeasured_ && previous().id == history_.latestFrame();
     if (out.dt > maxGap_)
     {
-        motion_.reset();
+        forgetVelocity();
     }
     out.motion = motion_.predictFromEstimate(out.dt);
     out.pose = out.motion.pose();
@@ -93,6 +93,17 @@ MotionPrior Track::priorFrom(const MotionGaussian& motion, const PoseGaussian& p
     MotionPrior prior = MotionPrior::from(motion);
     prior.pose = pose.cov.ldlt().solve(Matrix6d::Identity());
     return prior;
+}
+
+/** Once: after that it is known better from frame to frame how little is known. */
+void Track::forgetVelocity()
+{
+    if (isVelocityKnown_)
+    {
+        motion_.reset();
+        history_.endCoasting();
+        isVelocityKnown_ = false;
+    }
 }
 
 void Track::changeCamera(const PinholeCamera& camera, const CameraMatrix& cov)
@@ -124,6 +135,7 @@ PoseGaussian Track::restart(Reference frame)
     motion_.startAtReference();
     unmatched_.reset();
     started_ = true;
+    isPreviousMeasured_ = false;
     latestStamp_ = frame.stamp;
     lateStamp_.reset();
     add(std::move(frame), true);
@@ -133,6 +145,8 @@ PoseGaussian Track::restart(Reference frame)
 void Track::measure(Measured measured)
 {
     const DecayedVelocities decayed = motion_.after(measured.dt);
+    isPreviousMeasured_ = true;
+    isVelocityKnown_ = !measured.isJump;
     if (measured.isJump)
     {
         motion_.reset();
@@ -176,10 +190,9 @@ PoseGaussian Track::predict(double stamp, std::optional<Reference> unmatched)
     const bool known = started_ && stamp >= latestStamp_ && std::isfinite(stamp);
     const double dt = known ? stepBetween(latestStamp_, stamp) : MotionModel::kUsualStep;
     JointCovariance::Prediction errors;
-    errors.isVelocityNew = dt > maxGap_;
-    if (errors.isVelocityNew)
+    if (dt > maxGap_)
     {
-        motion_.reset();
+        forgetVelocity();
     }
     PoseGaussian increment = motion_.predict(dt).pose();
     errors.motion = motion_.unforeseen(dt);
@@ -216,6 +229,7 @@ bool Track::restartAtUnmatched()
     }
     window_.leave();
     motion_.startAtReference();
+    isPreviousMeasured_ = false;
     history_.restart(unmatched_->id, placeIds());
     window_.add(std::move(*unmatched_), true);
     unmatched_.reset();

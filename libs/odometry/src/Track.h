@@ -129,6 +129,7 @@ class Track
     void add(Reference frame, bool isKeyframe);
     [[nodiscard]] std::vector<int> placeIds() const;
     void forgetOthers();
+    void forgetVelocity();
 
     double maxGap_;
     bool fuses_, isFrameToFrame_;
@@ -141,5 +142,7 @@ class Track
     std::optional<double> lateStamp_;  //!< of the latest frame, when it was not after latestStamp_
     bool started_{false};              //!< there was a good frame
     bool wasLost_{false};              //!< there were others before it
+    bool isPreviousMeasured_{false};   //!< it is not the first frame, nor one that matched none
+    bool isVelocityKnown_{false};      //!< since the latest measured frame
 };
 }  // namespace pointplane

@@ -55,10 +55,8 @@ void JointCovariance::changeCamera(const CameraMatrix& cov)
 void JointCovariance::predict(
     int frame, const Eigen::Isometry3d& T_world_latest, const Prediction& prediction)
 {
-    const bool isCoasting = has(Kind::Coasting, 0) && !prediction.isVelocityNew;
-    if (!isCoasting)
+    if (!has(Kind::Coasting, 0))
     {
-        dropCoasting();
         errors_.prepend(
             {{Kind::Coasting, 0}},
             Eigen::MatrixXd::Zero(kSize, errors_.size()),

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace pointplane
@@ -29,6 +30,11 @@ class FrameTable
     std::vector<double> stamps_;
     std::vector<std::string> status_;
 };
+
+/** Index of a stamp and of the row that has it, to within half the interval of the table's frames;
+ * without stamps that the table does not have, and without rows of lost frames. */
+[[nodiscard]] std::vector<std::pair<std::size_t, std::size_t>> rowsOf(
+    const std::vector<double>& stamps, const FrameTable& table);
 
 /** Fields of one line of CSV; quotes as RFC 4180. */
 [[nodiscard]] std::vector<std::string> splitCsvLine(const std::string& line);

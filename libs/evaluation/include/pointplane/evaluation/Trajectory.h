@@ -85,6 +85,10 @@ void checkOverlap(const Trajectory& groundTruth, const Trajectory& estimate, dou
  * positions \throws std::runtime_error naming file and stamp */
 void checkPositions(const Trajectory& trajectory, double scale = 1);
 
+/** For each pose, whether the recording has a hole before it: a lost frame, or an interval longer
+ * than five median ones. Nothing is known of the way there. The first pose has none. */
+[[nodiscard]] std::vector<bool> holesBefore(const Trajectory& trajectory);
+
 /** Median of the intervals between stamps [s]; 0 for fewer than two. */
 [[nodiscard]] double medianInterval(const std::vector<double>& stamps);
 

@@ -10,8 +10,9 @@ namespace pointplane
 struct BootstrapOptions
 {
     std::size_t resamples{2000};
-    /** So many neighbouring errors are drawn together, because they are alike (moving block
-     * bootstrap, Kuensch 1989). With 1, intervals of a trajectory would be far too narrow. */
+    /** So many neighbouring errors are drawn together, because they are alike (circular block
+     * bootstrap, Politis and Romano 1992: the last is followed by the first, so all are drawn alike
+     * often). With 1, intervals of a trajectory would be far too narrow. */
     std::size_t blockLength{1};
     double confidence{0.95};
     std::uint64_t seed{1};
@@ -21,7 +22,12 @@ struct BootstrapOptions
 struct BootstrapInterval
 {
     double value{0};
-    double lower{0}, upper{0};
+    double lower{0}, upper{0};   //!< NaN if there is no interval
+    std::size_t independent{0};  //!< blocks that the errors fill one after the other
+
+    static constexpr std::size_t kLeastIndependent = 4;
+    /** Fewer blocks hardly differ from sample to sample: their interval would be too narrow. */
+    [[nodiscard]] bool isKnown() const { return independent >= kLeastIndependent; }
     [[nodiscard]] bool excludesZero() const { return lower > 0 || upper < 0; }
 };
 

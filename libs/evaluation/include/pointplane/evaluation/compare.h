@@ -21,7 +21,7 @@ struct ComparedRun
     BootstrapInterval translation;
     BootstrapInterval rotation;  //!< RPE RMSE [rad], likewise
     /** RPE RMSE minus that of the best run, over the pairs both have; none for the best itself and
-     * for runs with fewer than two pairs in common. */
+     * for runs with fewer than two pairs in common. Without an interval, if these are too short. */
     std::optional<BootstrapInterval> translationBehindBest, rotationBehindBest;
     std::size_t pairsInCommon{0};  //!< with the run that is best in translation
 };
@@ -30,12 +30,13 @@ struct Comparison
 {
     std::vector<ComparedRun> runs;                    //!< in the order given
     std::size_t bestTranslation{0}, bestRotation{0};  //!< indices of the smallest RMSE
-    std::optional<std::size_t> bestAte;               //!< none where ATE is not of the same frames
-    std::size_t numCommonPairs{0};                    //!< that all runs have
-    bool sameFrames{true};                            //!< no run has other pairs
+    std::optional<std::size_t>
+        bestAte;                    //!< none where ATE is not of the same frames, or of one run
+    std::size_t numCommonPairs{0};  //!< that all runs have
+    bool sameFrames{true};          //!< no run has other pairs
 
     /** Otherwise the smallest RMSE does not make a run the best one. */
-    [[nodiscard]] bool isComparable() const { return numCommonPairs >= 2; }
+    [[nodiscard]] bool isComparable() const { return runs.size() > 1 && numCommonPairs >= 2; }
 };
 
 /** Scores several estimates of the same ground truth. `rpe` must list its pairs (fixed delta), or

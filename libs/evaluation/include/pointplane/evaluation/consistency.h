@@ -4,6 +4,7 @@
 #include <pointplane/evaluation/nees.h>
 
 #include <array>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -14,8 +15,10 @@ struct ConsistencyTest
 {
     double nees{0};  //!< per degree of freedom; 1 is consistent
     double lower{0}, upper{0};
-    [[nodiscard]] bool isOptimistic() const { return nees > upper; }
-    [[nodiscard]] bool isConservative() const { return nees < lower; }
+    /** Not if covariances are too large or too small to compute with. */
+    [[nodiscard]] bool isJudged() const { return std::isfinite(nees); }
+    [[nodiscard]] bool isOptimistic() const { return isJudged() && nees > upper; }
+    [[nodiscard]] bool isConservative() const { return isJudged() && nees < lower; }
 };
 
 /** Consistency of one degree of freedom. */
@@ -53,6 +56,9 @@ struct NeesResult
 /** How many of the increments, taken greedily in time, do not overlap. */
 [[nodiscard]] std::size_t countIndependent(const std::vector<NeesIncrement>& increments);
 
-/** "consistent", "optimistic: sigmas are too small by a factor of 3.2" or "conservative: ..." */
+/** "consistent", "optimistic", "conservative" or "cannot be judged" */
+[[nodiscard]] std::string shortVerdict(const ConsistencyTest& test);
+
+/** The same, with a reason: "optimistic: sigmas are too small by a factor of 3.2" */
 [[nodiscard]] std::string verdict(const ConsistencyTest& test);
 }  // namespace pointplane

@@ -60,6 +60,8 @@ struct RpeResult
     Statistics rotation;            //!< [rad]
     std::size_t candidatePairs{0};  //!< before pairs without ground truth were dropped
     bool randomPairs{false};        //!< a random draw, not all of them
+    /** Of a fixed delta: pairs whose distance differs from it by more than its half. */
+    std::size_t pairsOffDelta{0};
     Coverage coverage;
     std::vector<RpePair> pairs;  //!< empty when they were more than a million
 };

@@ -13,6 +13,7 @@
 namespace pointplane
 {
 /** @name The charts of a trajectory report. Times are seconds since the estimate's first pose.
+ * Lines of the estimate end at holesBefore() poses. The ground truth is drawn at its own stamps.
  * @{ */
 
 /** An estimate as it is drawn, moved by `ate.T_truth_estimate`. */
@@ -76,8 +77,9 @@ struct DrawnPath
     const std::vector<NeesIncrement>& increments,
     const NeesInterval& interval);
 
-/** Features, tracking status and times per stage; only those the table has columns for. */
-[[nodiscard]] std::vector<Chart> frameCharts(const FrameTable& table);
+/** Features, tracking status and times per stage; only those the table has columns for. The table
+ * may begin before the estimate, or be of a part. \param start stamp of the first pose [s] */
+[[nodiscard]] std::vector<Chart> frameCharts(const FrameTable& table, double start);
 
 /** @} */
 

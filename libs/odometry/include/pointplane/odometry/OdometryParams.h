@@ -27,6 +27,7 @@ struct PipelineParams
     double gateSigma{0.05};
     double leastAgreement{0.5};
     bool searchImages{true};
+    bool findRobot{true};
     double maxGap{1.0};
     int numThreads{1};
 
@@ -60,6 +61,11 @@ struct PipelineParams
           "-",
           "if the predicted motion fails, find another one from key points of the whole "
           "image, and recognise known places");
+        v("findRobot",
+          findRobot,
+          "-",
+          "leave out what stays the same in view while most of the surface moves: a part of the "
+          "robot that carries the camera; --mask does so from the first frame on");
         v("maxGap",
           maxGap,
           "s",

@@ -58,6 +58,7 @@ struct FrameDiagnostics
     double planeChi2PerDof{0};      //!< reduced chi-square of plane residuals
     double surfaceAgreement{0};     //!< fraction of surfaces in view that depth shows
     double movingShare{0};          //!< fraction of them that an earlier frame saw through
+    double attachedShare{0};        //!< of the view that moves with the camera (AttachedParts)
     double maxSigmaTranslation{0};  //!< largest standard deviation of the increment [m]
     double maxSigmaRotation{0};     //!< [rad]
     DepthNoise depthNoise;          //!< of the camera, as learnt so far

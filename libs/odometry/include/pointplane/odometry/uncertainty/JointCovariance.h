@@ -132,13 +132,16 @@ class JointCovariance
         Matrix6d motion{Matrix6d::Zero()};        //!< its covariance if the velocity is known
         Matrix6d velocity{Matrix6d::Zero()};      //!< that of the velocity
         Vector6d velocityGain{Vector6d::Zero()};  //!< what its variance gains on the way
-        bool isVelocityNew{false};  //!< it has nothing to do with that of the frame before
     };
 
     /** Adds a frame that was not measured. The error of the velocity stays that of the frame
      * before, if that was not measured either. \param T_world_latest pose of the frame before (the
      * motion and the velocity are left perturbations in its frame) */
     void predict(int frame, const Eigen::Isometry3d& T_world_latest, const Prediction& prediction);
+
+    /** The velocity of the next frame that is not measured has nothing to do with that of those
+     * before. */
+    void endCoasting() { dropCoasting(); }
 
     /** Makes a known frame the previous one and the only reference.
      * \param poses frames whose poses stay known, too */

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/odometry/AttachedParts.h>
+#include <pointplane/odometry/Odometry.h>
+#include <pointplane/simulation/SimulatedSequence.h>
+
+#include <opencv2/imgproc.hpp>
+
+#include <iostream>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+namespace pointplane
+{
+namespace
+{
+constexpr int kWidth = 320, kHeight = 240;
+const cv::Rect kRobot(80, 160, 160, 80);  // a sixth of the view
+constexpr double kRobotShare = 1.0 / 6;
+
+cv::Mat pattern(int seed)
+{
+    cv::Mat out(4 * kHeight, 4 * kWidth, CV_8UC1);
+    cv::RNG random(static_cast<std::uint64_t>(seed));
+    random.fill(out, cv::RNG::UNIFORM, 0, 255);
+    cv::GaussianBlur(out, out, {}, 2);
+    cv::normalize(out, out, 20, 230, cv::NORM_MINMAX);
+    return out;
+}
+
+/** A patterned wall 2 m away, of which the camera sees another part when it has moved. */
+RgbdFrame wall(int moved_px, double depth_m = 2)
+{
+    static const cv::Mat image = pattern(1);
+    RgbdFrame out;
+    out.gray = image({moved_px, moved_px / 2, kWidth, kHeight}).clone();
+    out.depth = cv::Mat(kHeight, kWidth, CV_32FC1, cv::Scalar(depth_m));
+    return out;
+}
+
+void put(const cv::Rect& place, const cv::Mat& gray, double depth_m, RgbdFrame& frame)
+{
+    gray({0, 0, place.width, place.height}).copyTo(frame.gray(place));
+    frame.depth(place).setTo(depth_m);
+}
+
+RgbdFrame withRobot(RgbdFrame frame)
+{
+    static const cv::Mat image = pattern(2);
+    put(kRobot, image, 0.4, frame);
+    return frame;
+}
+
+void addNoise(int seed, RgbdFrame& frame)
+{
+    cv::RNG random(static_cast<std::uint64_t>(seed));
+    cv::Mat noise(frame.gray.size(), CV_16SC1);
+    random.fill(noise, cv::RNG::NORMAL, 0, 3);
+    cv::add(frame.gray, noise, frame.gray, {}, CV_8U);
+    cv::Mat depthNoise(frame.depth.size(), CV_32FC1);
+    random.fill(depthNoise, cv::RNG::NORMAL, 0, 0.003);
+    frame.depth += depthNoise;
+}
+
+/** What is found in frames that move by 10 px each. \param frameAt of how far it has moved */
+template <class FrameAt>
+double shareOf(AttachedParts& parts, const FrameAt& frameAt, int numFrames = 5)
+{
+    for (int i = 0; i < numFrames; ++i)
+    {
+        RgbdFrame frame = frameAt(10 * i);
+        addNoise(i, frame);
+        parts.update(frame, {});
+    }
+    return parts.share();
+}
+
+template <class FrameAt>
+double shareOf(const FrameAt& frameAt)
+{
+    AttachedParts parts;
+    return shareOf(parts, frameAt);
+}
+
+TEST(AttachedParts, findsWhatMovesWithTheCamera)
+{
+    AttachedParts parts;
+    const double share = shareOf(parts, [](int moved) { return withRobot(wall(moved)); });
+    EXPECT_GT(share, kRobotShare);
+    EXPECT_LT(share, kRobotShare + 0.07) << "one cell more on each side";
+    EXPECT_EQ(cv::countNonZero(parts.mask()(kRobot)), kRobot.area());
+}
+
+TEST(AttachedParts, tellsAfterTheSecondChangeOfTheView)
+{
+    AttachedParts parts;
+    const auto frameAt = [](int moved) { return withRobot(wall(moved)); };
+    EXPECT_EQ(shareOf(parts, frameAt, 2), 0) << "once may be chance";
+    parts = {};
+    EXPECT_GT(shareOf(parts, frameAt, 3), 0);
+}
+
+TEST(AttachedParts, aCameraThatStandsStillHasNone)
+{
+    EXPECT_EQ(shareOf([](int) { return withRobot(wall(0)); }), 0);
+}
+
+/** Noise of a wall without a pattern differs in each image. */
+TEST(AttachedParts, aCameraThatStandsStillBeforeAPlainWallHasNone)
+{
+    const auto plain = [](int)
+    {
+        RgbdFrame out = wall(0);
+        out.gray.setTo(128);
+        return withRobot(out);
+    };
+    EXPECT_EQ(shareOf(plain), 0);
+}
+
+/** A person that fills most of the view is a small surface before a wall. */
+TEST(AttachedParts, theWallBehindALargePersonIsNone)
+{
+    const auto withPerson = [](int moved)
+    {
+        RgbdFrame out = wall(0, 4);
+        put({0, 0, kWidth * 7 / 10, kHeight}, pattern(3 + moved), 1, out);
+        return out;
+    };
+    EXPECT_EQ(shareOf(withPerson), 0);
+}
+
+/** A floor keeps its depth, too, in front of a camera that drives along. */
+TEST(AttachedParts, aSurfaceThatMovesAlongItselfIsNone)
+{
+    const auto withFloor = [](int moved)
+    {
+        RgbdFrame out = wall(moved);
+        static const cv::Mat image = pattern(4);
+        put(kRobot, image(cv::Rect(2 * moved, 0, kRobot.width, kRobot.height)), 0.8, out);
+        return out;
+    };
+    EXPECT_EQ(shareOf(withFloor), 0);
+}
+
+/** Neither does a floor without a pattern, or with lines that the camera drives along. */
+TEST(AttachedParts, aPatternThatShowsNoMotionTellsNothing)
+{
+    for (const bool hasLines : {false, true})
+    {
+        cv::Mat image(kRobot.size(), CV_8UC1, cv::Scalar(128));
+        for (int u = 0; hasLines && u < kRobot.width; u += 20)
+        {
+            cv::rectangle(image, {u, 0, 10, kRobot.height}, 30, cv::FILLED);
+        }
+        const auto withFloor = [&](int moved)
+        {
+            RgbdFrame out = wall(moved);
+            put(kRobot, image, 0.8, out);
+            return out;
+        };
+        EXPECT_EQ(shareOf(withFloor), 0) << hasLines;
+    }
+}
+
+/** What is farther than most of what moves may be too far to show the motion. */
+TEST(AttachedParts, theFarEndOfACorridorIsNone)
+{
+    const auto corridor = [](int moved)
+    {
+        RgbdFrame out = wall(moved);
+        put({140, 100, 40, 40}, pattern(5), 3, out);
+        return out;
+    };
+    EXPECT_EQ(shareOf(corridor), 0);
+}
+
+TEST(AttachedParts, aGripperThatGoesAwayIsForgotten)
+{
+    AttachedParts parts;
+    EXPECT_GT(shareOf(parts, [](int moved) { return withRobot(wall(moved)); }), 0);
+    EXPECT_EQ(shareOf(parts, [](int moved) { return wall(moved + 100); }), 0);
+    EXPECT_TRUE(parts.mask().empty());
+}
+
+TEST(AttachedParts, missingImagesChangeNothing)
+{
+    AttachedParts parts;
+    const double share = shareOf(parts, [](int moved) { return withRobot(wall(moved)); });
+    RgbdFrame frame = wall(200);
+    frame.gray.release();
+    parts.update(frame, {});
+    EXPECT_EQ(parts.share(), share);
+    frame = wall(210);
+    frame.depth.setTo(std::numeric_limits<float>::quiet_NaN());
+    parts.update(frame, {});
+    EXPECT_EQ(parts.share(), share);
+}
+
+/** The robot hides the lowest third of the view: until it is found it is the world. */
+TEST(AttachedParts, theOdometryFollowsTheWorldAgain)
+{
+    SimulationParams simulation;
+    simulation.width = kWidth;
+    simulation.height = kHeight;
+    simulation.duration = 2;
+    const SimulatedSequence desk("desk", simulation, 1);
+    const cv::Rect robot(0, 2 * kHeight / 3, kWidth, kHeight / 3);
+    const cv::Mat image = pattern(2);
+    Odometry odometry{OdometryParams()};
+    int foundAt = -1;
+    Eigen::Isometry3d T_world_found = Eigen::Isometry3d::Identity(), T_world_last = T_world_found;
+    for (int i = 0; i < desk.numFrames(); ++i)
+    {
+        RgbdFrame frame = desk.frame(i);
+        put(robot, image, 0.4, frame);
+        const OdometryResult result = odometry.process(frame);
+        if (foundAt < 0 && result.diagnostics.attachedShare > 0)
+        {
+            foundAt = i;
+            T_world_found = result.pose.mean;
+            EXPECT_NEAR(result.diagnostics.attachedShare, 1.0 / 3, 0.05);
+        }
+        T_world_last = result.pose.mean;
+    }
+    ASSERT_GE(foundAt, 0);
+    EXPECT_LT(foundAt, desk.numFrames() / 2);
+    const Eigen::Isometry3d error = (T_world_found.inverse() * T_world_last).inverse() *
+                                    desk.trueMotion(foundAt, desk.numFrames() - 1);
+    std::cout << "found in frame " << foundAt << " of " << desk.numFrames() << ", then "
+              << 1e3 * error.translation().norm() << " mm off\n";
+    EXPECT_LT(error.translation().norm(), 0.005);
+}
+}  // namespace
+}  // namespace pointplane
