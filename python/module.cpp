@@ -19,6 +19,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -39,12 +40,18 @@ cv::Mat matOf(const py::array& array, int type, const char* what)
 {
     const bool colour = CV_MAT_CN(type) > 1;
     const auto itemSize = static_cast<py::ssize_t>(CV_ELEM_SIZE(type));
-    if (array.ndim() != (colour ? 3 : 2) || (colour && array.shape(2) != CV_MAT_CN(type)) ||
-        array.strides(1) != itemSize || (colour && array.strides(2) != 1) || array.strides(0) <= 0)
+    if (array.ndim() != (colour ? 3 : 2) || (colour && array.shape(2) != CV_MAT_CN(type)))
     {
         throw py::value_error(
-            std::string(what) + ": expected an image with contiguous rows, (height, width" +
+            std::string(what) + ": has the shape " +
+            py::cast<std::string>(py::str(array.attr("shape"))) + ", not (height, width" +
             (colour ? ", 3)" : ")"));
+    }
+    if (array.strides(1) != itemSize || (colour && array.strides(2) != 1) || array.strides(0) <= 0)
+    {
+        throw py::value_error(
+            std::string(what) + ": rows are not contiguous; give numpy.ascontiguousarray(" + what +
+            ")");
     }
     return {
         static_cast<int>(array.shape(0)),
@@ -65,10 +72,12 @@ cv::Mat depthOf(const py::array& depth, double unit)
     {
         throw py::type_error("depth: expected float32 in metres, or uint16 in units of depth_unit");
     }
-    if (const std::string problem = problemOfDepthUnits(1 / unit); !problem.empty())
+    if (!problemOfDepthUnits(1 / unit).empty())
     {
-        throw py::value_error(
-            "depth_unit: is " + std::to_string(unit) + " m, but " + problem + " [units per metre]");
+        std::ostringstream out;
+        out << "depth_unit: is " << unit << " m, not from " << 1 / kMostDepthUnits << " to "
+            << 1 / kLeastDepthUnits << " m; 0.001 means millimetres";
+        throw py::value_error(out.str());
     }
     const cv::Mat readings = matOf(depth, CV_16UC1, "depth");
     cv::Mat metres;
@@ -96,6 +105,30 @@ cv::Mat grayOf(const py::object& colour, const char* name)
     cv::Mat gray;
     cv::cvtColor(matOf(array, CV_8UC3, name), gray, cv::COLOR_RGB2GRAY);
     return gray;
+}
+
+cv::Mat maskOf(const py::object& image)
+{
+    cv::Mat mask = grayOf(image, "mask");
+    if (!image.is_none() && cv::countNonZero(mask) == 0)
+    {
+        throw py::value_error(
+            "mask: is 0 everywhere; it must be 0 where the camera sees the robot itself, and "
+            "another number elsewhere");
+    }
+    return mask;
+}
+
+std::vector<std::string> settingsOf(const py::object& settings)
+{
+    try
+    {
+        return settings.cast<std::vector<std::string>>();
+    }
+    catch (const py::cast_error&)
+    {
+        throw py::type_error("settings: expected a list like ['Lens.nominal=true']");
+    }
 }
 
 /** The image's memory as an array that keeps it. */
@@ -176,7 +209,11 @@ class RawlogFrames
     /** A label that no camera has is a mistake, not a camera without frames. */
     void requireFrames() const
     {
-        if (label_.empty() || framesOf_.count(label_) > 0)
+        if (framesOf_.empty())
+        {
+            throw InputError(reader_.path() + ": no CObservation3DRangeScan in it");
+        }
+        if (framesOf_.count(label_) > 0)
         {
             return;
         }
@@ -186,8 +223,7 @@ class RawlogFrames
             there += (there.empty() ? "" : ", ") + std::to_string(count) + " of '" + label + "'";
         }
         throw InputError(
-            reader_.path() + ": no frames of camera '" + label_ + "'; in it are " +
-            (there.empty() ? "none" : there));
+            reader_.path() + ": no frames of camera '" + label_ + "'; in it are " + there);
     }
 
     RawlogReader reader_;
@@ -331,11 +367,14 @@ void addOdometry(py::module_& m)
         "other.")
         .def(
             py::init(
-                [](const std::string& config, const std::vector<std::string>& settings)
-                { return std::make_unique<SharedOdometry>(loadOdometryParams(config, settings)); }),
+                [](const std::string& config, const py::object& settings) {
+                    return std::make_unique<SharedOdometry>(
+                        loadOdometryParams(config, settingsOf(settings)));
+                }),
             py::arg("config") = "",
-            py::arg("settings") = std::vector<std::string>(),
-            "config: an ini file, or empty for the defaults; settings: 'Section.key=value', ...")
+            py::arg("settings") = py::tuple(),
+            "config: an ini file, or empty for the defaults; settings: a list of "
+            "'Section.key=value'")
         .def(
             "process",
             [](SharedOdometry& odometry,
@@ -370,7 +409,7 @@ void addOdometry(py::module_& m)
         .def(
             "set_mask",
             [](SharedOdometry& odometry, const py::object& mask)
-            { odometry.setMask(grayOf(mask, "mask")); },
+            { odometry.setMask(maskOf(mask)); },
             py::arg("mask"),
             "Leaves out what the camera sees of the robot that carries it. mask: (height, width), "
             "uint8, 0 where the robot is, or None for no mask.")
@@ -401,7 +440,8 @@ void addRawlogs(py::module_& m)
         py::arg("path"),
         py::arg("sensor_label") = "",
         "The frames of one camera, by default the first one's, one after the other. Damage raises "
-        "InputError after the frames before it, and so does a label that no camera has.");
+        "InputError after the frames before it. So does a label that no camera has, and a rawlog "
+        "without a camera.");
 }
 }  // namespace
 }  // namespace pointplane
@@ -414,6 +454,6 @@ PYBIND11_MODULE(pointplane, m)
     py::register_exception<InputError>(m, "InputError", PyExc_ValueError);
     addCamera(m);
     addResult(m);
+    addRawlogs(m);  // before who takes its frames, whose help names them
     addOdometry(m);
-    addRawlogs(m);
 }

@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 
 #include "standard_streams.h"
 #include <sys/stat.h>
@@ -52,6 +53,23 @@ void requireShortName(const std::string& option, const std::string& path, const 
             " bytes while it is written, but " + std::to_string(most) +
             " are the most; give a shorter one");
     }
+}
+
+/** Whether nothing is lost if `text` replaces this file. */
+[[nodiscard]] bool isReplaceable(const std::string& path, const std::string& text)
+{
+    std::error_code error;
+    if (!fs::is_regular_file(path, error))
+    {
+        return true;
+    }
+    const std::string rendered = kRenderedTruth;
+    std::ifstream file(path, std::ios::binary);
+    std::string start(std::max(text.size(), rendered.size()) + 1, '\0');
+    file.read(start.data(), static_cast<std::streamsize>(start.size()));
+    start.resize(static_cast<std::size_t>(file.gcount()));
+    return file.is_open() &&
+           (start.empty() || start == text || start.compare(0, rendered.size(), rendered) == 0);
 }
 
 [[noreturn]] void failToWrite(const std::string& option, const std::string& path)
@@ -261,6 +279,22 @@ void OutputGuard::addOutput(const std::string& option, const std::string& path)
     add(output);
 }
 
+void OutputGuard::addRawlog(const std::string& option, const std::string& path)
+{
+    addOutput(option, path);
+    fs::path name = fs::path(path).filename();
+    const bool isCompressed = name.extension() == ".gz";
+    name = isCompressed ? name.stem() : name;
+    const bool isNamedSo = name.extension() == ".rawlog" ||
+                           (!isCompressed && name.string().find('.') == std::string::npos);
+    if (!path.empty() && !isNamedSo && hasPlaceBeside(path))
+    {
+        throw InputError(
+            option + " " + path +
+            ": would be a rawlog; give a name that ends in .rawlog or .rawlog.gz");
+    }
+}
+
 void OutputGuard::addOutputFolder(
     const std::string& option, const std::string& path, const std::string& extension)
 {
@@ -286,7 +320,7 @@ OutputGuard::Output OutputGuard::folderAt(
     return {option, path, {fileAt(path)}, true, extension};
 }
 
-void OutputGuard::addGroundTruth(const std::string& rawlog)
+void OutputGuard::addGroundTruth(const std::string& rawlog, const std::string& text)
 {
     if (!hasPlaceBeside(rawlog))
     {
@@ -304,6 +338,12 @@ void OutputGuard::addGroundTruth(const std::string& rawlog)
             other + "; give another name");
     }
     addOutput("ground truth of -o", truth);
+    if (!isReplaceable(truth, text))
+    {
+        throw InputError(
+            "-o " + rawlog + ": its ground truth would replace " + truth +
+            ", which is a different one; move that file or give another name");
+    }
 }
 
 void OutputGuard::addFolderBeside(

@@ -8,6 +8,9 @@
 
 namespace pointplane
 {
+/** How the ground truth of pointplane-simulate begins, which can be rendered again. */
+constexpr const char* kRenderedTruth = "# exact pose in the world of the ";
+
 /** Keeps apart what a run reads and what it writes, before anything is opened. A program tells it
  * every file, also those that it opens itself (listings, images, ground truth, configuration); in
  * any order, and further inputs while it runs. Two names are the same file if they lead to the same
@@ -37,14 +40,20 @@ class OutputGuard
     /** \param option that names it, e.g. "--trajectory" */
     void addOutput(const std::string& option, const std::string& path);
 
+    /** As addOutput(), for a rawlog. The name of a file has to end in .rawlog or .rawlog.gz if it
+     * has an extension: that of something else may be a file of the user's. */
+    void addRawlog(const std::string& option, const std::string& path);
+
     /** A folder, made if need be, in which files are written.
      * \param extension of these files, e.g. ".png"; empty: any */
     void addOutputFolder(
         const std::string& option, const std::string& path, const std::string& extension);
 
     /** The ground truth beside a rawlog that is an output itself, if there is a place for it.
-     * Refused where it is that of another rawlog: a.rawlog and a.rawlog.gz have one name for it. */
-    void addGroundTruth(const std::string& rawlog);
+     * Nobody named that file, so what may be a user's is refused: that of another rawlog (a.rawlog
+     * and a.rawlog.gz have one name for it), and a file that is neither empty nor the same nor was
+     * rendered. \param text that will be written */
+    void addGroundTruth(const std::string& rawlog, const std::string& text);
 
     /** As addOutputFolder(), for one beside a rawlog that is an output itself, and for the partial
      * one (partialFolderOf()). */

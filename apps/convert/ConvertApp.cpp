@@ -42,6 +42,11 @@ constexpr const char* kEvenStampsHelp =
     "Take stamps for those of a camera with a steady rate: without a host's jitter and rounding. "
     "Poses then belong to these stamps";
 
+const std::string kCameraFile =
+    "file: MRPT's camera ini, or one line `fx fy cx cy k1 k2 p1 p2 k3 width height unitsPerMetre`";
+const std::string kFileHelp = "Calibration, a ";
+const std::string kPresetHelp = "Calibration: fr1, fr2, fr3, or a ";
+
 void addTumCommand(CLI::App& app, TumOptions& options, RecordingOutput& output)
 {
     CLI::App* tum =
@@ -51,9 +56,8 @@ void addTumCommand(CLI::App& app, TumOptions& options, RecordingOutput& output)
     tum->add_option(
         "--camera",
         options.camera,
-        "Calibration: fr1, fr2, fr3, or a file: MRPT's camera ini, or one line `fx fy cx cy k1 k2 "
-        "p1 p2 k3 width "
-        "height unitsPerMetre` (default: camera.txt in the folder, or by the folder's name)");
+        kPresetHelp + kCameraFile +
+            " (default: camera.txt in the folder, or by the folder's name)");
     tum->add_option(
            "--depth-scale",
            options.depthScale,
@@ -69,10 +73,6 @@ void addTumCommand(CLI::App& app, TumOptions& options, RecordingOutput& output)
     addOutputOptions(*tum, output);
 }
 
-constexpr const char* kCameraHelp =
-    "Calibration, a file: MRPT's camera ini, or one line `fx fy cx cy k1 k2 p1 p2 k3 width height "
-    "unitsPerMetre`";
-
 CLI::App* addFolderCommand(CLI::App& app, FolderOptions& options, RecordingOutput& output)
 {
     CLI::App* folder = app.add_subcommand(
@@ -83,8 +83,7 @@ CLI::App* addFolderCommand(CLI::App& app, FolderOptions& options, RecordingOutpu
     folder->add_option(
         "--camera",
         options.camera,
-        std::string(kCameraHelp) +
-            " (default: camera.txt in the folder, or what its layout tells)");
+        kFileHelp + kCameraFile + " (default: camera.txt in the folder, or what its layout tells)");
     folder
         ->add_option(
             "--depth-scale",
@@ -116,7 +115,7 @@ CLI::App* addKlgCommand(CLI::App& app, KlgOptions& options, RecordingOutput& out
     CLI::App* klg = app.add_subcommand("klg", "A log of Kintinuous or ElasticFusion");
     klg->add_option("file", options.file, "Log to read")->required();
     klg->add_option(
-        "--camera", options.camera, std::string(kCameraHelp) + " (default: 528 px, 640x480)");
+        "--camera", options.camera, kFileHelp + kCameraFile + " (default: 528 px, 640x480)");
     klg->add_option(
            "--depth-scale",
            options.depthScale,
@@ -140,7 +139,7 @@ CLI::App* addBagCommand(CLI::App& app, BagOptions& options, RecordingOutput& out
     bag->add_option(
         "--camera",
         options.camera,
-        std::string(kCameraHelp) + " (default: camera_info of the bag)");
+        kPresetHelp + kCameraFile + " (default: camera_info of the bag)");
     bag->add_option(
            "--depth-scale",
            options.depthScale,
@@ -158,7 +157,7 @@ CLI::App* addBagCommand(CLI::App& app, BagOptions& options, RecordingOutput& out
 
 void addOutputs(const RecordingOutput& output, OutputGuard& guard)
 {
-    guard.addOutput("-o", output.path);
+    guard.addRawlog("-o", output.path);
     if (output.external)
     {
         guard.addFolderBeside("images of -o", output.path, imagesFolderOf(output.path));
@@ -206,7 +205,7 @@ int convertTum(
     {
         return convert(recording, output, guard, out, err);
     }
-    guard.addGroundTruth(output.path);
+    guard.addGroundTruth(output.path, recording.groundTruth());
     addOutputs(output, guard);
     const RecordingSummary summary = convertRecording(recording, output, err);
     std::vector<std::string> notes = recording.notes();

@@ -60,11 +60,11 @@ FolderRecording::~FolderRecording() = default;
 /** By --camera, camera.txt, or what the folder tells. */
 void FolderRecording::chooseCamera(const FolderOptions& options)
 {
-    const bool hasFile = fs::exists(folder_ + "/camera.txt");
+    const std::string local = folder_ + "/camera.txt";
     unitsPerMetre_ = layout_.unitsPerMetre;
-    if (!options.camera.empty() || hasFile)
+    if (!options.camera.empty() || fs::exists(local))
     {
-        layout_.camera = loadTumCamera(options.camera, folder_);
+        layout_.camera = loadCameraFile(options.camera.empty() ? local : options.camera);
         layout_.cameraIsNominal = false;
         layout_.depthCamera.reset();
         if (layout_.camera->tellsUnits)

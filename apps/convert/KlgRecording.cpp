@@ -35,7 +35,7 @@ constexpr std::int32_t kMaxBytes = 64 << 20;
 KlgRecording::KlgRecording(const KlgOptions& options) : options_(options)
 {
     isNominal_ = options.camera.empty();
-    camera_ = isNominal_ ? nominalCamera() : loadTumCamera(options.camera, "");
+    camera_ = isNominal_ ? nominalCamera() : loadCameraFile(options.camera);
     if (!isNominal_ && !camera_.tellsUnits)
     {
         camera_.unitsPerMetre = 1000;

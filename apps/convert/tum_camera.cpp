@@ -17,6 +17,7 @@
 #include <fstream>
 #include <optional>
 #include <sstream>
+#include <system_error>
 #include <vector>
 
 #include "folder_images.h"
@@ -152,12 +153,14 @@ const std::array<Preset, 3> kPresets{{
     return out;
 }
 
+[[nodiscard]] bool isFile(const std::string& path)
+{
+    std::error_code error;
+    return std::filesystem::is_regular_file(path, error);
+}
+
 [[nodiscard]] TumCamera fromFile(const std::string& path)
 {
-    if (!std::filesystem::is_regular_file(path))
-    {
-        throw InputError("--camera " + path + ": neither fr1, fr2, fr3 nor a file");
-    }
     auto out = fromLine(path);
     TumCamera camera = out ? *out : fromIni(path);
     if (const std::string problem = camera.camera.problem(); !problem.empty())
@@ -177,7 +180,7 @@ TumCamera loadTumCamera(const std::string& camera, const std::string& folder)
     const std::string local = folder + "/camera.txt";
     if (camera.empty() && std::filesystem::exists(local))
     {
-        return fromFile(local);
+        return loadCameraFile(local);
     }
     for (const Preset& preset : kPresets)
     {
@@ -195,6 +198,23 @@ TumCamera loadTumCamera(const std::string& camera, const std::string& folder)
         throw InputError(
             folder + ": no camera.txt in it; say --camera fr1, fr2, fr3 or a calibration file");
     }
+    if (!isFile(camera))
+    {
+        throw InputError("--camera " + camera + ": neither fr1, fr2, fr3 nor a file");
+    }
     return fromFile(camera);
+}
+
+TumCamera loadCameraFile(const std::string& path)
+{
+    if (!isFile(path))
+    {
+        const bool isPreset = std::any_of(
+            kPresets.begin(), kPresets.end(), [&](const Preset& p) { return path == p.name; });
+        throw InputError(
+            "--camera " + path + ": is not a file" +
+            (isPreset ? "; only tum and bag know the cameras fr1, fr2, fr3" : ""));
+    }
+    return fromFile(path);
 }
 }  // namespace pointplane

@@ -20,4 +20,8 @@ struct TumCamera
  * a whole word of the folder's name (freiburg1, fr1 and so on)
  * \throws InputError */
 [[nodiscard]] TumCamera loadTumCamera(const std::string& camera, const std::string& folder);
+
+/** The same of a file alone: of images whose depth units a preset does not tell.
+ * \throws InputError */
+[[nodiscard]] TumCamera loadCameraFile(const std::string& path);
 }  // namespace pointplane

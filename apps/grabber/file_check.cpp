@@ -45,7 +45,7 @@ void keepFilesApart(const GrabberOptions& options)
         }
     }
     guard.addOutput("--preview", options.preview);
-    guard.addOutput("--live-output", options.liveOdometry.poseRawlog);
+    guard.addRawlog("--live-output", options.liveOdometry.poseRawlog);
 }
 }  // namespace
 

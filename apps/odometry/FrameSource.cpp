@@ -213,6 +213,7 @@ std::optional<SourceItem> FrameSource::next()
         {
             return out;
         }
+        start_ = std::chrono::steady_clock::now();
     }
     return {};
 }

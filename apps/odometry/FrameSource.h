@@ -6,6 +6,7 @@
 
 #include <mrpt/obs/CObservation3DRangeScan.h>
 
+#include <chrono>
 #include <cstddef>
 #include <deque>
 #include <map>
@@ -51,6 +52,9 @@ class FrameSource
     [[nodiscard]] const std::map<std::string, std::size_t>& framesOf() const { return framesOf_; }
     /** Lines about what was read and not used. */
     [[nodiscard]] std::vector<std::string> notes() const;
+    /** When the frames before the first one wanted had been read: the time per frame is without
+     * them. */
+    [[nodiscard]] std::chrono::steady_clock::time_point start() const { return start_; }
 
  private:
     void openNext();
@@ -73,5 +77,6 @@ class FrameSource
     std::size_t numReplaced_{0};  //!< observations of an earlier run
     std::size_t numFrames_{0};
     std::string damage_;
+    std::chrono::steady_clock::time_point start_{std::chrono::steady_clock::now()};
 };
 }  // namespace pointplane

@@ -31,34 +31,51 @@ namespace
 {
 using Sinks = std::vector<std::unique_ptr<Sink>>;
 
+template <class S, class... Args>
+void addSink(Sinks& sinks, const std::string& option, const Args&... args)
+{
+    try
+    {
+        sinks.push_back(std::make_unique<S>(args...));
+    }
+    catch (const EnvironmentError& e)
+    {
+        throw EnvironmentError(option + ": " + e.what());
+    }
+}
+
 [[nodiscard]] Sinks openSinks(const OdometryOptions& options)
 {
     Sinks sinks;
     if (!options.output.empty())
     {
-        sinks.push_back(std::make_unique<RawlogSink>(options));
+        addSink<RawlogSink>(sinks, "-o", options);
     }
     if (!options.simplemap.empty())
     {
-        sinks.push_back(std::make_unique<SimplemapSink>(
-            options.simplemap, options.keyframeDistance, options.keyframeAngleDeg));
+        addSink<SimplemapSink>(
+            sinks,
+            "--simplemap",
+            options.simplemap,
+            options.keyframeDistance,
+            options.keyframeAngleDeg);
     }
     if (!options.graph.empty())
     {
-        sinks.push_back(std::make_unique<GraphSink>(options.graph));
+        addSink<GraphSink>(sinks, "--graph", options.graph);
     }
     if (!options.trajectory.empty())
     {
-        sinks.push_back(std::make_unique<TrajectorySink>(
-            options.trajectory, options.trajectoryFrame == "robot"));
+        addSink<TrajectorySink>(
+            sinks, "--trajectory", options.trajectory, options.trajectoryFrame == "robot");
     }
     if (!options.diagnostics.empty())
     {
-        sinks.push_back(std::make_unique<DiagnosticsSink>(options.diagnostics));
+        addSink<DiagnosticsSink>(sinks, "--diagnostics", options.diagnostics);
     }
     if (!options.overlay.empty())
     {
-        sinks.push_back(std::make_unique<OverlaySink>(options.overlay, options.overlayEvery));
+        addSink<OverlaySink>(sinks, "--overlay", options.overlay, options.overlayEvery);
     }
     return sinks;
 }
@@ -72,12 +89,12 @@ using Sinks = std::vector<std::unique_ptr<Sink>>;
     {
         guard.addInputRawlog(input);
     }
-    guard.addOutput("-o", options.output);
     guard.addOutput("--simplemap", options.simplemap);
     guard.addOutput("--graph", options.graph);
     guard.addOutput("--trajectory", options.trajectory);
     guard.addOutput("--diagnostics", options.diagnostics);
     guard.addOutputFolder("--overlay", options.overlay, ".jpg");
+    guard.addRawlog("-o", options.output);
     return guard;
 }
 
@@ -96,7 +113,9 @@ class Run
     {
         if (!options.mask.empty())
         {
-            odometry_.setMask(readMask(options.mask));
+            const cv::Mat mask = readMask(options.mask);
+            maskSize_ = mask.size();
+            odometry_.setMask(mask);
         }
         odometry_.setMinLoggingLevel(mrpt::system::LVL_ERROR);  // the summary says it
         if (!options.quiet)
@@ -107,7 +126,6 @@ class Run
 
     [[nodiscard]] RunSummary run()
     {
-        const auto start = std::chrono::steady_clock::now();
         try
         {
             runFrames();
@@ -135,7 +153,8 @@ class Run
             throw std::logic_error(oneLine(e));  // a bug: the options are good by now
         }
         summary_.seconds =
-            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - source_.start())
+                .count();
         return std::move(summary_);
     }
 
@@ -219,6 +238,7 @@ class Run
         {
             return item;
         }
+        checkMask(item.source);
         FrameRecord& record = item.frame.emplace();
         record.motion = odometry_.process(*item.source.converted);
         if (keepFeatures_)
@@ -231,6 +251,18 @@ class Run
             bar_->update(item.source.progress, summary_.numFrames);
         }
         return item;
+    }
+
+    /** By the first frame that has images; of those after it, the odometry says what is wrong. */
+    void checkMask(const SourceItem& item)
+    {
+        const RgbdFrame& frame = item.converted->frame;
+        if (!maskSize_.empty() && !frame.depth.empty())
+        {
+            requireMaskSize(
+                options_.mask, maskSize_, frame.depth.size(), item.observation->sensorLabel);
+            maskSize_ = {};
+        }
     }
 
     void write(const OutputItem& item)
@@ -288,6 +320,7 @@ class Run
     Sinks sinks_;
     bool keepFeatures_;
     VisualOdometry odometry_;
+    cv::Size maskSize_;  //!< until it is known to be that of the images
     std::optional<ProgressBar> bar_;
     RunSummary summary_;
 };

@@ -51,8 +51,7 @@ void OverlaySink::add(const OutputItem& item)
     }
     constexpr int kQuality = 90;
     char name[32];
-    std::snprintf(name, sizeof(name), "/%06zu.jpg", item.source.frameIndex);
-    const std::string path = folder_ + name;
+    std::snprintf(name, sizeof(name), "%06zu.jpg", item.source.frameIndex);
     const cv::Mat picture = drawOverlay(
         frame.gray,
         frame.depth,
@@ -60,12 +59,35 @@ void OverlaySink::add(const OutputItem& item)
         item.source.frameIndex,
         frame.stamp - *firstStamp_,
         speed);
-    writeJpegFile(path, picture, kQuality);
-    ++numPictures_;
+    writeJpegFile(folder_ + "/" + name, picture, kQuality);
+    names_.insert(name);
+}
+
+/** Names of files that this run would have given, and has not. */
+std::set<std::string> OverlaySink::earlierPictures() const
+{
+    constexpr std::size_t kFewestDigits = 6;
+    std::set<std::string> out;
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_, error))
+    {
+        const std::string name = entry.path().filename(), stem = entry.path().stem();
+        const bool isNumber = stem.size() >= kFewestDigits &&
+                              stem.find_first_not_of("0123456789") == std::string::npos;
+        if (isNumber && entry.path().extension() == ".jpg" && names_.count(name) == 0)
+        {
+            out.insert(name);
+        }
+    }
+    return out;
 }
 
 std::string OverlaySink::description() const
 {
-    return folder_ + ": " + std::to_string(numPictures_) + " pictures";
+    const auto earlier = earlierPictures();
+    return folder_ + ": " + std::to_string(names_.size()) + " pictures" +
+           (earlier.empty() ? ""
+                            : ", and " + std::to_string(earlier.size()) +
+                                  " of an earlier run, e.g. " + *earlier.begin());
 }
 }  // namespace pointplane

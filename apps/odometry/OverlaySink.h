@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 
 #include "FrameRecord.h"
@@ -24,10 +25,12 @@ class OverlaySink : public Sink
 
  private:
     [[nodiscard]] std::optional<CameraSpeed> speedAt(const OutputItem& item);
+    [[nodiscard]] std::set<std::string> earlierPictures() const;
 
     std::string folder_;
     std::size_t every_;
-    std::size_t numFrames_{0}, numPictures_{0};
+    std::size_t numFrames_{0};
+    std::set<std::string> names_;                     //!< of the files
     std::optional<double> firstStamp_, latestStamp_;  //!< [s]
     Eigen::Isometry3d latestPose_{Eigen::Isometry3d::Identity()};
 };

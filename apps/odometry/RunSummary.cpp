@@ -16,6 +16,11 @@ namespace
 {
 constexpr std::size_t kMostGroups = 8;  // lines that are still read
 
+[[nodiscard]] std::string framesText(std::size_t number)
+{
+    return std::to_string(number) + (number == 1 ? " frame" : " frames");
+}
+
 /** Reasons that differ in numbers alone are one reason. */
 [[nodiscard]] std::string withoutNumbers(std::string text)
 {
@@ -118,29 +123,34 @@ void RunSummary::print(std::ostream& out, bool profile) const
 {
     char line[256];
     const auto frames = static_cast<double>(std::max<std::size_t>(1, numFrames));
+    const bool isFirstAlone = numFrames == 1 && numTracked == 1 && !hasMotion;
+    out << (label.empty() ? "camera ''" : label) << ": " << framesText(numFrames);
+    if (isFirstAlone)
+    {
+        out << ", the first: nothing to compare it with";
+    }
+    else
+    {
+        out << ": " << numTracked << " tracked, " << numPredicted << " predicted, " << numLost
+            << " lost";
+    }
     std::snprintf(
         line,
         sizeof(line),
-        ": %zu frames: %zu tracked, %zu predicted, %zu lost; path %.3f m; %.1f ms/frame "
-        "(odometry "
-        "%.1f), %.1f fps\n",
-        numFrames,
-        numTracked,
-        numPredicted,
-        numLost,
+        "; path %.3f m; %.1f ms/frame (odometry %.1f), %.1f fps\n",
         pathLength,
         1e3 * seconds / frames,
         sum.msTotal / frames,
         frames / std::max(seconds, 1e-9));
-    out << (label.empty() ? "camera ''" : label) << line;
+    out << line;
     for (const UntrackedFrames& group : untracked)
     {
         out << "  " << lineOf(group) << "\n";
     }
     if (numUntrackedMore > 0)
     {
-        out << "  and " << numUntrackedMore
-            << " frames after these (--diagnostics FILE has them all)\n";
+        out << "  and " << framesText(numUntrackedMore)
+            << " after these (--diagnostics FILE has them all)\n";
     }
     if (numInPart > 0)
     {
@@ -198,8 +208,8 @@ void RunSummary::printProblems(std::ostream& err) const
             untracked.begin(),
             untracked.end(),
             [](const UntrackedFrames& f) { return f.status == TrackingStatus::Lost; });
-        err << "pointplane-odometry: " << numLost << " of " << numFrames
-            << " frames could not be used"
+        err << "pointplane-odometry: " << numLost << " of " << framesText(numFrames)
+            << " could not be used"
             << (lost == untracked.end() ? std::string() : ", first " + lineOf(*lost)) << "\n";
     }
     if (isMostlyUnmeasured() && numPredicted > 0)

@@ -34,7 +34,7 @@ struct RunSummary
     double attachedShare{0};           //!< the largest part of the view that it took; 0: none
     bool hasMotion{false};             //!< one at least was measured
     double pathLength{0};              //!< of the robot [m]
-    double seconds{0};                 //!< wall time
+    double seconds{0};                 //!< wall time, without that of frames that were skipped
     FrameDiagnostics sum;              //!< of the times per stage; the latest depthNoise
     std::vector<std::string> notes;    //!< lines about the input
     std::string damage;                //!< where the input ended early, or empty

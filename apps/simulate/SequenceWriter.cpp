@@ -78,23 +78,22 @@ void writeMasks(const SimulatedSequence& sequence, const std::string& folder)
     }
 }
 
-void writeGroundTruth(const SimulatedSequence& sequence, const SequenceOutput& output)
+[[nodiscard]] std::string groundTruthText(
+    const SimulatedSequence& sequence, const SequenceOutput& output)
 {
-    TextOutput file(groundTruthOf(output.path));
     const bool robot = output.truthFrame == "robot";
-    file.writeLine(
-        robot ? "# exact pose in the world of the robot, axes x forward, y left, z up; its camera "
-                "has sensorPose = identity"
-              : "# exact pose in the world of the camera, optical axes x right, y down, z forward");
-    file.writeLine("# stamp tx ty tz qx qy qz qw");
+    std::string text = kRenderedTruth;
+    text += robot ? "robot, axes x forward, y left, z up; its camera has sensorPose = identity\n"
+                  : "camera, optical axes x right, y down, z forward\n";
+    text += "# stamp tx ty tz qx qy qz qw\n";
     for (int i = 0; i < sequence.numFrames(); ++i)
     {
         const double stamp = sequence.stamp(i);
         const Eigen::Isometry3d T_world_cam = sequence.truth(stamp);
-        file.writeLine(
-            tumLine(fromSeconds(stamp), robot ? robotFromCamera(T_world_cam) : T_world_cam));
+        text += tumLine(fromSeconds(stamp), robot ? robotFromCamera(T_world_cam) : T_world_cam);
+        text += "\n";
     }
-    file.close();
+    return text;
 }
 
 void writeFrames(
@@ -142,8 +141,9 @@ void writeSequence(
     const SimulatedSequence& sequence, const SequenceOutput& output, std::ostream& progress)
 {
     OutputGuard guard;
-    guard.addOutput("-o", output.path);
-    guard.addGroundTruth(output.path);
+    guard.addRawlog("-o", output.path);
+    const std::string truth = groundTruthText(sequence, output);
+    guard.addGroundTruth(output.path, truth);
     if (output.external)
     {
         guard.addFolderBeside("images of -o", output.path, imagesFolderOf(output.path));
@@ -158,7 +158,9 @@ void writeSequence(
         writeFrames(sequence, output, writer, progress);
         if (hasPlaceBeside(output.path))
         {
-            writeGroundTruth(sequence, output);
+            TextOutput file(groundTruthOf(output.path));
+            file.write(truth);
+            file.close();
         }
         if (output.masks)
         {

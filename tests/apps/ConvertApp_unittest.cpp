@@ -477,9 +477,27 @@ TEST_F(ConvertApp, groundTruthOfAnotherRawlogIsNotReplacedAndNotAdopted)
     EXPECT_EQ(test::readBytes(truth), "the first");
     EXPECT_FALSE(std::filesystem::exists(out_ + ".gz"));
 
-    ASSERT_EQ(run({in_, "-o", out_}), kExitOk) << text_;
-    EXPECT_THAT(text_, Not(HasSubstr("warning")));
-    EXPECT_THAT(test::readBytes(truth), HasSubstr("# truth"));
+    // Nobody named this file: it may be a user's.
+    const std::string rawlog = test::readBytes(out_);
+    EXPECT_EQ(run({in_, "-o", out_, "--label", "other"}), kExitBadInput);
+    EXPECT_THAT(
+        text_,
+        HasSubstr(
+            "-o " + out_ + ": its ground truth would replace " + truth +
+            ", which is a different one; move that file or give another name\n"));
+    EXPECT_EQ(test::readBytes(truth), "the first");
+    EXPECT_EQ(test::readBytes(out_), rawlog);
+
+    for (const std::string& own :
+         {test::readBytes(dir_ / "in/groundtruth.txt"),
+          std::string(),
+          std::string("# exact pose in the world of the robot, as rendered\n")})
+    {
+        writeBytes(truth, own);
+        ASSERT_EQ(run({in_, "-o", out_}), kExitOk) << text_;
+        EXPECT_THAT(text_, Not(HasSubstr("warning")));
+        EXPECT_THAT(test::readBytes(truth), HasSubstr("# truth"));
+    }
 
     std::filesystem::remove(dir_ / "in/groundtruth.txt");
     EXPECT_EQ(run({in_, "-o", out_}), kExitOk) << text_;
@@ -516,6 +534,13 @@ TEST_F(ConvertApp, namesThatAreTooLongAreRefusedBeforeTheRun)
     EXPECT_EQ(
         run({in_, "-o", folder + std::string(241, 'n') + suffix, "--external"}), kExitBadInput);
     EXPECT_TRUE(std::filesystem::is_empty(folder));
+}
+
+TEST_F(ConvertApp, aRawlogHasTheNameOfOne)
+{
+    EXPECT_EQ(run({in_, "-o", dir_ / "out.txt"}), kExitBadInput);
+    EXPECT_THAT(text_, HasSubstr("out.txt: would be a rawlog; give a name that ends in .rawlog"));
+    EXPECT_FALSE(std::filesystem::exists(dir_ / "out.txt"));
 }
 
 TEST_F(ConvertApp, aLabelIsOneLine)

@@ -75,6 +75,20 @@ TEST_F(ConvertFolder, withoutACalibrationNothingIsGuessed)
     EXPECT_FALSE(std::filesystem::exists(out_));
 }
 
+/** Its depth has 5000 units per metre, which these folders need not have. */
+TEST_F(ConvertFolder, aCameraOfTheTumBenchmarkIsNone)
+{
+    writeFrames("in/rgb/%d.jpg", "in/depth/%d.png");
+    EXPECT_EQ(run({"folder", in_, "--camera", "fr1"}), kExitBadInput);
+    EXPECT_THAT(
+        text_,
+        HasSubstr(
+            "--camera fr1: is not a file; only tum and bag know the cameras fr1, fr2, fr3\n"));
+    EXPECT_EQ(run({"folder", in_, "--camera", "none.ini"}), kExitBadInput);
+    EXPECT_THAT(text_, HasSubstr("--camera none.ini: is not a file\n"));
+    EXPECT_FALSE(std::filesystem::exists(out_));
+}
+
 TEST_F(ConvertFolder, scanNetHasTwoCamerasInOnePlace)
 {
     writeFrames("in/color/%d.jpg", "in/depth/%d.png", 32);

@@ -94,6 +94,13 @@ TEST_F(ConvertKlg, plainAndCompressed)
     }
 }
 
+TEST_F(ConvertKlg, aCameraOfTheTumBenchmarkIsNone)
+{
+    write("in.klg", log(3, true));
+    EXPECT_EQ(run({"klg", dir_ / "in.klg", "--camera", "fr1"}), kExitBadInput);
+    EXPECT_THAT(text_, HasSubstr("--camera fr1: is not a file; only tum and bag know"));
+}
+
 TEST_F(ConvertKlg, truncatedAnywhereKeepsWhatIsBefore)
 {
     const std::string whole = log(3, true);

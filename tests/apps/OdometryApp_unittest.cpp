@@ -10,12 +10,17 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include <algorithm>
+#include <chrono>
+#include <cstdio>
 #include <filesystem>
+#include <fstream>
+#include <future>
 #include <limits>
 #include <map>
 #include <random>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "TempDir.h"
@@ -23,6 +28,7 @@
 #include "rawlog_samples.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 namespace pointplane
 {
@@ -213,6 +219,50 @@ TEST_F(OdometryApp, theSummaryGroupsTheFramesThatWereNotTracked)
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
 }
 
+/** Here by a pipe that pauses in the middle of them. */
+TEST_F(OdometryApp, theTimePerFrameIsWithoutTheFramesThatAreSkipped)
+{
+    RawlogWriterOptions plain;
+    plain.compressionLevel = 0;
+    test::writeObservations(in_, 300, plain);  // more bytes than a reader takes in advance
+    const std::string bytes = readBytes(in_), pipe = dir_ / "pipe.rawlog";
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    for (const char* jobs : {"1", "2"})
+    {
+        auto writer = std::async(
+            std::launch::async,
+            [&]
+            {
+                std::ofstream out(pipe, std::ios::binary);
+                out << bytes.substr(0, bytes.size() / 2) << std::flush;
+                std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+                out << bytes.substr(bytes.size() / 2);
+            });
+        const Outcome outcome = run({pipe, "--first", "297", "--jobs", jobs});
+        writer.get();
+        double milliseconds = 0;
+        const std::size_t at = outcome.out.find("path ");
+        ASSERT_NE(at, std::string::npos) << outcome.out << outcome.err;
+        ASSERT_EQ(
+            std::sscanf(outcome.out.c_str() + at, "path %*f m; %lf ms/frame", &milliseconds), 1);
+        EXPECT_LT(milliseconds, 300) << outcome.out;  // 500, if the pause counts
+        EXPECT_GT(milliseconds, 0);
+    }
+}
+
+TEST_F(OdometryApp, oneFrameIsTheFirstAndTellsNoMotion)
+{
+    test::writeObservations(in_, 3);
+    EXPECT_THAT(
+        run({in_, "--count", "1"}).out,
+        HasSubstr("RGBD: 1 frame, the first: nothing to compare it with; "));
+    EXPECT_THAT(run({in_, "--count", "2"}).out, HasSubstr("RGBD: 2 frames: 2 tracked, "));
+    const Outcome lost =
+        runOn(1, [](int, CObservation3DRangeScan& scan) { scan.hasRangeImage = false; });
+    EXPECT_THAT(lost.out, HasSubstr("1 frame: 0 tracked, 0 predicted, 1 lost; path"));
+    EXPECT_THAT(lost.err, HasSubstr("1 of 1 frame could not be used, first"));
+}
+
 /** The uppermost sixth of the images is the robot. */
 TEST_F(OdometryApp, aMaskLeavesOutTheRobot)
 {
@@ -230,13 +280,35 @@ TEST_F(OdometryApp, aMaskLeavesOutTheRobot)
         return readBytes(dir_ / "poses.txt");
     };
     EXPECT_NE(poses({"--mask", dir_ / "mask.png"}), poses({}));
-    cv::imwrite(dir_ / "small.png", mask.colRange(0, 10));
-    const Outcome small = run({in_, "--mask", dir_ / "small.png"});
-    EXPECT_EQ(small.code, kExitIncomplete);
-    EXPECT_THAT(small.out, HasSubstr("the mask (10x"));
     EXPECT_THAT(
         run({in_, "--mask", dir_ / "mask.png", "--trajectory", dir_ / "mask.png"}).err,
         HasSubstr("is an input"));
+}
+
+/** As one that was drawn for another camera. What an earlier run wrote stays. */
+TEST_F(OdometryApp, aMaskOfAnotherSizeEndsTheRunAtTheFirstFrame)
+{
+    test::writeObservations(in_, 5);
+    ASSERT_EQ(run({in_, "--trajectory", out_}).code, kExitOk);
+    const std::string before = readBytes(out_);
+    cv::Mat mask(10, 20, CV_8UC1, cv::Scalar(255));
+    mask.row(0).setTo(0);
+    cv::imwrite(dir_ / "small.png", mask);
+    const cv::Size size =
+        sampleScan(0)->intensityImage.asCvMat<cv::Mat>(mrpt::img::SHALLOW_COPY).size();
+    for (const char* jobs : {"1", "2"})
+    {
+        const Outcome outcome =
+            run({in_, "--mask", dir_ / "small.png", "--jobs", jobs, "--trajectory", out_});
+        EXPECT_EQ(outcome.code, kExitBadInput);
+        EXPECT_EQ(
+            outcome.err,
+            "pointplane-odometry: " + (dir_ / "small.png") +
+                ": is 20x10, but images of camera 'RGBD' are " + std::to_string(size.width) + "x" +
+                std::to_string(size.height) + "; draw it in that size\n");
+        EXPECT_EQ(readBytes(out_), before);
+        EXPECT_FALSE(std::filesystem::exists(out_ + ".partial"));
+    }
 }
 
 /** Depth whose units are wrong by a thousand, and a camera that hangs. */
@@ -680,6 +752,25 @@ TEST_F(OdometryApp, picturesOfEveryFrame)
     ASSERT_EQ(run({in_, "--overlay", dir_ / "few", "--overlay-every", "2"}).code, kExitOk);
     EXPECT_TRUE(std::filesystem::exists(dir_ / "few/000000.jpg"));
     EXPECT_FALSE(std::filesystem::exists(dir_ / "few/000001.jpg"));
+}
+
+/** They stay, as they may be wanted, and are not taken for pictures of this run. */
+TEST_F(OdometryApp, picturesOfAnEarlierRunAreTold)
+{
+    test::writeObservations(in_, 5);
+    const std::string folder = dir_ / "pictures";
+    const Outcome first = run({in_, "--overlay", folder});
+    EXPECT_THAT(first.out, HasSubstr("pictures: 5 pictures\n"));
+    for (const char* name : {"photo.jpg", "000009.png", "12.jpg", "-00009.jpg"})
+    {
+        writeBytes(folder + "/" + name, "of somebody else");
+    }
+    EXPECT_EQ(run({in_, "--overlay", folder}).out.find("earlier"), std::string::npos);
+    const Outcome shorter = run({in_, "--overlay", folder, "--count", "2"});
+    EXPECT_EQ(shorter.code, kExitOk);
+    EXPECT_THAT(
+        shorter.out, HasSubstr("pictures: 2 pictures, and 3 of an earlier run, e.g. 000002.jpg\n"));
+    EXPECT_TRUE(std::filesystem::exists(folder + "/000004.jpg"));
 }
 
 TEST_F(OdometryApp, dumpedConfigurationIsItsOwnInput)

@@ -204,6 +204,31 @@ TEST_F(Outputs, whatCannotBeWrittenIsRefusedBeforeTheRun)
     expectRefused({in_, "--trajectory", "-"}, "--trajectory -: give /dev/stdout");
 }
 
+/** As a trajectory's: what is written is a rawlog, whatever its name says. */
+TEST_F(Outputs, aRawlogHasTheNameOfOne)
+{
+    writeBytes(dir_ / "in/truth.txt", "precious");
+    for (const char* name : {"in/truth.txt", "poses.tum", "a.txt.gz", "out.rawlog.gz2", ".txt"})
+    {
+        expectRefused(
+            {in_, "-o", dir_ / name},
+            "-o " + (dir_ / name) +
+                ": would be a rawlog; give a name that ends in .rawlog or .rawlog.gz\n");
+    }
+    EXPECT_EQ(readBytes(dir_ / "in/truth.txt"), "precious");
+    for (const char* name : {"out.rawlog", "out.rawlog.gz", "a.b.rawlog", "out", "dir.x/out"})
+    {
+        fs::create_directory(dir_ / "dir.x");
+        EXPECT_EQ(run({in_, "-o", dir_ / name}).code, kExitOk) << name;
+        EXPECT_TRUE(fs::exists(dir_ / name)) << name;
+    }
+    const std::string pipe = dir_ / "pipe.txt";
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    auto reader = std::async(std::launch::async, [&] { return readBytes(pipe); });
+    EXPECT_EQ(run({in_, "-o", pipe}).code, kExitOk);
+    EXPECT_GT(reader.get().size(), 100U);
+}
+
 /** What is wrong is the input, not where the output is. */
 TEST_F(Outputs, aFolderAsAnInputIsBlamedItself)
 {
@@ -334,7 +359,7 @@ TEST_F(Outputs, aPartialNameThatIsSomethingElseIsLeftAlone)
         {
             const AppRun outcome = run({in_, option, out_});
             EXPECT_EQ(outcome.code, kExitEnvironment) << k << option;
-            EXPECT_THAT(outcome.err, HasSubstr("cannot create " + partial)) << k << option;
+            EXPECT_THAT(outcome.err, HasSubstr(option + ": cannot create " + partial)) << k;
             EXPECT_EQ(files(), before) << k << option;
         }
         EXPECT_EQ(readBytes(precious), "precious") << k;

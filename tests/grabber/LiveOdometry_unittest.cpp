@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/grabber/LiveOdometry.h>
+#include <pointplane/mrpt_io/errors.h>
+#include <pointplane/mrpt_io/image_file.h>
 
 #include <new>
 #include <ostream>
+#include <sstream>
 #include <streambuf>
+#include <string>
 
+#include "TempDir.h"
 #include <gtest/gtest.h>
 
 namespace
@@ -42,13 +47,18 @@ ImagePair grey(double stamp)
     return pair;
 }
 
-TEST(LiveOdometry, anErrorEndsItAndNothingElse)
+RgbdCalibration calibration()
 {
     CameraFacts facts;
     facts.mode = {kWidth, kHeight, 30, ""};
     facts.registered = true;
     facts.colourFocal_px = 52.5;
-    const ObservationBuilder builder(nominalCalibration(facts));
+    return nominalCalibration(facts);
+}
+
+TEST(LiveOdometry, anErrorEndsItAndNothingElse)
+{
+    const ObservationBuilder builder(calibration());
     ShortMemory memory(3);  // the header and two frames
     std::ostream out(&memory);
     out.exceptions(std::ios::badbit);
@@ -64,5 +74,33 @@ TEST(LiveOdometry, anErrorEndsItAndNothingElse)
 
     EXPECT_EQ(live.stats().problem, "out of memory; --live ends there, the rest went on");
     EXPECT_EQ(live.stats().processed, 2U);
+}
+
+TEST(LiveOdometry, aMaskOfAnotherSizeIsRefusedBeforeTheFirstFrame)
+{
+    const test::TempDir dir;
+    const ObservationBuilder builder(calibration());
+    std::ostringstream out;
+    LiveOptions options;
+    options.mask = dir / "mask.png";
+    options.poseRawlog = dir / "poses.rawlog";
+    cv::Mat mask(kHeight, kWidth, CV_8UC1, cv::Scalar(255));
+    mask.row(0).setTo(0);
+    writeImageFile(options.mask, mask);
+    EXPECT_NO_THROW(LiveOdometry(options, builder, out));
+    writeImageFile(options.mask, mask.colRange(0, 10));
+    std::string problem;
+    try
+    {
+        const LiveOdometry live(options, builder, out);
+    }
+    catch (const InputError& e)
+    {
+        problem = e.what();
+    }
+    EXPECT_EQ(
+        problem,
+        options.mask +
+            ": is 10x48, but images of camera 'OPENNI2' are 64x48; draw it in that size");
 }
 }  // namespace

@@ -198,6 +198,33 @@ TEST(ParamsIni, odometryParametersRoundTripAndAreChecked)
     }
 }
 
+/** As every other mistake. */
+TEST(OdometryParamsIni, whereAValueOutOfRangeComesFromIsTold)
+{
+    const test::TempDir dir;
+    const std::string path = dir / "c.ini";
+    test::writeBytes(path, "[Pipeline]\n\n[PoseSolver]\nalpha = -3 // too small\n");
+    const auto problemOf = [&](const std::string& file, const std::vector<std::string>& settings)
+    {
+        try
+        {
+            (void)loadOdometryParams(file, settings);
+        }
+        catch (const InputError& e)
+        {
+            return std::string(e.what());
+        }
+        return std::string();
+    };
+    const std::string wrong = ": [PoseSolver] alpha = -3 is not in [0, 1000]";
+    EXPECT_EQ(problemOf(path, {}), path + ":4" + wrong);
+    EXPECT_EQ(
+        problemOf(path, {"PoseSolver.alpha=2", "PoseSolver.alpha=-3"}),
+        "setting 'PoseSolver.alpha=-3'" + wrong);
+    EXPECT_EQ(problemOf("", {"PoseSolver.alpha=-3"}), "setting 'PoseSolver.alpha=-3'" + wrong);
+    EXPECT_EQ(problemOf(path, {"PoseSolver.alpha=3"}), "");
+}
+
 TEST(OdometryParamsIni, everyNumberHasARange)
 {
     OdometryParams params;

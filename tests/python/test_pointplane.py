@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 """The Python module, on a rawlog: test_pointplane.py RAWLOG"""
 import gc
+import gzip
 import os
 import pathlib
 import re
+import struct
 import sys
 import tempfile
 import threading
@@ -48,6 +50,26 @@ class Rawlogs(unittest.TestCase):
             pointplane.InputError, r"corner.rawlog: no frames of camera 'typo'.*\d+ of 'RGBD'"
         ):
             list(pointplane.read_rawlog(RAWLOG, "typo"))
+
+    def test_a_rawlog_without_a_camera_is_no_recording_of_zero_frames(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = folder + "/comment.rawlog"
+            text = b"nothing else is in this recording"
+            name = b"CObservationComment"
+            with gzip.open(path, "wb") as file:
+                # Class and its version, text, stamp, end mark.
+                file.write(struct.pack("<B", 0x80 | len(name)) + name + b"\0")
+                file.write(struct.pack("<I", len(text)) + text + struct.pack("<Q", 0) + b"\x88")
+            for label in ("", "RGBD"):
+                with self.assertRaisesRegex(
+                    pointplane.InputError, "comment.rawlog: no CObservation3DRangeScan in it"
+                ):
+                    list(pointplane.read_rawlog(path, label))
+
+    def test_help_names_types_as_python_does(self):
+        for thing in vars(pointplane).values():
+            for member in [thing, *vars(thing).values()] if isinstance(thing, type) else [thing]:
+                self.assertNotIn("::", str(getattr(member, "__doc__", "")), member)
 
 
 class Odometry(unittest.TestCase):
@@ -116,6 +138,8 @@ class Odometry(unittest.TestCase):
         self.assertIn("the mask", odometry.process(frames[0]).reason)
         with self.assertRaises(TypeError):
             odometry.set_mask(mask.astype(np.float32))
+        with self.assertRaisesRegex(ValueError, "^mask: is 0 everywhere; it must be 0 where"):
+            odometry.set_mask(np.zeros_like(mask))
 
     def test_wrong_types_and_shapes_are_refused(self):
         frame = next(iter(pointplane.read_rawlog(RAWLOG)))
@@ -124,8 +148,15 @@ class Odometry(unittest.TestCase):
             odometry.process(frame.depth.astype(np.float64), None, frame.camera, 1.0)
         with self.assertRaises(TypeError):
             odometry.process(frame.depth, frame.gray.astype(np.int32), frame.camera, 1.0)
-        with self.assertRaisesRegex(ValueError, "contiguous"):
-            odometry.process(frame.depth[:, ::2], None, frame.camera, 1.0)
+        for view in (frame.depth[:, ::2], frame.depth[::-1], frame.depth.T):
+            with self.assertRaisesRegex(
+                ValueError, r"^depth: rows are not contiguous; give numpy.ascontiguousarray\(depth\)$"
+            ):
+                odometry.process(view, None, frame.camera, 1.0)
+        with self.assertRaisesRegex(
+            ValueError, r"^colour: has the shape \(1, 2, 4\), not \(height, width, 3\)$"
+        ):
+            odometry.process(frame.depth, np.zeros((1, 2, 4), np.uint8), frame.camera, 1.0)
         with self.assertRaisesRegex(ValueError, "focal"):
             pointplane.Camera(0, 500, 320, 240, 640, 480)
 
@@ -134,7 +165,9 @@ class Odometry(unittest.TestCase):
         millimetres = np.nan_to_num(frame.depth * 1000).astype(np.uint16)
         odometry = pointplane.VisualOdometry()
         for unit in (0, -0.001, float("nan"), float("inf"), 1e-300, 1e300, 1000):
-            with self.assertRaisesRegex(ValueError, "depth_unit"):
+            with self.assertRaisesRegex(
+                ValueError, r"^depth_unit: is \S+ m, not from 1e-06 to 1 m; 0.001 means millimetres$"
+            ):
                 odometry.process(millimetres, None, frame.camera, 1.0, depth_unit=unit)
 
     def test_threads_may_share_one_object(self):
@@ -167,6 +200,11 @@ class Odometry(unittest.TestCase):
         pointplane.VisualOdometry(settings=["PoseSolver.alpha=7"])
         with self.assertRaisesRegex(pointplane.InputError, "PoseSolver"):
             pointplane.VisualOdometry(settings=["PoseSolver.alpa=7"])
+        for wrong in ("PoseSolver.alpha=7", b"PoseSolver.alpha=7", ["PoseSolver.alpha=7", 1]):
+            with self.assertRaisesRegex(
+                TypeError, r"^settings: expected a list like \['Lens.nominal=true'\]$"
+            ):
+                pointplane.VisualOdometry("", wrong)
 
 
 class Readme(unittest.TestCase):

@@ -248,6 +248,7 @@ TEST(SimulateApp, badUsageIsNamedAndLeavesNoFile)
          "--set foo=1: unknown key 'foo' (see --list-settings)"},
         {{"corner", "-o", path, "--label", "a\nb"}, "new line or another control character"},
         {{"corner", "-o", path, "--set", "fps=0"}, "fps"},
+        {{"corner", "-o", path + ".txt"}, "a.rawlog.txt: would be a rawlog; give a name that ends"},
         {{"corner", "-o", path, "--size", "640"}, "--size"},
         {{"corner", "-o", path, "--size", "640x480px"}, "--size"},
         {{"corner", "-o", path, "--duration", "-1"}, "duration"},
@@ -311,6 +312,30 @@ TEST(SimulateApp, groundTruthOfAnotherRawlogIsNotReplaced)
     EXPECT_THAT(refused.err, HasSubstr(truth + ", which is that of " + (dir / "b.rawlog")));
     EXPECT_EQ(test::readBytes(truth), before);
     EXPECT_FALSE(std::filesystem::exists(dir / "b.rawlog.gz"));
+}
+
+/** Nobody named it, so it may be a user's. What this program wrote can be rendered again. */
+TEST(SimulateApp, aGroundTruthThatIsNotItsOwnIsNotReplaced)
+{
+    const test::TempDir dir;
+    const std::string truth = dir / "a.groundtruth.txt";
+    test::writeBytes(truth, "my mocap\n");
+    const Finished refused = run(smallRun(dir / "a.rawlog"));
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_EQ(
+        refused.err,
+        "pointplane-simulate: -o " + (dir / "a.rawlog") + ": its ground truth would replace " +
+            truth + ", which is a different one; move that file or give another name\n");
+    EXPECT_EQ(test::readBytes(truth), "my mocap\n");
+    EXPECT_FALSE(std::filesystem::exists(dir / "a.rawlog"));
+    std::filesystem::remove(truth);
+    for (const char* seed : {"1", "1", "2"})
+    {
+        std::vector<std::string> args = smallRun(dir / "a.rawlog");
+        args[8] = seed;
+        const Finished again = run(args);
+        EXPECT_EQ(again.code, 0) << again.err;
+    }
 }
 
 TEST(SimulateApp, unwritableOutputIsTheEnvironmentsFault)

@@ -44,7 +44,14 @@ LiveOdometry::LiveOdometry(
     }
     if (!options_.mask.empty())
     {
-        odometry_.setMask(readMask(options_.mask));
+        const cv::Mat mask = readMask(options_.mask);
+        const RgbdCalibration& camera = builder_.calibration();
+        requireMaskSize(
+            options_.mask,
+            mask.size(),
+            cv::Size(static_cast<int>(camera.colour.ncols), static_cast<int>(camera.colour.nrows)),
+            camera.sensorLabel);
+        odometry_.setMask(mask);
     }
     odometry_.setMinLoggingLevel(mrpt::system::LVL_ERROR);  // the lines say what was not tracked
     if (!options_.poseRawlog.empty())

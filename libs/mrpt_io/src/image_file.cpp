@@ -206,6 +206,19 @@ cv::Mat readMask(const std::string& path)
     return mask;
 }
 
+void requireMaskSize(
+    const std::string& path, cv::Size mask, cv::Size images, const std::string& label)
+{
+    const auto text = [](cv::Size size)
+    { return std::to_string(size.width) + "x" + std::to_string(size.height); };
+    if (mask != images)
+    {
+        throw InputError(
+            path + ": is " + text(mask) + ", but images of camera '" + label + "' are " +
+            text(images) + "; draw it in that size");
+    }
+}
+
 void writeImageFile(const std::string& path, const cv::Mat& image, const std::vector<int>& options)
 {
     Bytes bytes;

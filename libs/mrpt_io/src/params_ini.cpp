@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <numeric>
 #include <set>
 #include <sstream>
@@ -144,6 +145,9 @@ void assign(const std::string& where, const ParameterRef& parameter, const std::
     }
 }
 
+/** File and line, or setting, of "[Section] key". */
+using Places = std::map<std::string, std::string>;
+
 [[nodiscard]] std::string withoutComment(const std::string& line)
 {
     const std::string text = trimmed(line);
@@ -153,28 +157,10 @@ void assign(const std::string& where, const ParameterRef& parameter, const std::
     }
     return trimmed(text.substr(0, text.find("//")));
 }
-}  // namespace
 
-std::string ParameterRef::text() const
-{
-    struct Writer
-    {
-        std::string operator()(const bool* v) const { return *v ? "true" : "false"; }
-        std::string operator()(const int* v) const { return std::to_string(*v); }
-        std::string operator()(const double* v) const { return numberText(*v); }
-        std::string operator()(const std::string* v) const { return *v; }
-    };
-    return std::visit(Writer(), value);
-}
-
-const char* ParameterRef::typeName() const
-{
-    static constexpr const char* kNames[] = {
-        "true or false", "a whole number", "a number", "a word"};
-    return kNames[value.index()];
-}
-
-void parseIni(const std::string& text, const std::string& name, const ParameterTable& table)
+/** parseIni(), which also tells the places of what it read. */
+void parse(
+    const std::string& text, const std::string& name, const ParameterTable& table, Places& places)
 {
     std::istringstream lines(text);
     skipByteOrderMark(lines);
@@ -217,10 +203,11 @@ void parseIni(const std::string& text, const std::string& name, const ParameterT
             throw InputError(where + ": key '" + key + "' appears twice in [" + section + "]");
         }
         assign(where, parameter, trimmed(content.substr(equals + 1)));
+        places["[" + section + "] " + key] = where;
     }
 }
 
-void loadIni(const std::string& path, const ParameterTable& table)
+[[nodiscard]] std::string textOf(const std::string& path)
 {
     std::error_code error;
     std::ifstream file(path);
@@ -230,11 +217,11 @@ void loadIni(const std::string& path, const ParameterTable& table)
             "cannot open configuration " + path + ": " +
             (error || !file ? std::strerror(errno) : "is a directory"));
     }
-    const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-    parseIni(text, path, table);
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
-void applySetting(const std::string& setting, const ParameterTable& table)
+/** applySetting(), likewise. */
+void apply(const std::string& setting, const ParameterTable& table, Places& places)
 {
     const std::string where = "setting '" + setting + "'";
     const std::size_t equals = setting.find('=');
@@ -246,6 +233,52 @@ void applySetting(const std::string& setting, const ParameterTable& table)
     const std::string section = trimmed(setting.substr(0, dot));
     const std::string key = trimmed(setting.substr(dot + 1, equals - dot - 1));
     assign(where, find(where, section, key, table), trimmed(setting.substr(equals + 1)));
+    places["[" + section + "] " + key] = where;
+}
+
+/** Of the key that a problem begins with: "[Section] key = 3 is not ...". Empty: a default. */
+[[nodiscard]] std::string placeOf(const std::string& problem, const Places& places)
+{
+    const std::size_t blank = problem.find(' ');
+    const auto found = places.find(problem.substr(0, problem.find(' ', blank + 1)));
+    return found == places.end() ? "" : found->second;
+}
+}  // namespace
+
+std::string ParameterRef::text() const
+{
+    struct Writer
+    {
+        std::string operator()(const bool* v) const { return *v ? "true" : "false"; }
+        std::string operator()(const int* v) const { return std::to_string(*v); }
+        std::string operator()(const double* v) const { return numberText(*v); }
+        std::string operator()(const std::string* v) const { return *v; }
+    };
+    return std::visit(Writer(), value);
+}
+
+const char* ParameterRef::typeName() const
+{
+    static constexpr const char* kNames[] = {
+        "true or false", "a whole number", "a number", "a word"};
+    return kNames[value.index()];
+}
+
+void parseIni(const std::string& text, const std::string& name, const ParameterTable& table)
+{
+    Places places;
+    parse(text, name, table, places);
+}
+
+void loadIni(const std::string& path, const ParameterTable& table)
+{
+    parseIni(textOf(path), path, table);
+}
+
+void applySetting(const std::string& setting, const ParameterTable& table)
+{
+    Places places;
+    apply(setting, table, places);
 }
 
 std::string iniText(const ParameterTable& table, const std::string& firstExpert)
@@ -297,13 +330,14 @@ OdometryParams loadOdometryParams(const std::string& path, const std::vector<std
 {
     OdometryParams params;
     const ParameterTable table = parametersOf(params);
+    Places places;
     if (!path.empty())
     {
-        loadIni(path, table);
+        parse(textOf(path), path, table, places);
     }
     for (const std::string& setting : settings)
     {
-        applySetting(setting, table);
+        apply(setting, table, places);
     }
     try
     {
@@ -311,7 +345,9 @@ OdometryParams loadOdometryParams(const std::string& path, const std::vector<std
     }
     catch (const std::invalid_argument& e)
     {
-        throw InputError((path.empty() ? "configuration" : path) + ": " + e.what());
+        const std::string place = placeOf(e.what(), places);
+        const std::string file = path.empty() ? "configuration" : path;
+        throw InputError((place.empty() ? file : place) + ": " + e.what());
     }
     return params;
 }

@@ -18,6 +18,11 @@ namespace pointplane
  * everything or nothing */
 [[nodiscard]] cv::Mat readMask(const std::string& path);
 
+/** \param path of the mask \param images their size \param label of their camera
+ * \throws InputError naming the file if the mask has another size than the images */
+void requireMaskSize(
+    const std::string& path, cv::Size mask, cv::Size images, const std::string& label);
+
 /** Writes the whole file (OutputFile), or leaves an earlier one as it was. \param options of
  * cv::imwrite \throws EnvironmentError naming the file */
 void writeImageFile(
