@@ -107,6 +107,37 @@ TEST(Mask, leavesOutTheRobot)
     EXPECT_GT(unmasked, 5 * masked);
 }
 
+/** Until the robot is found it is the world; then it is as if there were a mask. */
+TEST(Mask, withoutOneTheRobotIsFound)
+{
+    Odometry odometry{OdometryParams()};
+    constexpr int kLater = 5;  // frames: poses come back to the world
+    int foundAt = -1;
+    Eigen::Isometry3d T_world_found = Eigen::Isometry3d::Identity(), T_world_last = T_world_found;
+    for (int i = 0; i < desk().numFrames(); ++i)
+    {
+        const OdometryResult result = odometry.process(recording()[static_cast<size_t>(i)]);
+        if (foundAt < 0 && result.diagnostics.attachedShare > 0)
+        {
+            foundAt = i;
+            EXPECT_NEAR(result.diagnostics.attachedShare, 1.0 / 3, 0.05);
+        }
+        if (foundAt >= 0 && i == foundAt + kLater)
+        {
+            T_world_found = result.pose.mean;
+        }
+        T_world_last = result.pose.mean;
+    }
+    ASSERT_GE(foundAt, 0);
+    EXPECT_LT(foundAt, desk().numFrames() / 2);
+    const Eigen::Isometry3d motion = T_world_found.inverse() * T_world_last;
+    const Eigen::Isometry3d truth = desk().trueMotion(foundAt + kLater, desk().numFrames() - 1);
+    const double error = (motion.translation() - truth.translation()).norm();
+    std::cout << "found in frame " << foundAt << " of " << desk().numFrames() << ", then "
+              << 1e3 * error << " mm off\n";
+    EXPECT_LT(error, 0.01);
+}
+
 TEST(Mask, doesNotChangeTheCallersImages)
 {
     Odometry odometry{OdometryParams()};

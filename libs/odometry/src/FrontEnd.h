@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pointplane/odometry/AttachedParts.h>
 #include <pointplane/odometry/Features.h>
 #include <pointplane/odometry/MovingRegions.h>
 #include <pointplane/odometry/OdometryParams.h>
 #include <pointplane/odometry/OdometryResult.h>
 #include <pointplane/odometry/PlaneAligner.h>
 #include <pointplane/odometry/Reference.h>
+#include <pointplane/sensor/AttachedParts.h>
 #include <pointplane/sensor/DepthNoiseLearner.h>
 
 #include <optional>

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pointplane/odometry/AttachedParts.h>
+#include <pointplane/sensor/AttachedParts.h>
 
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
-
-#include "surface_comparison.h"
 
 namespace pointplane
 {
@@ -55,9 +54,9 @@ enum class Change : std::uint8_t
 struct Cell
 {
     Change change{Change::Unknown};
-    DepthRange depth;  //!< of the later view
+    float nearest{std::numeric_limits<float>::infinity()}, farthest{0};  //!< later [m]; 0: none
 
-    [[nodiscard]] bool isFlat() const { return depth.farthest < (1 + kStep) * depth.nearest; }
+    [[nodiscard]] bool isFlat() const { return farthest < (1 + kStep) * nearest; }
 };
 /** Of the grid, row by row. */
 struct Cells
@@ -169,8 +168,8 @@ Cell compareDepth(
             const float before = earlier.depth(v, u), now = later.depth(v, u);
             if (before > 0 && now > 0)
             {
-                out.depth.nearest = std::min(out.depth.nearest, now);
-                out.depth.farthest = std::max(out.depth.farthest, now);
+                out.nearest = std::min(out.nearest, now);
+                out.farthest = std::max(out.farthest, now);
                 const auto most = static_cast<float>(noise.sameDepth(static_cast<double>(now)));
                 numOther += std::abs(before - now) > most ? 1 : 0;
                 ++numCompared;
@@ -219,7 +218,7 @@ Cells compare(
 /** Surface of a cell, in proportion. */
 double area(const Cell& cell)
 {
-    const auto z = static_cast<double>(cell.depth.farthest);
+    const auto z = static_cast<double>(cell.farthest);
     return z * z;
 }
 
@@ -242,7 +241,7 @@ float medianDepth(const Cells& cells)
     {
         if (cell.change == Change::Changed)
         {
-            depths.push_back(cell.depth.nearest);
+            depths.push_back(cell.nearest);
         }
     }
     const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
@@ -263,7 +262,7 @@ void count(const Cells& cells, float farthest, Mask& timesSame)
             {
                 times = 0;
             }
-            else if (cell.change == Change::SamePattern && cell.depth.farthest < farthest)
+            else if (cell.change == Change::SamePattern && cell.farthest < farthest)
             {
                 times = static_cast<std::uint8_t>(std::min(times + 1, kTimes));
             }
@@ -304,8 +303,8 @@ void grow(const Cells& cells, float farthest, Mask& parts)
                 continue;
             }
             const Cell &from = cells.at(at), &cell = cells.at(to);
-            const bool isSame = cell.change != Change::Changed && cell.depth.farthest < farthest;
-            const float ratio = cell.depth.nearest / from.depth.nearest;
+            const bool isSame = cell.change != Change::Changed && cell.farthest < farthest;
+            const float ratio = cell.nearest / from.nearest;
             if (isSame && cell.isFlat() && ratio < 1 + kStep && ratio > 1 - kStep)
             {
                 parts(to) = 255;

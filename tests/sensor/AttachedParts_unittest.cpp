@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pointplane/odometry/AttachedParts.h>
-#include <pointplane/odometry/Odometry.h>
-#include <pointplane/simulation/SimulatedSequence.h>
+#include <pointplane/sensor/AttachedParts.h>
 
 #include <opencv2/imgproc.hpp>
 
-#include <iostream>
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -194,41 +191,6 @@ TEST(AttachedParts, missingImagesChangeNothing)
     frame.depth.setTo(std::numeric_limits<float>::quiet_NaN());
     parts.update(frame, {});
     EXPECT_EQ(parts.share(), share);
-}
-
-/** The robot hides the lowest third of the view: until it is found it is the world. */
-TEST(AttachedParts, theOdometryFollowsTheWorldAgain)
-{
-    SimulationParams simulation;
-    simulation.width = kWidth;
-    simulation.height = kHeight;
-    simulation.duration = 2;
-    const SimulatedSequence desk("desk", simulation, 1);
-    const cv::Rect robot(0, 2 * kHeight / 3, kWidth, kHeight / 3);
-    const cv::Mat image = pattern(2);
-    Odometry odometry{OdometryParams()};
-    int foundAt = -1;
-    Eigen::Isometry3d T_world_found = Eigen::Isometry3d::Identity(), T_world_last = T_world_found;
-    for (int i = 0; i < desk.numFrames(); ++i)
-    {
-        RgbdFrame frame = desk.frame(i);
-        put(robot, image, 0.4, frame);
-        const OdometryResult result = odometry.process(frame);
-        if (foundAt < 0 && result.diagnostics.attachedShare > 0)
-        {
-            foundAt = i;
-            T_world_found = result.pose.mean;
-            EXPECT_NEAR(result.diagnostics.attachedShare, 1.0 / 3, 0.05);
-        }
-        T_world_last = result.pose.mean;
-    }
-    ASSERT_GE(foundAt, 0);
-    EXPECT_LT(foundAt, desk.numFrames() / 2);
-    const Eigen::Isometry3d error = (T_world_found.inverse() * T_world_last).inverse() *
-                                    desk.trueMotion(foundAt, desk.numFrames() - 1);
-    std::cout << "found in frame " << foundAt << " of " << desk.numFrames() << ", then "
-              << 1e3 * error.translation().norm() << " mm off\n";
-    EXPECT_LT(error.translation().norm(), 0.005);
 }
 }  // namespace
 }  // namespace pointplane
