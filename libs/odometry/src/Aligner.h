@@ -21,8 +21,8 @@ namespace pointplane
 {
 /** Matches a frame, estimates its pose and judges the estimate [P17, section Pose estimation].
  * Points and planes are searched for where the predicted motion puts them. If that fails, they are
- * searched for farther away, then where a motion puts them that the images alone tell. The depth
- * image, which took no part, has the last word. */
+ * searched for farther away, then where a motion puts them that the images alone tell. The rest
+ * of the depth image, which took no part, has the last word. */
 class Aligner
 {
  public:

@@ -29,7 +29,8 @@ struct Prediction
 
 /** Where the camera has been so far: poses with their joint covariance, its velocity, and the
  * frames that a new one can be compared with. The previous frame is the latest measured one, the
- * world the first frame. Each frame is one transition: restart(), measure() or predict(). */
+ * world the first frame. Each frame ends in one transition: restart(), measure() or predict().
+ * Before it, recall() and restartAtUnmatched() may change what it is compared with. */
 class Track
 {
  public:

@@ -9,12 +9,14 @@
 
 namespace pointplane
 {
-/** One feature type's share of the normal equations in pose and velocity. */
+/** One feature type's share of the normal equations in pose and velocity. With the noise f of the
+ * type, alpha (1 for points) and the share s of a surface that agrees, a pair has the gain
+ * k = alpha s / f. */
 struct FeatureSum
 {
-    Matrix12d H{Matrix12d::Zero()};  //!< J^T w W J / f
-    Matrix12d M{Matrix12d::Zero()};  //!< J^T w^2 W Sigma W J / f, for the sandwich
-    Vector12d g{Vector12d::Zero()};  //!< J^T w W r / f
+    Matrix12d H{Matrix12d::Zero()};  //!< J^T k w W J
+    Matrix12d M{Matrix12d::Zero()};  //!< f J^T (k w)^2 W Sigma W J, for the sandwich
+    Vector12d g{Vector12d::Zero()};  //!< J^T k w W r
     double cost{0};
     double weightedChi2{0}, dof{0};  //!< sums over the pairs, by weight
     int numInliers{0};
@@ -44,8 +46,8 @@ class NormalEquations
     [[nodiscard]] const FeatureSum& points() const { return pointSum_; }
     [[nodiscard]] const FeatureSum& planes() const { return planeSum_; }
 
-    /** Median squared Mahalanobis norm over what chi-square with 3 degrees of freedom would give;
-     * 0 without features. */
+    /** Median squared Mahalanobis norm over that of chi-square with as many degrees of freedom, of
+     * points that count and of planes; 0 without features. */
     [[nodiscard]] double pointVariance() const;
     [[nodiscard]] double planeVariance() const;
 

@@ -8,6 +8,6 @@
 namespace pointplane
 {
 /** How a solution changes with its references and features. Prior and camera are not set.
- * Derivation: docs/theory.md, Pose. */
+ * Derivation: docs/theory.md, Window. */
 [[nodiscard]] Sensitivity sensitivityOf(const Solution& at);
 }  // namespace pointplane

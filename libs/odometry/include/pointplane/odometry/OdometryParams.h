@@ -69,7 +69,7 @@ struct PipelineParams
         v("maxGap",
           maxGap,
           "s",
-          "after a longer gap between frames, the velocity counts as unknown");
+          "after a longer time without a measured frame, the velocity counts as unknown");
         v("numThreads",
           numThreads,
           "-",

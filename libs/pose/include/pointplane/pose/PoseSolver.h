@@ -45,8 +45,8 @@ struct PoseEstimate
 
     Matrix6d infoPoints{Matrix6d::Zero()};  //!< J^T W J of the points, as weighed
     Matrix6d infoPlanes{Matrix6d::Zero()};  //!< of the planes, alpha not included
-    double pointChi2PerDof{0};  //!< mean squared Mahalanobis norm / 3 of points, Tukey-weighted
-    double planeChi2PerDof{0};  //!< mean squared Mahalanobis norm / 3 of planes
+    double pointChi2PerDof{0};  //!< mean squared Mahalanobis norm per dof of points, Tukey-weighted
+    double planeChi2PerDof{0};  //!< likewise of planes, weighted by Student's t
     int numPointInliers{0};     //!< points with a Tukey weight above 1/2
     int iterations{0};
     bool converged{false};
@@ -54,8 +54,9 @@ struct PoseEstimate
 };
 
 /** Estimates a motion from pairs of uncertain points and planes. Levenberg-Marquardt on SE(3)
- * minimises E = sum_i rho(|P_i|^2) + alpha sum_j |C_j|^2 + |prior|^2 [P17 Eq. 10]. Each iteration
- * propagates the covariances anew to weigh the residuals. */
+ * minimises E = sum_i rho(|P_i|^2) + alpha sum_j |C_j|^2 + |prior|^2 [P17 Eq. 10], with Student's t
+ * for planes and prior, and each feature over the noise of its kind and times the share of its
+ * surface that agrees. Each iteration propagates the covariances anew to weigh the residuals. */
 class PoseSolver
 {
  public:
@@ -128,8 +129,6 @@ class PoseSolver
 
     /** \throws std::invalid_argument naming the key */
     explicit PoseSolver(const TParams& params);
-
-    /** Whether residuals are in units of their covariances (else in m and 1/m). */
 
     /** Pose and velocity of the current camera, with their joint covariance.
      * \param start initial motion

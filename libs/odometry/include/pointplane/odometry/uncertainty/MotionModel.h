@@ -139,8 +139,8 @@ class MotionModel
     /** IncrementVelocities::acceleration2() */
     [[nodiscard]] const Vector6d& acceleration2() const { return increments_.acceleration2(); }
 
-    /** Forgets the motion: the velocity is unknown again. How the camera accelerates stays known:
-     * it is carried as before. */
+    /** Forgets the motion: the velocity, and how much it changes, are unknown again. Only
+     * acceleration2() stays: the camera is carried as before. */
     void reset();
 
  private:
