@@ -162,7 +162,8 @@ void RunSummary::print(std::ostream& out, bool profile) const
         std::snprintf(
             line,
             sizeof(line),
-            "  from frame %zu on, up to %.0f %% of the view moved with the camera: left out as a part "
+            "  from frame %zu on, up to %.0f %% of the view moved with the camera: left out as a "
+            "part "
             "of the robot; until then it may have misled the poses (--mask leaves it out from the "
             "start)\n",
             firstAttached,
