@@ -15,7 +15,7 @@ namespace pointplane
 {
 namespace
 {
-constexpr Eigen::Index kSize = 6, kPatches = MotionByPatches::ColsAtCompileTime;
+constexpr Eigen::Index kSize = 6;
 }  // namespace
 
 bool JointCovariance::TParams::isJoint() const
@@ -131,7 +131,7 @@ Eigen::MatrixXd JointCovariance::dependence(
     }
     for (const auto& [reference, change] : measurement.referencePatches)
     {
-        A.middleCols<kPatches>(find(Kind::Bend, reference)) += change;
+        A.middleCols<kNumPatches>(find(Kind::Bend, reference)) += change;
     }
     A.middleCols<kNumCameraErrors>(find(Kind::Camera, 0)) += measurement.camera;
     A.topRows<kSize>() = (Ad * A.topRows<kSize>()).eval();
@@ -155,7 +155,7 @@ void JointCovariance::measure(
 
     // Pose and velocity, camera, and the smooth error of the depth image, if there is one.
     constexpr Eigen::Index camera = 2 * kSize, bend = camera + kNumCameraErrors;
-    const Eigen::Index size = bend + (measurement.bendVariance > 0 ? kPatches : 0);
+    const Eigen::Index size = bend + (measurement.bendVariance > 0 ? kNumPatches : 0);
     Eigen::MatrixXd A = Eigen::MatrixXd::Zero(size, errors_.size());
     A.topRows<2 * kSize>() = dependence(frame, Ad, decayed, measurement);
     A.block<kNumCameraErrors, kNumCameraErrors>(camera, find(Kind::Camera, 0)) =
@@ -170,9 +170,9 @@ void JointCovariance::measure(
     if (measurement.bendVariance > 0)
     {
         added.push_back({Kind::Bend, frame});
-        Eigen::MatrixXd ofBend = Eigen::MatrixXd::Zero(size, kPatches);
+        Eigen::MatrixXd ofBend = Eigen::MatrixXd::Zero(size, kNumPatches);
         ofBend.topRows<2 * kSize>() = toWorld * measurement.patches;
-        ofBend.bottomRows<kPatches>().setIdentity();
+        ofBend.bottomRows<kNumPatches>().setIdentity();
         Q += measurement.bendVariance * ofBend * ofBend.transpose();
     }
     errors_.prepend(added, A, Q);
@@ -233,8 +233,8 @@ void JointCovariance::addBends(const Measurement& measurement)
         {
             errors_.prepend(
                 {{Kind::Bend, frame}},
-                Eigen::MatrixXd::Zero(kPatches, errors_.size()),
-                measurement.bendVariance * Eigen::MatrixXd::Identity(kPatches, kPatches));
+                Eigen::MatrixXd::Zero(kNumPatches, errors_.size()),
+                measurement.bendVariance * Eigen::MatrixXd::Identity(kNumPatches, kNumPatches));
         }
     }
 }

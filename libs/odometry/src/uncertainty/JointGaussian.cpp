@@ -15,7 +15,7 @@ Eigen::Index JointGaussian::Block::size() const
         case Kind::Camera:
             return kNumCameraErrors;
         case Kind::Bend:
-            return MotionByPatches::ColsAtCompileTime;
+            return kNumPatches;
         case Kind::View:
             return 12;
         default:

@@ -27,8 +27,8 @@ using MotionByCamera = Eigen::Matrix<double, 12, kNumCameraErrors>;  //!< pose a
 
 /** A smooth error of depth scales the depths of each patch of an image by a factor of its own. */
 constexpr int kPatchesPerSide = 4;
-/** Pose and velocity by the scale of depth in each patch. */
-using MotionByPatches = Eigen::Matrix<double, 12, kPatchesPerSide * kPatchesPerSide>;
+constexpr int kNumPatches = kPatchesPerSide * kPatchesPerSide;
+using MotionByPatches = Eigen::Matrix<double, 12, kNumPatches>;  //!< pose and velocity
 
 /** The same point seen twice.
  *
