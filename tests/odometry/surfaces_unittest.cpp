@@ -58,7 +58,7 @@ TEST(Surfaces, areForgottenOverTwoSeconds)
     Association association;
     association.reference = &reference;
     association.planes = {{1, 0}};
-    const auto known = rememberedInliers({association}, twoPlanes(9));
+    const auto known = rememberedInliers({association}, twoPlanes(9), 2);
     ASSERT_EQ(known.size(), 2U);
     EXPECT_NEAR(known[0].points, 30 * std::exp(-1), 1e-12);
     EXPECT_NEAR(known[0].inliers, 3 * std::exp(-1), 1e-12);
@@ -76,7 +76,7 @@ TEST(Surfaces, areKnownFromTheFirstReferenceThatKnowsThem)
     associations[0].planes = {{0, 0}};
     associations[1].movingPlanes = {{0, 0}};
     associations[2].planes = {{0, 0}};
-    EXPECT_EQ(rememberedInliers(associations, twoPlanes(9))[0].points, 5);
+    EXPECT_EQ(rememberedInliers(associations, twoPlanes(9), 2)[0].points, 5);
 }
 
 TEST(Surfaces, whatMovesIsCountedAgainstThem)
