@@ -17,15 +17,15 @@ namespace pointplane
 {
 namespace
 {
-/** Corners of several references that are found in the same of so many cells in a row are one. */
-constexpr int kCornerCells = 100;
+/** Corners of several references that are found in the same cell of this side count as one. */
+constexpr double kSameCorner = 6;  // [px]
 
 /** Number of the cell of the image that the pixel is in. */
-int cellOf(const Eigen::Vector2d& uv_px, const PinholeCamera& camera)
+int cellOf(const Eigen::Vector2d& uv_px)
 {
-    const double side = static_cast<double>(camera.width) / kCornerCells;
-    return static_cast<int>(std::floor(uv_px.y() / side)) * kCornerCells +
-           static_cast<int>(std::floor(uv_px.x() / side));
+    constexpr int kCellsPerRow = 10000;
+    return static_cast<int>(std::floor(uv_px.y() / kSameCorner)) * kCellsPerRow +
+           static_cast<int>(std::floor(uv_px.x() / kSameCorner));
 }
 
 /** Number of the patch of the image that the pixel is in. */
@@ -118,7 +118,7 @@ PointPair pointPair(const ReferenceView& past, const CurrentView& current, const
     pair.cur = cur.p_cam;
     current.correct(pair.cur.mean, pointByCamera);
     pair.reference = past.reference.id;
-    pair.feature = cellOf(cur.uv_px, camera);
+    pair.feature = cellOf(cur.uv_px);
     pair.hasDepth = cur.hasDepth;
     pair.surface = surfaceAt(camera.depthPixel(cur.uv_px), features.planes);
     if (features.bend > 0)

@@ -12,6 +12,13 @@
 
 namespace pointplane
 {
+namespace
+{
+/** Where the pose follows planes in all but this part of their dimensions, their residuals tell
+ * nothing of their noise. Three planes that alone tell the pose have a third left. */
+constexpr double kLeastLeft = 0.25;
+}  // namespace
+
 /** Poses follow planes by as many dimensions as planes tell of them: that of the frame does, and
  * those of the references did. Residuals have so many fewer. */
 PlaneResiduals residualsOfPlanes(const NormalEquations& equations, const PoseProblem& problem)
@@ -37,9 +44,8 @@ PlaneResiduals residualsOfPlanes(const NormalEquations& equations, const PosePro
     }
     for (auto& [reference, ofPlanes] : norms)
     {
-        const double all = PlanePair::dof() * static_cast<double>(ofPlanes.size());
-        const double dof = all - dimensions;
-        if (dof >= 1)
+        const double all = 3 * static_cast<double>(ofPlanes.size()), dof = all - dimensions;
+        if (dof >= kLeastLeft * all)
         {
             out.references.push_back({reference, medianVariance(ofPlanes) * all / dof, dof});
         }

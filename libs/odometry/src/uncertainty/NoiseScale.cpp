@@ -58,9 +58,9 @@ void NoiseScale::Average::follow(double variance, double dt, double timeConstant
         const double target = plausible(variance);
         const double rate = 1 - std::exp(-dt / timeConstant);
         cautious += rate * (target - cautious);
-        const double quickRate = std::max(rate, 1.0 / (numFrames + 1));
+        const double quickRate = std::max(rate, 1.0 / (numFrames + kFirstFrames));
         quick += quickRate * (target - quick);
-        typical *= std::pow(target / typical, quickRate);
+        typical *= std::pow(target / typical, std::max(rate, 1.0 / (numFrames + 1)));
     }
 }
 

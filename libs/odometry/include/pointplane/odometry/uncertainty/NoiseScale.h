@@ -44,8 +44,9 @@ class NoiseScale
         void check() const;
     };
 
-    /** Variance before anything is known. */
+    /** Variance before anything is known; for the solver, as if so many frames had said it. */
     static constexpr double kFirstVariance = 4;
+    static constexpr int kFirstFrames = 3;
 
     /** What a frame says, between a tenth and a hundred times the propagated variance: a few odd
      * frames must neither make features certain nor worthless. */
@@ -94,8 +95,9 @@ class NoiseScale
     struct Average
     {
         double cautious{1};  //!< from the first value on with the time constant, for the solver
-        double quick{1};     //!< at first the mean of all frames and the first guess
-        double typical{1};   //!< likewise the geometric mean, for covariances
+        double quick{1};     //!< at first the mean of all frames
+        double typical{1};   //!< at first the geometric mean of all frames, for covariances; the
+                             //!< first guess counts as one frame
         int numFrames{0};
         void follow(double variance, double dt, double timeConstant);
     };
