@@ -95,7 +95,7 @@ MotionPrior Track::priorFrom(const MotionGaussian& motion, const PoseGaussian& p
     return prior;
 }
 
-/** Once: after that it is known better from frame to frame how little is known. */
+/** Only once in a gap. From then on, the uncertainty of the velocity grows from frame to frame. */
 void Track::forgetVelocity()
 {
     if (isVelocityKnown_)

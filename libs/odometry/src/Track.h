@@ -144,6 +144,6 @@ class Track
     bool started_{false};              //!< there was a good frame
     bool wasLost_{false};              //!< there were others before it
     bool isPreviousMeasured_{false};   //!< it is not the first frame, nor one that matched none
-    bool isVelocityKnown_{false};      //!< since the latest measured frame
+    bool isVelocityKnown_{false};      //!< not forgotten since the latest measured one
 };
 }  // namespace pointplane
