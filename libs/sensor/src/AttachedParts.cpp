@@ -31,7 +31,7 @@ constexpr double kMost = 1.5;
 constexpr int kTimes = 2;
 
 /** The smallest part takes so much of the view. */
-constexpr double kLeastShare = 0.01;
+constexpr double kSmallestPart = 0.01;
 
 /** Depths of neighbours on one surface differ by less than this fraction. */
 constexpr float kStep = 0.1F;
@@ -278,7 +278,7 @@ void removeSpecks(Mask& parts)
     const int num = cv::connectedComponentsWithStats(parts, labels, stats, centroids);
     for (int i = 1; i < num; ++i)
     {
-        if (stats.at<int>(i, cv::CC_STAT_AREA) < kLeastShare * static_cast<double>(parts.total()))
+        if (stats.at<int>(i, cv::CC_STAT_AREA) < kSmallestPart * static_cast<double>(parts.total()))
         {
             parts.setTo(0, labels == i);
         }
