@@ -255,10 +255,13 @@ TEST(Judge, anUnsettledMotionIsNotBelieved)
 TEST(Judge, aNewViewIsNeededWhereMuchHasMoved)
 {
     Alignment a = makeAlignment(kCertain);
-    EXPECT_FALSE(Judge::needsNewView(a, 0.2)) << "the key frame still shows what is there";
+    MovingRegions much;
+    much.cells.resize(2);
+    much.numCompared = 10;
+    EXPECT_FALSE(Judge::needsNewView(a, much)) << "the key frame still shows what is there";
     a.agreement = {600, 200, 200};
-    EXPECT_TRUE(Judge::needsNewView(a, 0.2));
-    EXPECT_FALSE(Judge::needsNewView(a, 0.01)) << "nothing moves";
+    EXPECT_TRUE(Judge::needsNewView(a, much));
+    EXPECT_FALSE(Judge::needsNewView(a, MovingRegions())) << "nothing moves";
 }
 }  // namespace
 }  // namespace pointplane

@@ -34,6 +34,15 @@ double afterScatter(NoiseScale& noise, double scatter)
 }
 }  // namespace
 
+TEST(NoiseScale, aFrameThatDoesNotTellItsNoiseIsAsOthers)
+{
+    NoiseScale noise(bare());
+    (void)afterScatter(noise, 1);
+    EXPECT_GT(afterScatter(noise, 5), 4);
+    noise.skip();
+    EXPECT_EQ(noise.ofFrame(), 1);
+}
+
 TEST(NoiseScale, followsTheResiduals)
 {
     NoiseScale noise(bare());

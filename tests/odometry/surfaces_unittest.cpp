@@ -2,6 +2,7 @@
 #include "surfaces.h"
 
 #include <pointplane/odometry/Odometry.h>
+#include <pointplane/simulation/SimulatedSequence.h>
 
 #include <cmath>
 #include <vector>
@@ -92,6 +93,69 @@ TEST(Surfaces, whatMovesIsCountedAgainstThem)
     std::vector<InlierRatio> none;  // as in the paper
     countMoving({association}, twoPlanes(9), none);
     EXPECT_TRUE(none.empty());
+}
+
+/** Of 20 x 20 pixels with depth. */
+Features twoPlanesWithDepth()
+{
+    Features out = twoPlanes(0);
+    out.frame.depth = cv::Mat(20, 20, CV_32FC1, cv::Scalar(2));
+    return out;
+}
+
+int numReadings(const cv::Mat& depth) { return cv::countNonZero(depth == depth); }
+
+MovingRegions movingCell(const cv::Rect& cell, int numCompared)
+{
+    MovingRegions out;
+    out.cells = {cell};
+    out.numCompared = numCompared;
+    return out;
+}
+
+TEST(Surfaces, theStillPartIsWithoutMovingRegions)
+{
+    const Features features = twoPlanesWithDepth();
+    const RgbdFrame still = stillPart(features, movingCell({2, 3, 4, 5}, 9), {});
+    EXPECT_EQ(numReadings(still.depth), 400 - 4 * 5);
+    EXPECT_TRUE(std::isnan(still.depth.at<float>(3, 2)));
+    EXPECT_EQ(still.depth.at<float>(2, 2), 2);
+    EXPECT_EQ(numReadings(features.frame.depth), 400) << "the frame itself stays";
+}
+
+TEST(Surfaces, theStillPartIsWithoutPlanesThatReachIntoThemAndContradict)
+{
+    const Features features = twoPlanesWithDepth();
+    const MovingRegions moving = movingCell({12, 3, 4, 5}, 9);
+    // (2 + inliers) / (2 + points): 0.5 is not less than half.
+    EXPECT_EQ(numReadings(stillPart(features, moving, {{11, 4}, {10, 4}}).depth), 400 - 4 * 5);
+    const RgbdFrame still = stillPart(features, moving, {{11, 4}, {11, 4}});
+    EXPECT_EQ(numReadings(still.depth), 200) << "the left plane does not reach into the region";
+    EXPECT_EQ(still.depth.at<float>(5, 5), 2);
+    EXPECT_TRUE(std::isnan(still.depth.at<float>(5, 15)));
+}
+
+TEST(Surfaces, theStillPartIsAllIfNothingSurelyMoves)
+{
+    const Features features = twoPlanesWithDepth();
+    EXPECT_EQ(numReadings(stillPart(features, {}, {{11, 4}, {11, 4}}).depth), 400);
+    const MovingRegions few = movingCell({2, 3, 4, 5}, 10);  // a tenth, and not more
+    EXPECT_EQ(numReadings(stillPart(features, few, {{11, 4}, {11, 4}}).depth), 400);
+}
+
+/** A screen that fills half of the view and moves: with points of it in new key frames, the motion
+ * follows it by 17 mm a frame from frame 73 on. */
+TEST(Surfaces, newKeyFramesTakeNoPointsFromWhatMoves)
+{
+    const SimulatedSequence half("half", SimulationParams(), 2);
+    Odometry odometry{OdometryParams()};
+    Eigen::Isometry3d T_world_cam;
+    for (int i = 0; i < 91; ++i)
+    {
+        T_world_cam = odometry.process(half.frame(i)).pose.mean;
+    }
+    const Eigen::Vector3d error = T_world_cam.translation() - half.trueMotion(0, 90).translation();
+    EXPECT_LT(error.norm(), 0.02);
 }
 
 /** Two people who move in front of a camera that is held still: 10 mm over a second if the surfaces

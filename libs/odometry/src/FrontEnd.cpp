@@ -111,10 +111,9 @@ void FrontEnd::leaveOutAttached(RgbdFrame& frame, FrameDiagnostics& diagnostics)
     }
 }
 
-PointReference FrontEnd::pointReference(const Features& features) const
+PointReference FrontEnd::pointReference(const Features& features, const RgbdFrame& part) const
 {
-    return params_.usePoints ? pointStage_.makeReference(features.frame, features.points)
-                             : PointReference();
+    return params_.usePoints ? pointStage_.makeReference(part, features.points) : PointReference();
 }
 
 std::shared_ptr<KeyframeImages> FrontEnd::keyframeImages(const Features& features) const

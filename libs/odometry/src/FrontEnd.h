@@ -26,7 +26,15 @@ class FrontEnd
     [[nodiscard]] Features extract(const RgbdFrame& frame, FrameDiagnostics& diagnostics);
 
     /** The points by which later frames are compared with this one. Takes time. */
-    [[nodiscard]] PointReference pointReference(const Features& features) const;
+    [[nodiscard]] PointReference pointReference(const Features& features) const
+    {
+        return pointReference(features, features.frame);
+    }
+
+    /** The same, of what this part of the frame has depth of; key points that are matched are
+     * all of them. */
+    [[nodiscard]] PointReference pointReference(
+        const Features& features, const RgbdFrame& part) const;
 
     /** What is kept of the frame's images when it becomes a key frame. */
     [[nodiscard]] std::shared_ptr<KeyframeImages> keyframeImages(const Features& features) const;

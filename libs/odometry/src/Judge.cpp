@@ -33,10 +33,6 @@ constexpr double kConvincingRise = 4;
  * world and that of what moves. */
 constexpr double kNoMotionRise = kConvincingRise * kConvincingRise;
 
-/** Share of the view in which something stands where key frames looked through: more than holes of
- * the depth image and thin things make, so something moves. */
-constexpr double kMovedAway = 0.1;
-
 /** How many directions the measurements know better than the motion model does. */
 int observableDirections(const Matrix6d& information, const Matrix6d& priorCovariance)
 {
@@ -175,9 +171,9 @@ std::string Judge::whyUnsettled(const Rivalry& rivalry, const Prediction& predic
     return "";
 }
 
-bool Judge::needsNewView(const Alignment& alignment, double movingShare)
+bool Judge::needsNewView(const Alignment& alignment, const MovingRegions& moving)
 {
-    return movingShare > kMovedAway && alignment.agreement.fraction() < kConvincingSurfaces;
+    return moving.areSure() && alignment.agreement.fraction() < kConvincingSurfaces;
 }
 
 void Judge::judge(Alignment& alignment) const

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pointplane/odometry/MovingRegions.h>
 #include <pointplane/odometry/OdometryParams.h>
 #include <pointplane/pose/PoseSolver.h>
 
@@ -56,8 +57,8 @@ class Judge
         const Rivalry& rivalry, const Prediction& predicted);
 
     /** Whether so much has moved in front of the camera that only a new key frame can tell a right
-     * motion from a wrong one. \param movingShare MovingRegions::share() */
-    [[nodiscard]] static bool needsNewView(const Alignment& alignment, double movingShare);
+     * motion from a wrong one. */
+    [[nodiscard]] static bool needsNewView(const Alignment& alignment, const MovingRegions& moving);
 
     /** Whether points that may agree by chance decide a direction. */
     [[nodiscard]] static bool restsOnChance(const Alignment& alignment);

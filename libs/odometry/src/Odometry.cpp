@@ -264,7 +264,7 @@ void Odometry::Impl::measure(const Features& current, Alignment& alignment, Odom
         current.hasDepth &&
         (track.needsKeyframe(
              motion.mean.T_prev_cur, track.overlap(alignment.associations, current)) ||
-         Judge::needsNewView(alignment, shown.moving.share()));
+         Judge::needsNewView(alignment, shown.moving));
     Reference reference = referenceOf(current);
     reference.surfaces = analysis.surfaces;
     shown.isKeyframe = isKeyframe;
@@ -274,7 +274,8 @@ void Odometry::Impl::measure(const Features& current, Alignment& alignment, Odom
     }
     if (isKeyframe && params.pipeline.usePoints)
     {
-        reference.points = frontEnd.pointReference(current);
+        reference.points =
+            frontEnd.pointReference(current, stillPart(current, shown.moving, analysis.surfaces));
         showNewPoints(reference.points, shown);
     }
     track.measure(

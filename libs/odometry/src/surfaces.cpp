@@ -3,6 +3,8 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
+#include <set>
 
 namespace pointplane
 {
@@ -59,5 +61,33 @@ void countMoving(
             }
         }
     }
+}
+
+RgbdFrame stillPart(
+    const Features& current, const MovingRegions& moving, const std::vector<InlierRatio>& surfaces)
+{
+    RgbdFrame out = current.frame;
+    if (!moving.areSure())
+    {
+        return out;
+    }
+    constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+    out.depth = out.depth.clone();
+    std::set<int> reached;
+    for (const cv::Rect& cell : moving.cells)
+    {
+        out.depth(cell).setTo(kNone);
+        const Eigen::Vector2d centre(cell.x + cell.width / 2, cell.y + cell.height / 2);
+        reached.insert(surfaceAt(centre, current.planes));
+    }
+    for (const int surface : reached)
+    {
+        const auto i = static_cast<size_t>(surface);  // on none: beyond the end
+        if (i < surfaces.size() && surfaces[i].value() < 0.5)
+        {
+            out.depth.setTo(kNone, current.planes.labels == surface + 1);
+        }
+    }
+    return out;
 }
 }  // namespace pointplane

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <pointplane/odometry/Features.h>
+#include <pointplane/odometry/MovingRegions.h>
 #include <pointplane/odometry/Reference.h>
 #include <pointplane/pose/InlierRatio.h>
 
@@ -23,4 +24,9 @@ void countMoving(
     const std::vector<Association>& associations,
     const Features& current,
     std::vector<InlierRatio>& surfaces);
+
+/** The frame without the depth of what surely moves (MovingRegions::areSure()): of moving regions,
+ * and of planes that reach into them and that most of their points contradict. */
+[[nodiscard]] RgbdFrame stillPart(
+    const Features& current, const MovingRegions& moving, const std::vector<InlierRatio>& surfaces);
 }  // namespace pointplane

@@ -87,6 +87,10 @@ JointCovariance::Measurement ErrorModel::learn(const Measured& frame)
     {
         noise_.update(frame.analysis, frame.dt);
     }
+    else
+    {
+        noise_.skip();
+    }
     if (learns_ && frame.isMinimum)
     {
         planes_.update(frame.analysis.planeResiduals, correlation, frame.dt);

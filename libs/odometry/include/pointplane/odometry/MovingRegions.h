@@ -25,6 +25,10 @@ struct MovingRegions
     {
         return numCompared > 0 ? static_cast<double>(cells.size()) / numCompared : 0;
     }
+
+    /** Whether something surely moves: a tenth is more than holes of the depth image and thin
+     * things make. */
+    [[nodiscard]] bool areSure() const { return share() > 0.1; }
 };
 
 /** An earlier frame, and from where it saw the current one's surfaces. */

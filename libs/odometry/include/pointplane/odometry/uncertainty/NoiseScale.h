@@ -71,6 +71,9 @@ class NoiseScale
      */
     [[nodiscard]] double ofFrame() const { return scatter_.ofFrame; }
 
+    /** A frame that does not tell its noise. */
+    void skip() { scatter_.ofFrame = 1; }
+
     /** What the points of a frame usually have, for covariances. As geometric means, in which the
      * first guess counts as one frame, these soon forget it: a camera that turns fast in its first
      * frames has residuals of 50 times the propagated variance. */
