@@ -71,7 +71,7 @@ class NoiseScale
      */
     [[nodiscard]] double ofFrame() const { return scatter_.ofFrame; }
 
-    /** A frame that does not tell its noise. */
+    /** The latest frame does not tell its noise: it counts as a usual one. */
     void skip() { scatter_.ofFrame = 1; }
 
     /** What the points of a frame usually have, for covariances. As geometric means, in which the
