@@ -72,14 +72,21 @@ function(pointplane_add_app name)
   pointplane_add_manual(${name})
 endfunction()
 
-# pointplane_add_test(LIB Concept [LINK lib ...]): tests/LIB/Concept_unittest.cpp as a gtest binary;
-# each TEST is one ctest entry named LIB/Suite.name, labelled LIB and what LABELS adds.
+# pointplane_add_tests(LIB [NAME name] CONCEPTS a b ... [LINK lib ...] [INCLUDE dir ...] [DEFINE X=1 ...]
+# [LABELS label ...] [REAL_TIME]): tests/LIB/a_unittest.cpp and so on as one gtest binary, test_LIB or
+# test_LIB_name; each TEST is one ctest entry named LIB/Suite.name, labelled LIB and what LABELS adds.
 # REAL_TIME: runs with no other test beside it.
-function(pointplane_add_test lib concept)
-  cmake_parse_arguments(ARG "REAL_TIME" "" "LINK;LABELS" ${ARGN})
-  set(target test_${lib}_${concept})
-  add_executable(${target} ${CMAKE_CURRENT_SOURCE_DIR}/${concept}_unittest.cpp)
+function(pointplane_add_tests lib)
+  cmake_parse_arguments(ARG "REAL_TIME" "NAME" "CONCEPTS;LINK;INCLUDE;DEFINE;LABELS" ${ARGN})
+  set(target test_${lib})
+  if(ARG_NAME)
+    string(APPEND target _${ARG_NAME})
+  endif()
+  list(TRANSFORM ARG_CONCEPTS APPEND _unittest.cpp OUTPUT_VARIABLE sources)
+  add_executable(${target} ${sources})
   target_link_libraries(${target} PRIVATE ${ARG_LINK} pointplane_test_support GTest::gtest GTest::gmock GTest::gtest_main)
+  target_include_directories(${target} PRIVATE ${ARG_INCLUDE})
+  target_compile_definitions(${target} PRIVATE ${ARG_DEFINE})
   pointplane_target_defaults(${target})
   # Libraries are compiled as they are shipped. The tests' own sources compile a quarter faster this way.
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)

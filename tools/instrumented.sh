@@ -14,9 +14,8 @@ readonly gcc_thread_options=(
 
 # The tests of what runs in several threads.
 readonly threaded_tests=(
-    test_grabber_queues test_grabber_RecordingWriter test_grabber_OpenNi2Recording
-    test_odometry_Odometry test_mrpt_io_VisualOdometry test_apps_OdometryApp
-    test_evaluation_Rpe test_evaluation_RunProcesses test_simulation_SimulateApp)
+    test_grabber test_grabber_OpenNi2Recording test_odometry test_mrpt_io test_apps_Odometry test_evaluation
+    test_lab test_simulation_SimulateApp)
 
 # OpenNI2, OpenCV, MRPT and the C++ library keep what they allocate once: no leaks of ours.
 readonly sanitizer_options=allocator_may_return_null=1:detect_leaks=0
@@ -29,6 +28,6 @@ configure_instrumented() {
         launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
     fi
     mkdir -p "$build_dir"
-    cmake -S "$source_dir" -B "$build_dir" -G Ninja "${launcher[@]}" "$@" >"$build_dir.log" ||
+    cmake -S "$source_dir" -B "$build_dir" -G Ninja "${fast_build[@]}" "${launcher[@]}" "$@" >"$build_dir.log" ||
         die "cmake failed, see $build_dir.log"
 }

@@ -29,7 +29,7 @@ grep -v '^\(#\|$\)' tools/mutants.txt | while read -r mutant; do
 done
 
 source_dir=$tree
-configure_instrumented -DPOINTPLANE_BUILD_PYTHON=OFF -DCMAKE_BUILD_TYPE=Release
+configure_instrumented -DCMAKE_UNITY_BUILD=OFF -DPOINTPLANE_BUILD_PYTHON=OFF -DCMAKE_BUILD_TYPE=Release
 
 # passes TEST...: builds and runs; a mutant that does not compile would prove nothing.
 passes() {

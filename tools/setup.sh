@@ -108,13 +108,16 @@ num_jobs() {
     echo $((jobs < cores ? jobs : cores))
 }
 
+# Eight sources compiled as one take half the time of eight. Who edits one of them is faster without.
+readonly fast_build=(-DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=8)
+
 # build TARGET...
 build() {
     local jobs
     jobs=$(num_jobs)
     say "building in $build_dir with $jobs jobs"
     if [[ ! -e $build_dir/build.ninja ]]; then
-        cmake -S . -B "$build_dir" -G Ninja -DCMAKE_BUILD_TYPE=Release
+        cmake -S . -B "$build_dir" -G Ninja -DCMAKE_BUILD_TYPE=Release "${fast_build[@]}"
     fi
     cmake --build "$build_dir" --parallel "$jobs" --target "$@"
 }

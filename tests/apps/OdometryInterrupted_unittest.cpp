@@ -29,7 +29,7 @@ using test::readBytes;
 using test::TempDir;
 using test::writeBytes;
 
-struct Outcome
+struct Ending
 {
     int code{-1};
     std::string err;
@@ -38,7 +38,7 @@ struct Outcome
 class OdometryInterrupted : public testing::Test
 {
  protected:
-    [[nodiscard]] static Outcome run(std::vector<std::string> args)
+    [[nodiscard]] static Ending run(std::vector<std::string> args)
     {
         args.emplace_back("--quiet");
         std::ostringstream out, err;
@@ -66,7 +66,7 @@ TEST_F(OdometryInterrupted, aFullDiskIsExitCode3AndLeavesNothingThatLooksComplet
                 [&]
                 {
                     const std::string path = disk + "/out";
-                    const Outcome outcome = run({in_, option, path});
+                    const Ending outcome = run({in_, option, path});
                     const bool complete = std::filesystem::exists(path);
                     const bool told =
                         outcome.err.find("No space left on device") != std::string::npos;

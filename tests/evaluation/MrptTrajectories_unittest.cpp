@@ -104,7 +104,7 @@ std::string messageOf(F&& f)
     return "no exception";
 }
 
-test::AppRun run(const std::vector<std::string>& args) { return test::runApp(runEval, args); }
+test::AppRun evaluate(const std::vector<std::string>& args) { return test::runApp(runEval, args); }
 
 std::string writeTruth(const test::TempDir& dir)
 {
@@ -265,7 +265,7 @@ TEST(MrptTrajectories, aDamagedSimplemapIsBadInputThatSaysWhere)
     std::string bytes = test::readBytes(dir / "a.simplemap");
     bytes[bytes.size() - 6] = static_cast<char>(~bytes[bytes.size() - 6]);  // of the checksum
     test::writeBytes(dir / "sum.simplemap", bytes);
-    const test::AppRun r = run({"ate", writeTruth(dir), dir / "sum.simplemap"});
+    const test::AppRun r = evaluate({"ate", writeTruth(dir), dir / "sum.simplemap"});
     EXPECT_EQ(r.code, 2);
     EXPECT_THAT(r.err, HasSubstr("sum.simplemap: damaged at byte"));
     EXPECT_EQ(r.out, "");
@@ -341,14 +341,14 @@ TEST(MrptTrajectories, posesThatAreNoNumbersAreLeftOutAsInText)
         "nan.rawlog: 1 pose(s) with NaN or infinity left out, the first at 100.500000 s";
     for (const char* command : {"rpe", "ate", "compare", "nees"})
     {
-        const test::AppRun r = run({command, writeTruth(dir), dir / "nan.rawlog"});
+        const test::AppRun r = evaluate({command, writeTruth(dir), dir / "nan.rawlog"});
         EXPECT_EQ(r.code, 0) << command << r.err;
         EXPECT_THAT(r.err, HasSubstr(warning)) << command;
     }
     write("far.rawlog", 3e8);
     for (const char* command : {"rpe", "ate", "compare", "nees"})
     {
-        const test::AppRun r = run({command, writeTruth(dir), dir / "far.rawlog"});
+        const test::AppRun r = evaluate({command, writeTruth(dir), dir / "far.rawlog"});
         EXPECT_EQ(r.code, 2) << command;
         EXPECT_THAT(
             r.err,
@@ -370,7 +370,7 @@ TEST(MrptTrajectories, numbersThatAreTooLongAreInScientificForm)
         }
         writer.close();
     }
-    const test::AppRun r = run(
+    const test::AppRun r = evaluate(
         {"nees", writeTruth(dir), dir / "sure.rawlog", "--max-nees", "2", "--report", dir / "r"});
     EXPECT_EQ(r.code, 1) << r.err;
     const std::string digits = "[0-9]{20}";
@@ -399,21 +399,21 @@ TEST(MrptTrajectories, aNeesThatIsNotFinitePassesNoGate)
     const std::string truthFile = writeTruth(dir);
     std::vector<std::string> args{"nees", truthFile, dir / "sure.rawlog", "--interval", "1f"};
     args.insert(args.end(), {"--report", dir / "r"});
-    EXPECT_EQ(run(args).code, 0);
-    EXPECT_THAT(run(args).out, HasSubstr("verdict: cannot be judged: NEES is not finite"));
+    EXPECT_EQ(evaluate(args).code, 0);
+    EXPECT_THAT(evaluate(args).out, HasSubstr("verdict: cannot be judged: NEES is not finite"));
     EXPECT_THAT(test::readBytes(dir / "r/index.html"), HasSubstr("<td>cannot be judged</td>"));
     for (const auto& [option, limit] : {std::pair("--max-nees", "2"), {"--min-nees", "0.5"}})
     {
         args.resize(5);
         args.insert(args.end(), {option, limit});
-        EXPECT_EQ(run(args).code, 1) << option;
-        EXPECT_THAT(run(args).err, HasSubstr("is outside the stated range"));
+        EXPECT_EQ(evaluate(args).code, 1) << option;
+        EXPECT_THAT(evaluate(args).err, HasSubstr("is outside the stated range"));
     }
     writeFormat2(dir / "a.rawlog", {"VO"});
     for (const auto& [option, sigma] :
          {std::pair("--gt-sigma-trans", "1e154"), {"--gt-sigma-rot-deg", "1e154"}})
     {
-        const test::AppRun r = run({"nees", truthFile, dir / "a.rawlog", option, sigma});
+        const test::AppRun r = evaluate({"nees", truthFile, dir / "a.rawlog", option, sigma});
         EXPECT_EQ(r.code, 2) << option;
         EXPECT_THAT(r.err, testing::AllOf(HasSubstr(option), HasSubstr("1e154"))) << option;
     }
@@ -429,11 +429,11 @@ TEST(MrptTrajectories, interpolatorTextAsMrptWritesIt)
     }
     ASSERT_TRUE(path.saveToTextFile(dir / "path.txt"));
     const test::AppRun r =
-        run({"rpe", writeTruth(dir), dir / "path.txt", "--fixed-delta", "--csv", "-"});
+        evaluate({"rpe", writeTruth(dir), dir / "path.txt", "--fixed-delta", "--csv", "-"});
     EXPECT_EQ(r.code, 0) << r.err;
     EXPECT_THAT(r.out, HasSubstr("translation,m,29,"));
     const test::AppRun gate =
-        run({"rpe", dir / "path.txt", writeTruth(dir), "--fixed-delta", "--max-rmse", "1e-5"});
+        evaluate({"rpe", dir / "path.txt", writeTruth(dir), "--fixed-delta", "--max-rmse", "1e-5"});
     EXPECT_EQ(gate.code, 0) << gate.out;
 }
 
@@ -464,7 +464,7 @@ TEST(MrptTrajectories, aDamagedRawlogIsScoredUpToTheDamageAndSaysSo)
     writeFormat2(dir / "a.rawlog", {"VO"});
     std::filesystem::resize_file(
         dir / "a.rawlog", std::filesystem::file_size(dir / "a.rawlog") * 3 / 4);
-    const test::AppRun r = run({"rpe", writeTruth(dir), dir / "a.rawlog", "--fixed-delta"});
+    const test::AppRun r = evaluate({"rpe", writeTruth(dir), dir / "a.rawlog", "--fixed-delta"});
     EXPECT_EQ(r.code, 1);
     EXPECT_THAT(r.err, testing::AllOf(HasSubstr("a.rawlog"), HasSubstr("only what comes before")));
     EXPECT_THAT(r.out, HasSubstr("translation"));
@@ -476,13 +476,13 @@ TEST(MrptTrajectories, neesEndToEnd)
     writeFormat2(dir / "a.rawlog", {"VO"});
     const std::string truthFile = writeTruth(dir);
     const test::AppRun r =
-        run({"nees", truthFile, dir / "a.rawlog", "--interval", "1f,5f", "--max-nees", "1.5"});
+        evaluate({"nees", truthFile, dir / "a.rawlog", "--interval", "1f,5f", "--max-nees", "1.5"});
     EXPECT_EQ(r.code, 0) << r.err;
     EXPECT_THAT(r.out, HasSubstr("increments of 5f: 35, 7 without overlap"));
     EXPECT_THAT(r.out, HasSubstr("verdict: consistent"));
-    EXPECT_EQ(run({"nees", truthFile, dir / "a.rawlog", "--min-nees", "5"}).code, 1);
+    EXPECT_EQ(evaluate({"nees", truthFile, dir / "a.rawlog", "--min-nees", "5"}).code, 1);
 
-    const test::AppRun pooled = run(
+    const test::AppRun pooled = evaluate(
         {"nees",
          truthFile,
          dir / "a.rawlog",
@@ -493,9 +493,9 @@ TEST(MrptTrajectories, neesEndToEnd)
          "--csv",
          "-"});
     EXPECT_THAT(pooled.out, HasSubstr("\n1f,78,78,joint,"));
-    EXPECT_EQ(run({"nees", truthFile, truthFile}).code, 2);  // no covariances
-    EXPECT_EQ(run({"nees", truthFile, dir / "a.rawlog", truthFile}).code, 2);
-    EXPECT_EQ(run({"nees", truthFile, dir / "a.rawlog", "--interval", "3m"}).code, 2);
+    EXPECT_EQ(evaluate({"nees", truthFile, truthFile}).code, 2);  // no covariances
+    EXPECT_EQ(evaluate({"nees", truthFile, dir / "a.rawlog", truthFile}).code, 2);
+    EXPECT_EQ(evaluate({"nees", truthFile, dir / "a.rawlog", "--interval", "3m"}).code, 2);
 }
 
 TEST(MrptTrajectories, neesStatesTheNoiseOfTheGroundTruth)
@@ -503,8 +503,10 @@ TEST(MrptTrajectories, neesStatesTheNoiseOfTheGroundTruth)
     test::TempDir dir;
     writeFormat2(dir / "a.rawlog", {"VO"});
     const std::string truth = writeTruth(dir);
-    const auto nees = [&](const std::string& sigma, const std::string& json) {
-        return run({"nees", truth, dir / "a.rawlog", "--gt-sigma-rot-deg", sigma, "--json", json});
+    const auto nees = [&](const std::string& sigma, const std::string& json)
+    {
+        return evaluate(
+            {"nees", truth, dir / "a.rawlog", "--gt-sigma-rot-deg", sigma, "--json", json});
     };
     EXPECT_THAT(nees("0.5", dir / "a.json").out, HasSubstr("and 0.5 deg per axis and pose"));
     EXPECT_EQ(nees("0.5,0.5,0.5", "-").out, nees("0.5", "-").out);
@@ -537,17 +539,18 @@ TEST(MrptTrajectories, opticalGroundTruthOfAnEstimateInMrptAxes)
     {
         std::vector<std::string> args{"rpe", gt, dir / "a.rawlog", "--fixed-delta", "--verbose"};
         args.insert(args.end(), more.begin(), more.end());
-        return run(args).out;
+        return evaluate(args).out;
     };
     EXPECT_EQ(rmse(optical, {"--body-from-gt", "optical"}), rmse(writeTruth(dir), {}));
     EXPECT_EQ(rmse(optical, {"--body-from-gt=0,0,0,-90,0,-90"}), rmse(writeTruth(dir), {}));
     EXPECT_NE(rmse(optical, {}), rmse(writeTruth(dir), {}));
     EXPECT_EQ(
-        run({"rpe", optical, dir / "a.rawlog", "--body-from-gt", "0,0,0,1"}).code, kExitBadInput);
+        evaluate({"rpe", optical, dir / "a.rawlog", "--body-from-gt", "0,0,0,1"}).code,
+        kExitBadInput);
     EXPECT_THAT(
-        run({"rpe", optical, dir / "a.rawlog", "--fixed-delta"}).err,
+        evaluate({"rpe", optical, dir / "a.rawlog", "--fixed-delta"}).err,
         HasSubstr("hint: with --body-from-gt optical"));
-    EXPECT_EQ(run({"rpe", writeTruth(dir), dir / "a.rawlog", "--fixed-delta"}).err, "");
+    EXPECT_EQ(evaluate({"rpe", writeTruth(dir), dir / "a.rawlog", "--fixed-delta"}).err, "");
 }
 
 namespace
@@ -595,18 +598,18 @@ TEST(MrptTrajectories, marksOfLostFramesInARawlogAreReadAndSaid)
 
     const std::string truthFile = writeTruth(dir);
     const std::string counts = "of the recording: 20 frames tracked, 10 predicted, 10 lost";
-    EXPECT_THAT(run({"rpe", truthFile, dir / "a.rawlog"}).out, HasSubstr(counts));
-    EXPECT_THAT(run({"ate", truthFile, dir / "a.rawlog"}).out, HasSubstr("30 of 30 poses"));
-    const test::AppRun nees = run({"nees", truthFile, dir / "a.rawlog", "--interval", "1f"});
+    EXPECT_THAT(evaluate({"rpe", truthFile, dir / "a.rawlog"}).out, HasSubstr(counts));
+    EXPECT_THAT(evaluate({"ate", truthFile, dir / "a.rawlog"}).out, HasSubstr("30 of 30 poses"));
+    const test::AppRun nees = evaluate({"nees", truthFile, dir / "a.rawlog", "--interval", "1f"});
     EXPECT_THAT(nees.out, HasSubstr(counts));
     EXPECT_THAT(
         nees.out, HasSubstr("increments of 1f: 39"));  // PDFs of lost frames are tested, too
     const auto json = nlohmann::json::parse(
-        run({"nees", truthFile, dir / "a.rawlog", "--interval", "1f", "--json", "-"}).out);
+        evaluate({"nees", truthFile, dir / "a.rawlog", "--interval", "1f", "--json", "-"}).out);
     EXPECT_EQ(json["coverage"][0]["frames"]["lost"], 10);
     for (const auto& [percent, code] : {std::pair("48", 0), std::pair("49", 1)})  // 19 of 39 steps
     {
-        const test::AppRun gate = run(
+        const test::AppRun gate = evaluate(
             {"nees", truthFile, dir / "a.rawlog", "--interval", "1f", "--min-coverage", percent});
         EXPECT_EQ(gate.code, code) << gate.err;
     }
@@ -618,10 +621,11 @@ TEST(MrptTrajectories, covariancesShowWhichIsTheEstimate)
     writeFormat2(dir / "a.rawlog", {"VO"});
     const std::string truthFile = writeTruth(dir);
     EXPECT_THAT(
-        run({"nees", dir / "a.rawlog", truthFile}).err,
+        evaluate({"nees", dir / "a.rawlog", truthFile}).err,
         HasSubstr("a.rawlog' has covariances, and '" + truthFile + "' has not; is the ground"));
     EXPECT_THAT(
-        run({"nees", truthFile, dir / "a.rawlog"}).err, testing::Not(HasSubstr("given first")));
+        evaluate({"nees", truthFile, dir / "a.rawlog"}).err,
+        testing::Not(HasSubstr("given first")));
 }
 
 /** They are black: what was to be seen is in the frames around them. */
@@ -638,7 +642,7 @@ TEST(MrptTrajectories, noPictureOfALostFrameIsInAReport)
             writeFile(dir, "0000" + std::to_string(k) + ".jpg", "JPEG");
         }
     }
-    const test::AppRun r = run(
+    const test::AppRun r = evaluate(
         {"rpe",
          writeTruth(dir),
          dir / "a.rawlog",
@@ -695,10 +699,10 @@ TEST(MrptTrajectories, neesHintsAtAnotherBody)
              << Eigen::Quaterniond(truth().poses[k].linear()).coeffs().transpose() << "\n";
     }
     const std::string truthFile = writeFile(dir, "truth.txt", text.str());
-    const test::AppRun wrong = run({"nees", truthFile, dir / "a.rawlog", "--interval", "1f"});
+    const test::AppRun wrong = evaluate({"nees", truthFile, dir / "a.rawlog", "--interval", "1f"});
     EXPECT_THAT(wrong.err, HasSubstr("hint: with --body-from-gt optical the NEES"));
-    const test::AppRun right =
-        run({"nees", truthFile, dir / "a.rawlog", "--interval", "1f", "--body-from-gt", "optical"});
+    const test::AppRun right = evaluate(
+        {"nees", truthFile, dir / "a.rawlog", "--interval", "1f", "--body-from-gt", "optical"});
     EXPECT_THAT(right.err, testing::Not(HasSubstr("hint")));
 }
 
@@ -718,16 +722,16 @@ TEST(MrptTrajectories, neesTestsThePosesWhereIncrementsAreNotTold)
         writer.close();
     }
     const std::string truthFile = writeTruth(dir);
-    const test::AppRun r = run({"nees", truthFile, dir / "a.rawlog"});
+    const test::AppRun r = evaluate({"nees", truthFile, dir / "a.rawlog"});
     EXPECT_EQ(r.code, 0) << r.err;
     EXPECT_THAT(r.err, HasSubstr("increments of 1f, 10f, 1s are not tested"));
     EXPECT_THAT(r.err, HasSubstr("pointplane-odometry --since 10"));
     EXPECT_THAT(r.out, HasSubstr("poses since the first one: 39, 1 without overlap"));
     // A gate that cannot be checked is not passed.
-    const test::AppRun gate = run({"nees", truthFile, dir / "a.rawlog", "--max-nees", "100"});
+    const test::AppRun gate = evaluate({"nees", truthFile, dir / "a.rawlog", "--max-nees", "100"});
     EXPECT_EQ(gate.code, 2);
     EXPECT_THAT(gate.err, HasSubstr("cannot be checked"));
-    EXPECT_EQ(run({"ate", truthFile, dir / "a.rawlog", "--report", dir / "r"}).code, 0);
+    EXPECT_EQ(evaluate({"ate", truthFile, dir / "a.rawlog", "--report", dir / "r"}).code, 0);
     EXPECT_THAT(test::readBytes(dir / "r/index.html"), HasSubstr("are not tested"));
 }
 
@@ -743,7 +747,8 @@ TEST(MrptTrajectories, ofASimplemapNeesAsksForARawlog)
         map.insert(pdf, frame);
     }
     ASSERT_TRUE(map.saveToFile(dir / "a.simplemap"));
-    const test::AppRun r = run({"nees", writeTruth(dir), dir / "a.simplemap", "--interval", "1f"});
+    const test::AppRun r =
+        evaluate({"nees", writeTruth(dir), dir / "a.simplemap", "--interval", "1f"});
     EXPECT_THAT(
         r.err, HasSubstr("A .simplemap cannot: test the rawlog of pointplane-odometry --since"));
 }
@@ -753,7 +758,8 @@ TEST(MrptTrajectories, neesSavesIncrements)
     test::TempDir dir;
     writeFormat2(dir / "a.rawlog", {"VO"});
     const std::string saved =
-        run({"nees", writeTruth(dir), dir / "a.rawlog", "--interval", "1f,5f", "--save", "-"}).out;
+        evaluate({"nees", writeTruth(dir), dir / "a.rawlog", "--interval", "1f,5f", "--save", "-"})
+            .out;
     EXPECT_THAT(saved, testing::StartsWith("estimate,interval,stamp_i,stamp_j,error_x_m,"));
     EXPECT_EQ(std::count(saved.begin(), saved.end(), '\n'), 1 + 39 + 35);
     EXPECT_THAT(saved, HasSubstr("a.rawlog,5f,100.000000000,100.500000000,"));

@@ -10,7 +10,7 @@ namespace
 {
 using namespace pointplane;
 
-constexpr double kPeriod = 1.0 / 30.0;
+constexpr double kFramePeriod = 1.0 / 30.0;
 
 CameraImage image(StreamKind stream, std::int64_t index, double time)
 {
@@ -30,7 +30,7 @@ CameraImage colour(std::int64_t index, double time)
 
 TEST(FramePairer, pairsInEitherOrderOfArrival)
 {
-    FramePairer pairer(kPeriod / 2);
+    FramePairer pairer(kFramePeriod / 2);
     EXPECT_TRUE(pairer.add(depth(1, 0.000)).empty());
     const auto first = pairer.add(colour(1, 0.003));
     EXPECT_TRUE(pairer.add(colour(2, 0.036)).empty());
@@ -58,14 +58,14 @@ TEST(FramePairer, imagesTooFarApartAreCountedNotJoined)
 
 TEST(FramePairer, aLostImageLeavesItsPartnerAloneAndIsCounted)
 {
-    FramePairer pairer(kPeriod / 2);
+    FramePairer pairer(kFramePeriod / 2);
     std::size_t pairs = 0;
     for (int k = 0; k < 10; ++k)
     {
-        pairs += pairer.add(depth(k, k * kPeriod)).size();
+        pairs += pairer.add(depth(k, k * kFramePeriod)).size();
         if (k != 4 && k != 5)
         {
-            pairs += pairer.add(colour(k, k * kPeriod + 0.002)).size();
+            pairs += pairer.add(colour(k, k * kFramePeriod + 0.002)).size();
         }
     }
     EXPECT_EQ(pairs, 8U);
@@ -76,18 +76,18 @@ TEST(FramePairer, aLostImageLeavesItsPartnerAloneAndIsCounted)
 
 TEST(FramePairer, anIndexThatStartsAgainIsNoLoss)
 {
-    FramePairer pairer(kPeriod / 2);
+    FramePairer pairer(kFramePeriod / 2);
     (void)pairer.add(depth(100, 0.0));
-    (void)pairer.add(depth(1, kPeriod));
+    (void)pairer.add(depth(1, kFramePeriod));
     EXPECT_EQ(pairer.counts().droppedDepth, 0U);
 }
 
 TEST(FramePairer, aStreamAloneIsLetGo)
 {
-    FramePairer pairer(kPeriod / 2);
+    FramePairer pairer(kFramePeriod / 2);
     for (int k = 0; k < 100; ++k)
     {
-        EXPECT_TRUE(pairer.add(depth(k, k * kPeriod)).empty());
+        EXPECT_TRUE(pairer.add(depth(k, k * kFramePeriod)).empty());
     }
     EXPECT_GT(pairer.counts().unpairedDepth, 80U);
     pairer.finish();
@@ -96,9 +96,9 @@ TEST(FramePairer, aStreamAloneIsLetGo)
 
 TEST(FramePairer, depthOnlyNeedsNoColour)
 {
-    FramePairer pairer(kPeriod / 2, true);
+    FramePairer pairer(kFramePeriod / 2, true);
     EXPECT_EQ(pairer.add(depth(1, 0.0)).size(), 1U);
-    EXPECT_TRUE(pairer.add(depth(2, kPeriod)).front().colour.pixels.empty());
+    EXPECT_TRUE(pairer.add(depth(2, kFramePeriod)).front().colour.pixels.empty());
 }
 
 TEST(FramePairer, rejectsASkewOfZero) { EXPECT_THROW(FramePairer(0.0), std::invalid_argument); }
@@ -111,8 +111,8 @@ TEST(FramePairer, everyImageIsAccountedFor)
     {
         std::mt19937 random(seed);
         std::uniform_real_distribution<double> uniform(0.0, 1.0);
-        const double shift = (uniform(random) - 0.5) * kPeriod;
-        FramePairer pairer(kPeriod / 2);
+        const double shift = (uniform(random) - 0.5) * kFramePeriod;
+        FramePairer pairer(kFramePeriod / 2);
         std::uint64_t numDepth = 0, numColour = 0;
         double lastTime = -1.0;
         const auto check = [&](const std::vector<ImagePair>& pairs)
@@ -120,7 +120,8 @@ TEST(FramePairer, everyImageIsAccountedFor)
             for (const auto& pair : pairs)
             {
                 EXPECT_LE(
-                    std::abs(pair.depth.deviceTime - pair.colour.deviceTime), kPeriod / 2 + 1e-12);
+                    std::abs(pair.depth.deviceTime - pair.colour.deviceTime),
+                    kFramePeriod / 2 + 1e-12);
                 EXPECT_GT(pair.depth.deviceTime, lastTime);
                 lastTime = pair.depth.deviceTime;
             }
@@ -130,12 +131,12 @@ TEST(FramePairer, everyImageIsAccountedFor)
             const double jitter = 0.001 * uniform(random);
             if (uniform(random) > 0.1)
             {
-                check(pairer.add(depth(k, k * kPeriod + jitter)));
+                check(pairer.add(depth(k, k * kFramePeriod + jitter)));
                 ++numDepth;
             }
             if (uniform(random) > 0.1)
             {
-                check(pairer.add(colour(k, k * kPeriod + shift + jitter)));
+                check(pairer.add(colour(k, k * kFramePeriod + shift + jitter)));
                 ++numColour;
             }
         }

@@ -20,13 +20,13 @@ using namespace pointplane;
 using namespace pointplane::test;
 namespace fs = std::filesystem;
 
-constexpr int kWidth = 64, kHeight = 48;
+constexpr int kColumns = 64, kRows = 48;
 constexpr double kFirstStamp = 1.7e9;
 
 CameraFacts facts()
 {
     CameraFacts f;
-    f.mode = {kWidth, kHeight, 30, ""};
+    f.mode = {kColumns, kRows, 30, ""};
     f.registered = true;
     f.colourFocal_px = 52.5;
     return f;
@@ -76,7 +76,7 @@ class Recording : public ::testing::Test
     }
 
     TempDir dir_;
-    std::vector<PlainFrame> frames_{patternFrames(40, kWidth, kHeight)};
+    std::vector<PlainFrame> frames_{patternFrames(40, kColumns, kRows)};
     /** As nominal, but somebody's own. */
     [[nodiscard]] static RgbdCalibration calibration()
     {

@@ -11,12 +11,6 @@ namespace pointplane
 {
 namespace
 {
-test::CachedSequence& desk()
-{
-    static test::CachedSequence cached("desk");
-    return cached;
-}
-
 /** Key points of a random room seen from two cameras; descriptors are unique, but for a share of
  * wrong ones, which lead to another point. */
 struct SyntheticViews
@@ -103,15 +97,18 @@ TEST(ImageAligner, chanceIsNoMotion)
 TEST(ImageAligner, imagesHalfASecondApart)
 {
     const ImageAligner aligner({}, {});
-    const auto describe = [&](int i) { return aligner.describe(desk().frame(i)); };
+    const auto describe = [&](int i)
+    { return aligner.describe(test::CachedSequence::desk().frame(i)); };
     for (const int from : {0, 60, 120})
     {
         const int to = from + 15;
-        const auto motion = motionBetween(describe(from), describe(to), desk().frame(to).camera);
+        const auto motion = motionBetween(
+            describe(from), describe(to), test::CachedSequence::desk().frame(to).camera);
         ASSERT_TRUE(motion) << from;
         EXPECT_THAT(
             motion->T_cur_ref,
-            test::IsNearPose(desk().sequence().trueMotion(to, from), 0.05, 0.05));
+            test::IsNearPose(
+                test::CachedSequence::desk().sequence().trueMotion(to, from), 0.05, 0.05));
     }
 }
 

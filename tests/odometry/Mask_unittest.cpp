@@ -19,7 +19,7 @@ namespace
 {
 constexpr int kWidth = 320, kHeight = 240;
 
-const SimulatedSequence& desk()
+const SimulatedSequence& maskedDesk()
 {
     static const SimulatedSequence sequence = []
     {
@@ -60,9 +60,9 @@ const std::vector<RgbdFrame>& recording()
     static const std::vector<RgbdFrame> frames = []
     {
         std::vector<RgbdFrame> out;
-        for (int i = 0; i < desk().numFrames(); ++i)
+        for (int i = 0; i < maskedDesk().numFrames(); ++i)
         {
-            out.push_back(withRobot(desk().frame(i)));
+            out.push_back(withRobot(maskedDesk().frame(i)));
         }
         return out;
     }();
@@ -81,7 +81,7 @@ double errorOf(Odometry& odometry)
             EXPECT_EQ(last.status, TrackingStatus::Tracked) << last.reason;
         }
     }
-    const Eigen::Isometry3d truth = desk().trueMotion(0, desk().numFrames() - 1);
+    const Eigen::Isometry3d truth = maskedDesk().trueMotion(0, maskedDesk().numFrames() - 1);
     return (last.pose.mean.translation() - truth.translation()).norm();
 }
 }  // namespace
@@ -114,7 +114,7 @@ TEST(Mask, withoutOneTheRobotIsFound)
     constexpr int kLater = 5;  // frames: poses come back to the world
     int foundAt = -1;
     Eigen::Isometry3d T_world_found = Eigen::Isometry3d::Identity(), T_world_last = T_world_found;
-    for (int i = 0; i < desk().numFrames(); ++i)
+    for (int i = 0; i < maskedDesk().numFrames(); ++i)
     {
         const OdometryResult result = odometry.process(recording()[static_cast<size_t>(i)]);
         if (foundAt < 0 && result.diagnostics.attachedShare > 0)
@@ -129,11 +129,12 @@ TEST(Mask, withoutOneTheRobotIsFound)
         T_world_last = result.pose.mean;
     }
     ASSERT_GE(foundAt, 0);
-    EXPECT_LT(foundAt, desk().numFrames() / 2);
+    EXPECT_LT(foundAt, maskedDesk().numFrames() / 2);
     const Eigen::Isometry3d motion = T_world_found.inverse() * T_world_last;
-    const Eigen::Isometry3d truth = desk().trueMotion(foundAt + kLater, desk().numFrames() - 1);
+    const Eigen::Isometry3d truth =
+        maskedDesk().trueMotion(foundAt + kLater, maskedDesk().numFrames() - 1);
     const double error = (motion.translation() - truth.translation()).norm();
-    std::cout << "found in frame " << foundAt << " of " << desk().numFrames() << ", then "
+    std::cout << "found in frame " << foundAt << " of " << maskedDesk().numFrames() << ", then "
               << 1e3 * error << " mm off\n";
     EXPECT_LT(error, 0.01);
 }

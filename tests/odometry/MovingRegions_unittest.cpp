@@ -16,12 +16,6 @@ MovingRegions movedSince(test::CachedSequence& sequence, int earlier, int curren
         now, {{&before, sequence.sequence().trueMotion(earlier, current), 0.01}}, DepthNoise());
 }
 
-test::CachedSequence& desk()
-{
-    static test::CachedSequence cached("desk");
-    return cached;
-}
-
 /** A wall at 2 m, and the camera in front of it. */
 RgbdFrame wall(float z = 2)
 {
@@ -38,7 +32,7 @@ TEST(MovingRegions, aStillSceneHasNone)
 {
     for (const int current : {5, 20, 50})
     {
-        const MovingRegions moving = movedSince(desk(), 0, current);
+        const MovingRegions moving = movedSince(test::CachedSequence::desk(), 0, current);
         EXPECT_GT(moving.numCompared, 400);
         EXPECT_LT(moving.share(), 0.003) << current;
     }

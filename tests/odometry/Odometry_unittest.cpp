@@ -15,7 +15,7 @@ namespace
 using test::CachedSequence;
 using test::CheckedOdometry;
 
-RgbdFrame good(int i) { return CachedSequence::corner().frame(i); }
+RgbdFrame frameOfCorner(int i) { return CachedSequence::corner().frame(i); }
 
 const SimulatedSequence& truth() { return CachedSequence::corner().sequence(); }
 
@@ -39,7 +39,7 @@ std::string fingerprint(const OdometryParams& params, int numFrames)
     };
     for (int i = 0; i < numFrames; ++i)
     {
-        const OdometryResult r = odometry.process(good(i));
+        const OdometryResult r = odometry.process(frameOfCorner(i));
         append(r.pose.mean.matrix());
         append(r.pose.cov);
         append(r.increment.mean.matrix());
@@ -53,10 +53,10 @@ std::string fingerprint(const OdometryParams& params, int numFrames)
 TEST(Odometry, beginsAtTheIdentity)
 {
     CheckedOdometry odometry;
-    const OdometryResult r = odometry.process(good(0));
+    const OdometryResult r = odometry.process(frameOfCorner(0));
     EXPECT_EQ(r.status, TrackingStatus::First);
     EXPECT_TRUE(r.reason.empty());
-    EXPECT_EQ(r.stamp, good(0).stamp);
+    EXPECT_EQ(r.stamp, frameOfCorner(0).stamp);
     EXPECT_TRUE(r.increment.mean.isApprox(Eigen::Isometry3d::Identity()));
     EXPECT_TRUE(r.pose.mean.isApprox(Eigen::Isometry3d::Identity()));
     EXPECT_LT(r.pose.cov.trace(), 1e-10);
@@ -67,7 +67,7 @@ TEST(Odometry, showsEachPointOnceAndWhatBecameOfIt)
     CheckedOdometry odometry;
     for (int i = 0; i <= 20; ++i)
     {
-        const OdometryResult r = odometry.process(good(i));
+        const OdometryResult r = odometry.process(frameOfCorner(i));
         const FrameFeatures& shown = odometry.odometry().features();
         EXPECT_EQ(r.diagnostics.numPoints, static_cast<int>(shown.points.size()));
         int used = 0, found = 0;
@@ -99,8 +99,8 @@ TEST(Odometry, showsNothingAsUsedInAFrameThatIsNotTracked)
     params.pipeline.degeneracy = "gate";
     params.pipeline.gateSigma = 1e-6;  // no estimate is as certain as that
     CheckedOdometry odometry(params);
-    (void)odometry.process(good(0));
-    ASSERT_EQ(odometry.process(good(1)).status, TrackingStatus::Predicted);
+    (void)odometry.process(frameOfCorner(0));
+    ASSERT_EQ(odometry.process(frameOfCorner(1)).status, TrackingStatus::Predicted);
     int rejected = 0;
     for (const FrameFeatures::Point& point : odometry.odometry().features().points)
     {
@@ -127,7 +127,7 @@ TEST(Odometry, followsTheCornerWithEitherFeature)
             CheckedOdometry odometry(params);
             for (int i = 0; i <= 20; ++i)
             {
-                const OdometryResult r = odometry.process(good(i));
+                const OdometryResult r = odometry.process(frameOfCorner(i));
                 EXPECT_EQ(r.status, i == 0 ? TrackingStatus::First : TrackingStatus::Tracked);
                 EXPECT_EQ(r.diagnostics.numPointPairs > 20, points && i > 0);
                 EXPECT_EQ(r.diagnostics.numPlanePairs > 2, planes && i > 0);
@@ -181,9 +181,9 @@ TEST(Odometry, doesNotModifyOrKeepTheImages)
     Odometry a, b;
     for (int i = 0; i < 4; ++i)
     {
-        const RgbdFrame frame = good(i);
+        const RgbdFrame frame = frameOfCorner(i);
         const OdometryResult expected = a.process(frame);
-        RgbdFrame mine = good(i);
+        RgbdFrame mine = frameOfCorner(i);
         const OdometryResult r = b.process(mine);
         EXPECT_EQ(cv::norm(mine.gray, frame.gray), 0);
         EXPECT_EQ(std::memcmp(mine.depth.data, frame.depth.data, 4 * frame.depth.total()), 0);
@@ -200,7 +200,8 @@ TEST(Odometry, incrementsComposeToPosesAcrossGaps)
     for (int i = 0; i < 14; ++i)
     {
         const bool bad = i == 5 || i == 8 || i == 9;
-        const OdometryResult r = odometry.process(bad ? withoutAnything(good(i)) : good(i));
+        const OdometryResult r =
+            odometry.process(bad ? withoutAnything(frameOfCorner(i)) : frameOfCorner(i));
         composed = composed * r.increment.mean;
         EXPECT_THAT(r.pose.mean, test::IsNearPose(composed, 1e-9, 1e-9)) << i;
     }
@@ -215,7 +216,8 @@ TEST(Odometry, tellsMotionsSinceEarlierFrames)
     for (int i = 0; i < 14; ++i)
     {
         const bool bad = i == 5 || i == 8 || i == 9;
-        const OdometryResult r = odometry.process(bad ? withoutAnything(good(i)) : good(i));
+        const OdometryResult r =
+            odometry.process(bad ? withoutAnything(frameOfCorner(i)) : frameOfCorner(i));
         poses.push_back(r.pose.mean);
         ASSERT_EQ(r.since.size(), static_cast<size_t>(std::min(i, 6)));
         for (size_t n = 1; n <= r.since.size(); ++n)
@@ -274,7 +276,8 @@ TEST(Odometry, incrementsAcrossGapsAreHonest)
     for (int i = 0; i < 60; ++i)
     {
         const bool bad = i > 0 && i % 5 >= 3;
-        const OdometryResult r = odometry.process(bad ? withoutAnything(good(i)) : good(i));
+        const OdometryResult r =
+            odometry.process(bad ? withoutAnything(frameOfCorner(i)) : frameOfCorner(i));
         const Eigen::Isometry3d increment = i > 0 ? truth().trueMotion(i - 1, i) : r.increment.mean;
         const double error = test::normalisedError(increment, r.increment);
         if (bad)
@@ -303,7 +306,7 @@ TEST(Odometry, oneWallIsFusedOrGated)
         CheckedOdometry odometry(params);
         for (int i = 0; i < 5; ++i)
         {
-            RgbdFrame frame = good(i);
+            RgbdFrame frame = frameOfCorner(i);
             frame.gray.setTo(128);
             frame.depth.setTo(1.5 - 0.01 * i);  // approached by 1 cm a frame
             frame.shutter = {0, 0, 0};          // all rows at once

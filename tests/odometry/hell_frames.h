@@ -47,6 +47,11 @@ class CachedSequence
         static CachedSequence cached("corner");
         return cached;
     }
+    static CachedSequence& desk()
+    {
+        static CachedSequence cached("desk");
+        return cached;
+    }
 
  private:
     static SimulationParams small(int width, int height)

@@ -14,12 +14,12 @@ namespace pointplane
 {
 namespace
 {
-const PinholeCamera kCamera = test::kinectCamera(320, 240);
+const PinholeCamera kSmallCamera = test::kinectCamera(320, 240);
 
 CellGrid gridOf(const cv::Mat& depth)
 {
     CellGrid grid;
-    grid.compute(depth, kCamera, 10);
+    grid.compute(depth, kSmallCamera, 10);
     return grid;
 }
 
@@ -27,8 +27,8 @@ CellGrid gridOf(const cv::Mat& depth)
 cv::Mat twoParts(const Eigen::Vector3d& left, const Eigen::Vector3d& right, int column = 160)
 {
     test::GaussianSampler sampler(1);
-    cv::Mat depth =
-        test::renderDepth(kCamera, {left, right}, [&](int u, int) { return u < column ? 0 : 1; });
+    cv::Mat depth = test::renderDepth(
+        kSmallCamera, {left, right}, [&](int u, int) { return u < column ? 0 : 1; });
     test::addInverseDepthNoise(depth, 1.425e-3, sampler);
     return depth;
 }
@@ -38,7 +38,7 @@ std::vector<CellCluster> clusters(const cv::Mat& depth)
     return clusterCells(gridOf(depth), PlanarityTest{}, 0.7, 500);
 }
 
-PlaneMoments momentsOf(const cv::Mat& depth)
+PlaneMoments momentsOfDepth(const cv::Mat& depth)
 {
     PlaneMoments out;
     for (const PlaneMoments& m : gridOf(depth).moments)
@@ -109,7 +109,7 @@ TEST(PlanarityTest, cellsAndMergesAtTheirLimits)
 TEST(PlanarityTest, aLargePlaneDoesNotSwallowASmallOne)
 {
     const Eigen::Vector3d wall(0, 0, -0.5), shelf(0, 0, -0.52);  // 7.4 cm nearer
-    const PlaneMoments large = momentsOf(twoParts(wall, wall));
+    const PlaneMoments large = momentsOfDepth(twoParts(wall, wall));
     const PlaneMoments small = gridOf(twoParts(shelf, shelf)).moments[100];
     const auto a = fitPlane(large), b = fitPlane(small);
     ASSERT_TRUE(a && b);
@@ -130,7 +130,7 @@ TEST(ClusterCells, oneWallIsOneClusterOfAllItsCells)
 
 TEST(ClusterCells, partitionOfCells)
 {
-    const auto found = clusters(test::renderRoom(kCamera, test::cornerThetas()));
+    const auto found = clusters(test::renderRoom(kSmallCamera, test::cornerThetas()));
     ASSERT_EQ(found.size(), 3U);
     std::set<int> all;
     for (const CellCluster& cluster : found)
@@ -186,7 +186,7 @@ TEST(MergeCoplanar, joinsPartsOfOnePlaneOnly)
     const Eigen::Vector3d wall(0.05, 0, -0.4), column(0, 0, -0.8);
     test::GaussianSampler sampler(2);
     cv::Mat depth = test::renderDepth(
-        kCamera, {wall, column}, [](int u, int) { return u >= 120 && u < 200 ? 1 : 0; });
+        kSmallCamera, {wall, column}, [](int u, int) { return u >= 120 && u < 200 ? 1 : 0; });
     test::addInverseDepthNoise(depth, 1.425e-3, sampler);
     auto found = clusters(depth);
     ASSERT_EQ(found.size(), 3U);

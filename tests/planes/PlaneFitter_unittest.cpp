@@ -44,7 +44,7 @@ std::vector<Eigen::Vector3d> noisyPoints(double sigma, test::GaussianSampler& sa
     return out;
 }
 
-PlaneMoments momentsOf(const std::vector<Eigen::Vector3d>& points)
+PlaneMoments momentsOfPoints(const std::vector<Eigen::Vector3d>& points)
 {
     PlaneMoments m;
     for (const Eigen::Vector3d& P : points)
@@ -95,7 +95,7 @@ TEST(FitInverseDepth, covarianceIsThatOfMonteCarlo)
     for (int i = 0; i < runs; ++i)
     {
         const auto plane =
-            fitInverseDepth(momentsOf(noisyPoints(noise.sigmaInverseDepth, sampler)), noise);
+            fitInverseDepth(momentsOfPoints(noisyPoints(noise.sigmaInverseDepth, sampler)), noise);
         ASSERT_TRUE(plane);
         errors.emplace_back(kTheta - plane->theta_m);
         nees += errors.back().dot(plane->cov_m.inverse() * errors.back());

@@ -17,7 +17,7 @@ namespace pointplane
 {
 namespace
 {
-constexpr double kSigma = 1.425e-3;  // [1/m]
+constexpr double kPixelSigma = 1.425e-3;  // [1/m]
 
 /** A slanted wall that fills the image, seen with inverse depths that are off by `errors`. */
 struct Wall
@@ -61,7 +61,7 @@ cv::Mat noise(test::GaussianSampler& sampler, int side, cv::Size size = {320, 24
     cv::Mat out(size, CV_32FC1);
     for (auto it = out.begin<float>(); it != out.end<float>(); ++it)
     {
-        *it = static_cast<float>(kSigma * sampler.vector<1>()[0]);
+        *it = static_cast<float>(kPixelSigma * sampler.vector<1>()[0]);
     }
     cv::blur(out, out, {side, side});
     return out * side;
@@ -119,7 +119,7 @@ TEST(correlatedPixels, aBentImage)
         for (int u = 0; u < errors.cols; ++u)
         {
             const double x = u / 160.0 - 1, y = v / 120.0 - 1;
-            errors.at<float>(v, u) += static_cast<float>(kSigma * (x * x + y * y));
+            errors.at<float>(v, u) += static_cast<float>(kPixelSigma * (x * x + y * y));
         }
     }
     EXPECT_GT(Wall(errors).pixels(), 20 * flat);
@@ -133,7 +133,7 @@ TEST(correlatedPixels, aTiltDoesNotShow)
     const double flat = Wall(errors).pixels();
     for (int v = 0; v < errors.rows; ++v)
     {
-        errors.row(v) += 10 * kSigma * v / errors.rows;
+        errors.row(v) += 10 * kPixelSigma * v / errors.rows;
     }
     EXPECT_NEAR(Wall(errors).pixels(), flat, 0.05 * flat);
 }

@@ -8,22 +8,11 @@
 
 using namespace pointplane;
 
-namespace
-{
-cv::Mat blankWall(double noise)
-{
-    test::GaussianSampler random(3);
-    return test::renderImage(
-        640, 480, [](double u, double v) { return 90 + 0.1 * u + 0.05 * v; }, noise, &random);
-}
-
-}  // namespace
-
 TEST(ImageNoise, IsThatOfTheImage)
 {
     for (const double sigma : {1.5, 3.0, 6.0})
     {
-        EXPECT_NEAR(imageNoise(blankWall(sigma)), std::hypot(sigma, 0.29), 0.25);
+        EXPECT_NEAR(imageNoise(test::blankWall(sigma)), std::hypot(sigma, 0.29), 0.25);
     }
 }
 

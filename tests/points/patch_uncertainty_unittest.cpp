@@ -16,13 +16,6 @@ namespace
 {
 constexpr int kWindowPx = 15;
 
-cv::Mat blankWall(double noise)
-{
-    test::GaussianSampler random(3);
-    return test::renderImage(
-        640, 480, [](double u, double v) { return 90 + 0.1 * u + 0.05 * v; }, noise, &random);
-}
-
 cv::Mat derivativesOf(const cv::Mat& gray)
 {
     std::vector<cv::Mat> pyramid;
@@ -117,7 +110,7 @@ TEST(PatchUncertainty, WeakStructureOnAnEdgeDoesNotCount)
 
 TEST(PatchUncertainty, OfNoiseIsLarge)
 {
-    const cv::Mat gray = blankWall(1.5), derivatives = derivativesOf(gray);
+    const cv::Mat gray = test::blankWall(1.5), derivatives = derivativesOf(gray);
     const double noise = imageNoise(gray);
     for (int v = 20; v < 460; v += 40)
     {

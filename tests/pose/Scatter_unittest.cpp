@@ -11,7 +11,7 @@ namespace pointplane
 {
 namespace
 {
-constexpr int kRuns = 100;
+constexpr int kNumProblems = 100;
 
 double scatterOf(const PoseProblem& problem)
 {
@@ -24,7 +24,7 @@ double meanScatter(unsigned seed, double noise, bool hasPoints, bool hasPlanes)
 {
     test::PairWorld w = test::moved(seed, 200, 12);
     double sum = 0;
-    for (int run = 0; run < kRuns; ++run)
+    for (int run = 0; run < kNumProblems; ++run)
     {
         const auto points = w.drawPoints(noise);
         const auto planes = w.drawPlanes(noise);
@@ -32,7 +32,7 @@ double meanScatter(unsigned seed, double noise, bool hasPoints, bool hasPlanes)
             hasPoints ? points : std::vector<PointPair>(),
             hasPlanes ? planes : std::vector<PlanePair>()));
     }
-    return sum / kRuns;
+    return sum / kNumProblems;
 }
 
 /** Points to the upper left and lower right are off one way, the others the other way: no motion

@@ -14,7 +14,7 @@ using namespace pointplane::test;
 
 namespace
 {
-PinholeCamera distortedCamera()
+PinholeCamera lensCamera()
 {
     PinholeCamera camera;
     camera.distortion = {{0.262383, -0.953104, -0.005358, 0.002628, 1.163314}};
@@ -78,7 +78,7 @@ TEST(DepthNoise, covarianceIsTheNumericJacobians)
     const DepthNoise noise;
     PinholeCamera upward;
     upward.fy = -480;
-    for (const PinholeCamera& camera : {PinholeCamera{}, distortedCamera(), upward})
+    for (const PinholeCamera& camera : {PinholeCamera{}, lensCamera(), upward})
     {
         for (const Eigen::Vector3d& uvz :
              {Eigen::Vector3d(5, 9, 1.2),
@@ -99,7 +99,7 @@ TEST(DepthNoise, covarianceMatchesMonteCarlo)
 {
     GaussianSampler random(41);
     const DepthNoise noise;
-    const PinholeCamera camera = distortedCamera();
+    const PinholeCamera camera = lensCamera();
     const Eigen::Vector3d uvz(590, 60, 3);
     const PointGaussian point = backProject(camera, noise, uvz.head<2>(), uvz.z());
     const Eigen::Vector3d sigma(0.5, 0.5, noise.sigmaZ(uvz.z()));
@@ -119,7 +119,7 @@ TEST(DepthNoise, covarianceIsPositiveDefiniteEverywhere)
         for (const double u : {0.0, 320.0, 639.0})
         {
             EXPECT_TRUE(isPositiveDefinite(
-                backProject(distortedCamera(), DepthNoise{}, {u, 479 - 0.7 * u}, z).cov));
+                backProject(lensCamera(), DepthNoise{}, {u, 479 - 0.7 * u}, z).cov));
         }
     }
 }

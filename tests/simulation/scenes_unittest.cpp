@@ -18,7 +18,7 @@ namespace pointplane
 {
 namespace
 {
-SimulationParams small(SimulationParams params = {})
+SimulationParams tiny(SimulationParams params = {})
 {
     params.width = 160;
     params.height = 120;
@@ -67,10 +67,10 @@ class EveryScene : public testing::TestWithParam<std::string>
 
 TEST_P(EveryScene, fillsTheViewWhateverTheSeed)
 {
-    const SimulatedSequence first(GetParam(), small(), 0);
+    const SimulatedSequence first(GetParam(), tiny(), 0);
     for (std::uint64_t seed = 0; seed < 6; ++seed)
     {
-        const SimulatedSequence sequence(first.scene(), small(), seed);
+        const SimulatedSequence sequence(first.scene(), tiny(), seed);
         for (int i = 0; i < sequence.numFrames(); i += 45)
         {
             cv::Mat colour;
@@ -124,10 +124,10 @@ TEST(scenes, listAndNamesAgree)
 
 TEST(scenes, cornerShowsExactlyThreePlanesInEveryFrame)
 {
-    const SimulatedSequence first("corner", small(), 0);
+    const SimulatedSequence first("corner", tiny(), 0);
     for (std::uint64_t seed = 0; seed < 6; ++seed)
     {
-        const SimulatedSequence sequence(first.scene(), small(), seed);
+        const SimulatedSequence sequence(first.scene(), tiny(), seed);
         for (int i = 0; i < sequence.numFrames(); i += 30)
         {
             const PlaneCensus c = census(sequence, i);
@@ -141,14 +141,14 @@ TEST(scenes, corridorHasOneDirectionOfPlanesAndWithFloorTwo)
 {
     for (int i = 0; i < 540; i += 60)
     {
-        EXPECT_EQ(census(SimulatedSequence("corridor", small(), 1), i).normals.size(), 1U);
+        EXPECT_EQ(census(SimulatedSequence("corridor", tiny(), 1), i).normals.size(), 1U);
     }
-    EXPECT_EQ(census(SimulatedSequence("corridor_floor", small(), 1), 0).normals.size(), 2U);
+    EXPECT_EQ(census(SimulatedSequence("corridor_floor", tiny(), 1), 0).normals.size(), 2U);
 }
 
 TEST(scenes, noTextureIsBlankOnEachPanel)
 {
-    const SimulatedSequence sequence("notexture", small(SimulationParams::ideal()), 1);
+    const SimulatedSequence sequence("notexture", tiny(SimulationParams::ideal()), 1);
     const RgbdFrame frame = sequence.frame(0);
     const TruePlanes planes = sequence.truePlanes(0);
     // Pixels next to an edge are mixtures.

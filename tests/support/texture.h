@@ -72,4 +72,12 @@ template <class F>
     }
     return out;
 }
+
+/** A wall without texture, a little brighter to one side. */
+[[nodiscard]] inline cv::Mat blankWall(double noise)
+{
+    GaussianSampler random(3);
+    return renderImage(
+        640, 480, [](double u, double v) { return 90 + 0.1 * u + 0.05 * v; }, noise, &random);
+}
 }  // namespace pointplane::test

@@ -35,12 +35,12 @@ double brightness(
     const Eigen::Vector3d& point,
     const Eigen::Vector3d& normal)
 {
-    constexpr int kSamples = 3;
+    constexpr int kSide = 3;
     double sum = 0;
-    for (int i = 0; i < kSamples * kSamples; ++i)
+    for (int i = 0; i < kSide * kSide; ++i)
     {
-        const double dx = (i % kSamples + 0.5) / kSamples - 0.5;
-        const double dy = (i / kSamples + 0.5) / kSamples - 0.5;
+        const double dx = (i % kSide + 0.5) / kSide - 0.5;
+        const double dy = (i / kSide + 0.5) / kSide - 0.5;
         const Eigen::Vector3d from = lamp.position + lamp.size * Eigen::Vector3d(dx, dy, 0);
         const Eigen::Vector3d to = from - point;
         const double distance = to.norm();
@@ -52,7 +52,7 @@ double brightness(
     }
     // A little more from above, so that no two sides of a box look alike in the shadow.
     const double sky = 1 + 0.15 * normal.z() + 0.06 * normal.x();
-    return lamp.ambient * sky + lamp.power * sum / (kSamples * kSamples);
+    return lamp.ambient * sky + lamp.power * sum / (kSide * kSide);
 }
 
 cv::Mat lightMap(const Scene& scene, const Lamp& lamp, const Surface& surface)
