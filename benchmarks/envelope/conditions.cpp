@@ -151,13 +151,19 @@ void addOtherCameras(std::size_t numFrames, std::vector<Condition>& out)
         {"half the pixels a side", [](const RgbdFrame& f) { return shrunk(f, 2); }},
         {"a quarter", [](const RgbdFrame& f) { return shrunk(f, 4); }},
         {"depth up to 2 m", [](const RgbdFrame& f) { return withDepthUpTo(f, 2.0F); }},
-        {"depth up to 1 m", [](const RgbdFrame& f) { return withDepthUpTo(f, 1.0F); }}};
-    for (const auto& [name, change] : changes)
+        {"depth up to 1 m", [](const RgbdFrame& f) { return withDepthUpTo(f, 1.0F); }},
+        {"depth with holes", [](const RgbdFrame& f) { return withHoles(f, 0.6); }},
+        {"noisy depth", [](const RgbdFrame& f) { return withNoisyDepth(f, 0.004); }},
+        {"dim light", [](const RgbdFrame& f) { return dimmed(f, 0.25, 3); }}};
+    for (const auto& change : changes)
     {
-        Condition condition = atRate(name, numFrames, 1, 1);
+        Condition condition = atRate(change.first, numFrames, 1, 1);
         for (EnvelopeRun& run : condition.runs)
         {
-            std::for_each(run.begin(), run.end(), [&](FrameUse& use) { use.change = change; });
+            for (FrameUse& use : run)
+            {
+                use.change = change.second;
+            }
         }
         out.push_back(std::move(condition));
     }

@@ -40,8 +40,8 @@ struct ConditionOptions
 };
 
 /** All that a recording can go through: other rates, gaps, images that are missing, black,
- * frozen or of another place, fewer pixels, less range. What it is too short or too slow for is
- * left out. \param numFrames of the recording \param rate its own [Hz] */
+ * frozen or of another place, fewer pixels, less range, holes and noise. What it is too short or
+ * too slow for is left out. \param numFrames of the recording \param rate its own [Hz] */
 [[nodiscard]] std::vector<Condition> envelopeConditions(
     std::size_t numFrames, double rate, const ConditionOptions& options);
 }  // namespace pointplane

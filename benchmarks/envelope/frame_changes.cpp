@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 namespace pointplane
@@ -42,6 +43,20 @@ constexpr float kNoDepth = std::numeric_limits<float>::quiet_NaN();
         }
     }
     return count > 0 ? sum / static_cast<float>(count) : kNoDepth;
+}
+
+/** Other numbers for each frame, the same in each run. */
+[[nodiscard]] cv::RNG randomOf(const RgbdFrame& frame)
+{
+    return cv::RNG(static_cast<std::uint64_t>(std::llround(frame.stamp * 1e6)));
+}
+
+/** Standard normal, one per pixel. */
+[[nodiscard]] cv::Mat_<float> normals(const RgbdFrame& frame)
+{
+    cv::Mat_<float> out(frame.depth.size());
+    randomOf(frame).fill(out, cv::RNG::NORMAL, 0, 1);
+    return out;
 }
 }  // namespace
 
@@ -85,6 +100,35 @@ RgbdFrame withDepthUpTo(const RgbdFrame& frame, float range)
     RgbdFrame out = frame;
     out.depth = frame.depth.clone();
     out.depth.setTo(cv::Scalar(kNoDepth), frame.depth > range);
+    return out;
+}
+
+RgbdFrame withHoles(const RgbdFrame& frame, double share)
+{
+    cv::Mat_<float> uniform(frame.depth.size());
+    randomOf(frame).fill(uniform, cv::RNG::UNIFORM, 0, 1);
+    RgbdFrame out = frame;
+    out.depth = frame.depth.clone();
+    out.depth.setTo(cv::Scalar(kNoDepth), uniform < share);
+    return out;
+}
+
+RgbdFrame withNoisyDepth(const RgbdFrame& frame, double at1m)
+{
+    RgbdFrame out = frame;
+    out.depth = cv::Mat(frame.depth + at1m * normals(frame).mul(frame.depth.mul(frame.depth)));
+    return out;
+}
+
+RgbdFrame dimmed(const RgbdFrame& frame, double light, double noise)
+{
+    RgbdFrame out = frame;
+    out.gray = cv::Mat();
+    cv::Mat_<float> brightness;
+    frame.gray.convertTo(brightness, CV_32F, light);
+    cv::Mat_<float> grain(brightness.size());
+    randomOf(frame).fill(grain, cv::RNG::NORMAL, 0, noise);
+    cv::Mat(brightness + grain).convertTo(out.gray, CV_8U);
     return out;
 }
 

@@ -22,6 +22,18 @@ namespace pointplane
 /** No depth beyond a range. \param range [m] along the optical axis */
 [[nodiscard]] RgbdFrame withDepthUpTo(const RgbdFrame& frame, float range);
 
+/** Single pixels without depth, as active cameras have on dark or shiny surfaces: others in each
+ * frame. \param share of all pixels */
+[[nodiscard]] RgbdFrame withHoles(const RgbdFrame& frame, double share);
+
+/** More noise of depth, independent between pixels. \param at1m its standard deviation at 1 m [m];
+ * it grows with the square of the depth */
+[[nodiscard]] RgbdFrame withNoisyDepth(const RgbdFrame& frame, double at1m);
+
+/** A dim room: less light, so less contrast and more noise. \param light share of the light
+ * \param noise standard deviation, independent between pixels [grey values] */
+[[nodiscard]] RgbdFrame dimmed(const RgbdFrame& frame, double light, double noise);
+
 /** The same view in fewer pixels: brightness is averaged, depth too, but not across edges.
  * \param factor divides both sides; a remainder of columns and rows is left out */
 [[nodiscard]] RgbdFrame shrunk(const RgbdFrame& frame, int factor);

@@ -3,6 +3,7 @@
 
 #include <opencv2/core.hpp>
 
+#include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -130,4 +131,42 @@ TEST(FrameChanges, ShrunkDepthDoesNotMixSurfaces)
     EXPECT_EQ(depth.at<float>(50, 101), 3.0F);
     EXPECT_EQ(depth.at<float>(50, 250), 2.0F);
     EXPECT_NE(depth.at<float>(50, 260), depth.at<float>(50, 260));
+}
+
+TEST(FrameChanges, HolesAreOtherOnesInEachFrameAndTheSameInEachRun)
+{
+    RgbdFrame frame = slantedPlane();
+    const cv::Mat first = withHoles(frame, 0.6).depth;
+    EXPECT_NEAR(numReadings(first), 0.4 * 640 * 480, 1500);
+    EXPECT_EQ(cv::countNonZero(first == withHoles(frame, 0.6).depth), numReadings(first));
+    frame.stamp += 0.033;
+    EXPECT_NEAR(cv::countNonZero(first == withHoles(frame, 0.6).depth), 0.16 * 640 * 480, 1500);
+    EXPECT_EQ(numReadings(frame.depth), 640 * 480) << "the given frame is as it was";
+}
+
+TEST(FrameChanges, NoiseOfDepthGrowsWithItsSquareAndMissingDepthStaysMissing)
+{
+    RgbdFrame frame = slantedPlane();
+    frame.depth.at<float>(3, 4) = kNone;
+    const cv::Mat noisy = withNoisyDepth(frame, 0.004).depth;
+    cv::Mat_<float> standard = (noisy - frame.depth).mul(1 / frame.depth.mul(frame.depth));
+    standard(3, 4) = 0;
+    EXPECT_NEAR(cv::norm(standard) / std::sqrt(640 * 480), 0.004, 1e-4);
+    EXPECT_NEAR(cv::mean(standard)[0], 0, 1e-4);
+    EXPECT_EQ(numReadings(noisy), 640 * 480 - 1);
+}
+
+TEST(FrameChanges, DimLightTakesContrastAndAddsNoise)
+{
+    const RgbdFrame frame = slantedPlane();
+    const cv::Mat gray = dimmed(frame, 0.25, 3).gray;
+    cv::Mat_<float> difference;
+    cv::Mat(gray).convertTo(difference, CV_32F);
+    cv::Mat_<float> given;
+    frame.gray.convertTo(given, CV_32F, 0.25);
+    difference -= given;
+    const cv::Rect bright(480, 0, 160, 480);  // no clipping at black
+    EXPECT_NEAR(cv::mean(difference(bright))[0], 0, 0.1);
+    EXPECT_NEAR(cv::norm(difference(bright)) / std::sqrt(160 * 480), 3, 0.1);
+    EXPECT_EQ(frame.gray.at<uchar>(0, 639), 159) << "the given frame is as it was";
 }
