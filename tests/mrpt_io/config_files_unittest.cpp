@@ -118,7 +118,6 @@ const PapersValue kNamed[] = {
     {"Point Extraction: sigma_Z has no other part", "DepthNoise.sigmaRelative", "0"},
     {"Eq. 2: sigma_Z of a Kinect", "DepthNoise.kind", "given"},
     {"Eq. 1: the respective depth pixel value", "PointLifter.depthModel", "nearest"},
-    {"Eq. 1: of one pixel", "PointLifter.minValidPixels", "1"},
     {"Eq. 1: whatever is beside it", "PointLifter.maxEdgeSigmas", "0"},
     {"Plane Extraction: RANSAC filters each detected plane", "PlaneExtractor.ransac", "true"},
     {"Plane Extraction: no merging", "PlaneExtractor.mergeCoplanarPlanes", "false"},

@@ -27,6 +27,7 @@ class ErrorModelTest : public testing::Test
         analysis.sensitivity.points = Matrix12d::Identity();
         analysis.sensitivity.planes = 2 * Matrix12d::Identity();
         analysis.pointVariance = analysis.planeVariance = 1;
+        analysis.turnVariance = 1e-6;
     }
 
     [[nodiscard]] JointCovariance::Measurement learn() const
@@ -102,12 +103,12 @@ TEST_F(ErrorModelTest, aFrameErrsByItsView)
     EXPECT_NEAR(learn().viewSigma[0], 2 * out.viewSigma[0], 1e-15);
 }
 
-/** A point errs by 0.15 px at 500 px of focal length: by 0.3 mrad. The references contradict each
- * other as if all of it were noise of each; 0.22 of it is noise of the frame. */
+/** Points tell a turn to 1 mrad. The references contradict each other as if all of it were noise of
+ * each; 0.22 of it is noise of the frame. */
 TEST_F(ErrorModelTest, errorByTheViewByHand)
 {
     params.covariance.viewNoise = 10;
-    EXPECT_NEAR(learn().viewSigma[3], 0.003 * std::sqrt(1 - params.covariance.noise), 1e-12);
+    EXPECT_NEAR(learn().viewSigma[3], 0.01 * std::sqrt(1 - params.covariance.noise), 1e-12);
 }
 
 /** What the references contradict each other by is what the frame's own noise explains: views do
@@ -118,38 +119,34 @@ TEST_F(ErrorModelTest, withoutContradictionsViewsDoNotErr)
     EXPECT_TRUE(learn().viewSigma.isZero(0));
 }
 
-/** Images of half the size show the same errors: in pixels half of them, and residuals of a quarter
- * of the variance. */
-TEST_F(ErrorModelTest, errorByTheViewDoesNotDependOnTheSizeOfTheImage)
+/** The same errors, whatever noise is beside them: with a quarter of the points, or four times the
+ * variance of each, they make references contradict each other a quarter as much, over the noise.
+ */
+TEST_F(ErrorModelTest, errorByTheViewDoesNotDependOnTheNoiseOfPoints)
 {
     params.noiseScale.adaptive = true;
-    const auto learnt = [&](int factor)
+    params.covariance.noise = 1;
+    const auto learnt = [&](double turnVariance, double pointVariance)
     {
-        camera.fx = 500.0 / factor;
         ErrorModel model(params);
         (void)model.changeCamera(camera);
         JointCovariance::Measurement out;
         for (int i = 0; i < 200; ++i)
         {
-            analysis.pointVariance = 8.0 / (factor * factor);
-            analysis.pointDisagreement = {1, 1};
+            analysis.turnVariance = turnVariance;
+            analysis.pointVariance = pointVariance;
+            const double needed = 1 + 3e-6 / (turnVariance * pointVariance);
+            const double told = model.noise().points / std::min(100.0, pointVariance);
+            analysis.pointDisagreement = {needed / told, 1};
             out = model.learn({{&reference}, estimate, analysis, 1, Matrix12d::Zero()});
         }
         return out.viewSigma[3];
     };
-    EXPECT_GT(learnt(1), 0);
-    EXPECT_NEAR(learnt(2) / learnt(1), 1, 1e-3);
-}
-
-/** Points that are matched are placed less exactly than those that are tracked. */
-TEST_F(ErrorModelTest, errorByTheViewIsThatOfTheMethod)
-{
-    const double ofTracked = learn().viewSigma[3];
-    params.points.method = "match";
-    EXPECT_NEAR(
-        learn().viewSigma[3] / ofTracked,
-        params.depthNoise.sigmaPixelPx / params.pointTracker.sigmaPx,
-        1e-9);
+    const double usual = learnt(1e-6, 1);
+    EXPECT_NEAR(usual, params.covariance.viewNoise * std::sqrt(3e-6), 0.02 * usual);
+    EXPECT_NEAR(learnt(4e-6, 1), usual, 0.02 * usual) << "a quarter of the points";
+    EXPECT_NEAR(learnt(1e-6, 4), usual, 0.02 * usual) << "four times the variance of each";
+    EXPECT_NEAR(learnt(0.25e-6, 4), usual, 0.02 * usual) << "half the size of images";
 }
 
 TEST_F(ErrorModelTest, aSmoothErrorOfDepthIsPassedOn)

@@ -39,8 +39,12 @@ TEST(NoiseScale, aFrameThatDoesNotTellItsNoiseIsAsOthers)
     NoiseScale noise(bare());
     (void)afterScatter(noise, 1);
     EXPECT_GT(afterScatter(noise, 5), 4);
-    noise.skip();
+    const double before = noise.factors().points;
+    PoseAnalysis frame = with(50, 1);
+    frame.scatter = 5;
+    noise.update(frame, 1.0 / 30, false);
     EXPECT_EQ(noise.ofFrame(), 1);
+    EXPECT_EQ(noise.factors().points, before);
 }
 
 TEST(NoiseScale, followsTheResiduals)
@@ -74,6 +78,23 @@ TEST(NoiseScale, residualsAreAveragedFromTheStart)
     EXPECT_NEAR(
         noise.typicalPoints().residuals, std::pow(4, 1.0 / 13) * std::pow(0.5, 12.0 / 13), 1e-12);
     EXPECT_GT(noise.factors().points, 2);
+}
+
+/** A frame with few points does not change what points usually tell, and one without says nothing.
+ */
+TEST(NoiseScale, howWellPointsTellATurnIsAGeometricMean)
+{
+    NoiseScale::TParams params = bare();
+    params.adaptive = false;
+    NoiseScale noise(params);
+    EXPECT_EQ(noise.typicalPoints().turnVariance, 0);
+    for (const double variance : {1e-6, 0.0, 1e-6, 1e-6, 1e-2})
+    {
+        PoseAnalysis frame;
+        frame.turnVariance = variance;
+        noise.update(frame, 1e-9);
+    }
+    EXPECT_NEAR(noise.typicalPoints().turnVariance, 1e-5, 1e-12);
 }
 
 TEST(NoiseScale, aFrameWithoutFeaturesTellsNothing)

@@ -33,7 +33,6 @@ PointLifter::TParams nearest()
 {
     PointLifter::TParams params;
     params.depthModel = "nearest";
-    params.minValidPixels = 1;
     return params;
 }
 
@@ -87,8 +86,6 @@ TEST(PointLifter, nearestIsOneReading)
     ASSERT_TRUE(point);
     EXPECT_EQ(point->p_cam.mean.z(), 2);
     EXPECT_NEAR(point->p_cam.cov(2, 2), std::pow(1.425e-3 * 4, 2), 1e-12);
-    params.minValidPixels = 3;
-    EXPECT_FALSE(PointLifter(params, DepthNoise{}).lift(frame, {200.4, 99.6}));
     EXPECT_FALSE(PointLifter(nearest(), DepthNoise{}).lift(frame, {200.4, 99.6})) << "at an edge";
 }
 
@@ -103,6 +100,22 @@ TEST(PointLifter, mixtureByHand)
     const DepthNoise noise;
     const double within = 0.5 * (std::pow(noise.sigmaZ(2), 2) + std::pow(noise.sigmaZ(3), 2));
     EXPECT_NEAR(point->p_cam.cov(2, 2), within + 0.25, 1e-6);
+}
+
+/** Where depth has holes, the readings that are there count as they are. */
+TEST(PointLifter, mixtureOfWhatThereIs)
+{
+    RgbdFrame frame = wall(kNan);
+    EXPECT_FALSE(edgeKeepingLifter().lift(frame, {320, 240}));
+    frame.depth.at<float>(239, 319) = 2;
+    const auto one = edgeKeepingLifter().lift(frame, {320, 240});
+    ASSERT_TRUE(one);
+    EXPECT_NEAR(one->p_cam.mean.z(), 2, 1e-7);
+    EXPECT_NEAR(one->p_cam.cov(2, 2), std::pow(DepthNoise{}.sigmaZ(2), 2), 1e-9);
+    frame.depth.at<float>(240, 321) = 2.3F;  // beside the pixel: twice the weight
+    const auto two = edgeKeepingLifter().lift(frame, {320, 240});
+    ASSERT_TRUE(two);
+    EXPECT_NEAR(two->p_cam.mean.z(), 2.2, 1e-6);
 }
 
 TEST(PointLifter, mixtureVarianceMatchesMonteCarlo)
@@ -217,9 +230,6 @@ TEST(PointLifter, checkNamesTheKey)
 {
     PointLifter::TParams params;
     params.depthModel = "linear";
-    EXPECT_THROW(PointLifter(params, DepthNoise{}), std::invalid_argument);
-    params = {};
-    params.minValidPixels = 10;
     EXPECT_THROW(PointLifter(params, DepthNoise{}), std::invalid_argument);
     params = {};
     params.maxDepth = 0.01;

@@ -10,7 +10,7 @@ namespace pointplane
 {
 namespace
 {
-constexpr int kRuns = 300;
+constexpr int kNumRuns = 300;
 
 /** Every other feature comes from another reference. */
 template <class Pairs>
@@ -40,7 +40,7 @@ Ratios disagreement(unsigned seed, double noise, double sigmaCommon)
 {
     test::PairWorld w = test::moved(seed, 40, 6);
     Disagreement points, planes;
-    for (int run = 0; run < kRuns; ++run)
+    for (int run = 0; run < kNumRuns; ++run)
     {
         std::vector<PointPair> pointPairs = w.drawPoints(noise);
         std::vector<PlanePair> planePairs = w.drawPlanes(noise);
@@ -63,7 +63,7 @@ Ratios disagreement(unsigned seed, double noise, double sigmaCommon)
 }
 }  // namespace
 
-/** Mean of kRuns squares with more than ten degrees of freedom each: 3 sigma are below 8 %. */
+/** Mean of kNumRuns squares with more than ten degrees of freedom each: 3 sigma are below 8 %. */
 TEST(Disagreement, isAsExpectedOfIndependentErrors)
 {
     const Ratios r = disagreement(71, 1, 0);
@@ -98,5 +98,36 @@ TEST(Disagreement, pointsAndPlanesOfOneReferenceAreCompared)
     const PoseAnalysis e = analyse(test::atRest(w.drawPoints(), w.drawPlanes()));
     EXPECT_GT(e.pointDisagreement.expected, 0);
     EXPECT_GT(e.planeDisagreement.expected, 0);
+}
+/** With a quarter of the points of each reference, a turn is told with four times the variance;
+ * what the solver was told of their noise does not matter, nor do planes. */
+TEST(TurnVariance, isThatOfTheNoiseOfOneReference)
+{
+    const auto variance = [](int numPoints, double noise, int numPlanes)
+    {
+        test::PairWorld w = test::moved(75, numPoints, 6);
+        std::vector<PointPair> points = w.drawPoints(0);
+        std::vector<PlanePair> planes = w.drawPlanes(0);
+        planes.resize(static_cast<size_t>(numPlanes));
+        splitInTwo(points);
+        PoseProblem problem = test::atRest(points, planes);
+        problem.noise.points = noise;
+        return analyse(problem).turnVariance;
+    };
+    const double many = variance(800, 1, 6);
+    EXPECT_NEAR(variance(200, 1, 6) / many, 4, 0.5);
+    EXPECT_NEAR(variance(800, 9, 6) / many, 1, 1e-6);
+    EXPECT_NEAR(variance(800, 1, 0) / many, 1, 1e-6);
+    EXPECT_EQ(variance(0, 1, 6), 0);
+}
+
+/** Of a single reference: three axes over what is known of all. */
+TEST(TurnVariance, isTheHarmonicMeanOverAxes)
+{
+    test::PairWorld w = test::moved(76, 60, 0);
+    const PoseProblem problem = test::atRest(w.drawPoints(0), {});
+    const PoseEstimate estimate = PoseSolver(test::gaussianSolver()).solve(problem, {});
+    const double information = estimate.infoPoints.bottomRightCorner<3, 3>().trace();
+    EXPECT_NEAR(analyse(problem).turnVariance, 3 / information, 1e-9 / information);
 }
 }  // namespace pointplane

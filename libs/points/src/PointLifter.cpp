@@ -17,7 +17,6 @@ namespace
 struct DepthReading
 {
     double z{0}, sigma{0};
-    int numValid{0};
 };
 
 /** Mixture of the Gaussians of the 3x3 readings around a pixel, weights 4 / 2 / 1; the window is
@@ -45,10 +44,9 @@ DepthReading mixture(
             sumW += w;
             sumZ += w * z;
             sumZZ += w * (sigma * sigma + z * z);
-            ++out.numValid;
         }
     }
-    if (out.numValid > 0)
+    if (sumW > 0)
     {
         out.z = sumZ / sumW;
         out.sigma = std::sqrt(sumZZ / sumW - out.z * out.z);
@@ -63,7 +61,6 @@ void PointLifter::TParams::check() const
         depthModel == "nearest" || depthModel == "mixture",
         "depthModel = " << depthModel << " is not nearest or mixture");
     checkRange("maxEdgeSigmas", maxEdgeSigmas, 0, 1e4);
-    checkRange("minValidPixels", minValidPixels, 1, 9);
     checkRange("minDepth", minDepth, 1e-3, 1000);
     checkRange("maxDepth", maxDepth, 1e-3, 1e4);
     POINTPLANE_CHECK(
@@ -90,7 +87,7 @@ std::optional<PointFeature> PointLifter::lift(
     DepthReading reading = mixture(frame.depth, u, v, params_, noise_);
     const bool isEdge = params_.maxEdgeSigmas > 0 &&
                         reading.sigma > params_.maxEdgeSigmas * noise_.sigmaZ(reading.z);
-    if (reading.numValid < params_.minValidPixels || isEdge)
+    if (reading.z == 0 || isEdge)
     {
         return {};
     }

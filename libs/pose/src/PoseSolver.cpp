@@ -254,6 +254,7 @@ PoseAnalysis PoseSolver::analyse(const PoseProblem& problem, const PoseEstimate&
         out.pointDisagreement = disagreementOf(solved, solved.points, solution.motion.cov);
         out.planeDisagreement = disagreementOf(solved, solved.planes, solution.motion.cov);
     }
+    out.turnVariance = turnVarianceOf(solved);
     out.scatter = scatterOf(solved, out.sensitivity);
     out.pointWeights = equations.pointWeights();
     out.planeWeights = equations.planeWeights();

@@ -44,6 +44,16 @@ Disagreement disagreementOf(
     return out;
 }
 
+double turnVarianceOf(const Solution& at)
+{
+    double information = 0;  // of three axes, by all references
+    for (const auto& [reference, sum] : at.points)
+    {
+        information += at.problem.noise.points * sum.H.block<3, 3>(3, 3).trace();
+    }
+    return information > 0 ? 3 * static_cast<double>(at.points.size()) / information : 0;
+}
+
 double scatterOf(const Solution& at, const Sensitivity& of)
 {
     std::map<std::pair<int, int>, Vector12d> cells;

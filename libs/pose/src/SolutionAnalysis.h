@@ -14,6 +14,9 @@ namespace pointplane
 [[nodiscard]] Disagreement disagreementOf(
     const Solution& at, const Solution::References& references, const Matrix12d& cov);
 
+/** PoseAnalysis::turnVariance. */
+[[nodiscard]] double turnVarianceOf(const Solution& at);
+
 /** PoseAnalysis::scatter. \param of sensitivityOf() the solution */
 [[nodiscard]] double scatterOf(const Solution& at, const Sensitivity& of);
 }  // namespace pointplane

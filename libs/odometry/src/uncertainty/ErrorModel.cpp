@@ -54,8 +54,6 @@ Matrix6d rootOf(const Matrix6d& S)
 ErrorModel::ErrorModel(const OdometryParams& params)
     : params_(params.covariance),
       noiseParams_(params.noiseScale),
-      sigmaPointPx_(
-          params.points.tracks() ? params.pointTracker.sigmaPx : params.depthNoise.sigmaPixelPx),
       isJoint_(params.covariance.isJoint()),
       fuses_(params.pipeline.fuses()),
       learns_(params.noiseScale.adaptive),
@@ -70,7 +68,6 @@ CameraMatrix ErrorModel::changeCamera(const PinholeCamera& camera)
     noise_ = NoiseScale(noiseParams_);
     planes_ = PlaneErrors(noiseParams_.timeConstant);
     camera_.start(camera);
-    sigmaPoint_ = sigmaPointPx_ / camera.fx;
     const CameraVector learnt = camera_.cov().diagonal();
     return calibrationVariances(params_, camera).cwiseMax(learnt).asDiagonal();
 }
@@ -83,14 +80,7 @@ JointCovariance::Measurement ErrorModel::learn(const Measured& frame)
     {
         correlation[views.frames[k]] = views.ofPlanes.rightCols<1>()[static_cast<Eigen::Index>(k)];
     }
-    if (frame.isMinimum)
-    {
-        noise_.update(frame.analysis, frame.dt);
-    }
-    else
-    {
-        noise_.skip();
-    }
+    noise_.update(frame.analysis, frame.dt, frame.isMinimum);
     if (learns_ && frame.isMinimum)
     {
         planes_.update(frame.analysis.planeResiduals, correlation, frame.dt);
@@ -149,7 +139,7 @@ double ErrorModel::commonAngle() const
 {
     const NoiseScale::TypicalPoints points = noise_.typicalPoints();
     const double unexplained = std::max(0.0, points.disagreement - params_.noise);
-    return params_.viewNoise * sigmaPoint_ *
-           std::sqrt(noise_.ofFrame() * points.residuals * unexplained);
+    return params_.viewNoise *
+           std::sqrt(noise_.ofFrame() * points.residuals * unexplained * points.turnVariance);
 }
 }  // namespace pointplane

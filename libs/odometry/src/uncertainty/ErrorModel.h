@@ -82,14 +82,12 @@ class ErrorModel
     [[nodiscard]] JointCovariance::Measurement errorsOf(const Measured& frame) const;
 
     /** By how far all points of the frame are seen off together (standard deviation) [rad]: in
-     * proportion to what a single point is off by, as residuals show, and as far as references
-     * contradict each other by more than the frame's own noise makes them. */
+     * proportion to how far references contradict each other by more than the frame's own noise
+     * makes them. */
     [[nodiscard]] double commonAngle() const;
 
     JointCovariance::TParams params_;
     NoiseScale::TParams noiseParams_;
-    double sigmaPointPx_;   //!< of a point's position, as propagated [px]
-    double sigmaPoint_{0};  //!< the same as an angle [rad]
     bool isJoint_, fuses_, learns_;
     NoiseScale noise_;
     PlaneErrors planes_;

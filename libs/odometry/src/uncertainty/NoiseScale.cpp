@@ -4,9 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace pointplane
 {
+namespace
+{
+/** Variance before anything is known; where it is soon forgotten, as if so many frames had said it.
+ */
+constexpr double kFirstVariance = 4, kFirstFrames = 3;
+}  // namespace
+
 double NoiseScale::plausible(double variance) { return std::clamp(variance, 0.1, 100.0); }
 
 void NoiseScale::TParams::check() const
@@ -16,76 +25,104 @@ void NoiseScale::TParams::check() const
     checkRange("planeFactor", planeFactor, 0.01, 1000);
 }
 
-NoiseScale::NoiseScale(const TParams& params) : params_(params)
+NoiseScale::Residuals::Residuals(double first)
+    : cautious(first, std::numeric_limits<double>::infinity()), quick(first, kFirstFrames)
 {
-    params_.check();
-    if (params_.adaptive)
-    {
-        pointResiduals_.cautious = planeResiduals_.cautious = kFirstVariance;
-        pointResiduals_.quick = planeResiduals_.quick = kFirstVariance;
-        pointResiduals_.typical = planeResiduals_.typical = kFirstVariance;
-    }
 }
 
-void NoiseScale::update(const PoseAnalysis& analysis, double dt)
-{
-    if (!params_.adaptive)
-    {
-        return;
-    }
-    pointResiduals_.follow(analysis.pointVariance, dt, params_.timeConstant);
-    planeResiduals_.follow(analysis.planeVariance, dt, params_.timeConstant);
-    scatter_.follow(analysis.scatter, dt, params_.timeConstant);
-
-    // The solver was told common_ times the constant factor, which is not for this.
-    const auto needed = [](const Disagreement& d, double told)
-    { return d.expected > 0 ? told * d.observed / d.expected : 0; };
-    pointCommon_.follow(
-        needed(analysis.pointDisagreement, pointCommon_.cautious * params_.pointFactor),
-        dt,
-        params_.timeConstant);
-    planeCommon_.follow(
-        needed(analysis.planeDisagreement, planeCommon_.cautious * params_.planeFactor),
-        dt,
-        params_.timeConstant);
-}
-
-void NoiseScale::Average::follow(double variance, double dt, double timeConstant)
+void NoiseScale::Residuals::follow(double variance, double rate)
 {
     if (variance > 0)
     {
-        ++numFrames;
-        const double target = plausible(variance);
-        const double rate = 1 - std::exp(-dt / timeConstant);
-        cautious += rate * (target - cautious);
-        const double quickRate = std::max(rate, 1.0 / (numFrames + kFirstFrames));
-        quick += quickRate * (target - quick);
-        typical *= std::pow(target / typical, std::max(rate, 1.0 / (numFrames + 1)));
+        cautious.follow(plausible(variance), rate);
+        quick.follow(plausible(variance), rate);
     }
 }
 
-void NoiseScale::Scatter::follow(double scatter, double dt, double timeConstant)
+NoiseScale::NoiseScale(const TParams& params)
+    : params_(params),
+      pointResiduals_(params.adaptive ? kFirstVariance : 1),
+      planeResiduals_(pointResiduals_),
+      pointCommon_(1, std::numeric_limits<double>::infinity()),
+      planeCommon_(pointCommon_),
+      typicalResiduals_(std::log(pointResiduals_.quick.value()), 1),
+      typicalDisagreement_(0, 1)
 {
-    ofFrame = 1;
-    if (scatter > 0)
+    params_.check();
+}
+
+void NoiseScale::update(const PoseAnalysis& analysis, double dt, bool tells)
+{
+    const double rate = 1 - std::exp(-dt / params_.timeConstant);
+    if (analysis.turnVariance > 0)
     {
-        const double now = std::log(scatter);
-        ofFrame = numFrames > 0 ? plausible(std::exp(now - usualLog)) : 1;
-        ++numFrames;
-        usualLog += std::max(1 - std::exp(-dt / timeConstant), 1.0 / numFrames) * (now - usualLog);
+        typicalTurn_.follow(std::log(analysis.turnVariance), rate);
     }
+    ofFrame_ = 1;
+    if (params_.adaptive && tells)
+    {
+        learn(analysis, rate);
+    }
+}
+
+void NoiseScale::learn(const PoseAnalysis& analysis, double rate)
+{
+    pointResiduals_.follow(analysis.pointVariance, rate);
+    planeResiduals_.follow(analysis.planeVariance, rate);
+    const auto followLog = [rate](double variance, FrameMean& mean)
+    {
+        if (variance > 0)
+        {
+            mean.follow(std::log(plausible(variance)), rate);
+        }
+    };
+    followLog(analysis.pointVariance, typicalResiduals_);
+
+    // The solver was told the mean so far times the constant factor, which is not for this.
+    const auto needed = [](const Disagreement& d, double told)
+    { return d.expected > 0 ? told * d.observed / d.expected : 0; };
+    const double ofPoints =
+        needed(analysis.pointDisagreement, pointCommon_.value() * params_.pointFactor);
+    const double ofPlanes =
+        needed(analysis.planeDisagreement, planeCommon_.value() * params_.planeFactor);
+    followLog(ofPoints, typicalDisagreement_);
+    for (const auto& [variance, mean] :
+         {std::pair(ofPoints, &pointCommon_), std::pair(ofPlanes, &planeCommon_)})
+    {
+        if (variance > 0)
+        {
+            mean->follow(plausible(variance), rate);
+        }
+    }
+
+    if (analysis.scatter > 0)
+    {
+        const double now = std::log(analysis.scatter);
+        const bool isFirst = typicalScatter_.numFrames() == 0;
+        ofFrame_ = isFirst ? 1 : plausible(std::exp(now - typicalScatter_.value()));
+        typicalScatter_.follow(now, rate);
+    }
+}
+
+NoiseScale::TypicalPoints NoiseScale::typicalPoints() const
+{
+    return {
+        std::exp(typicalResiduals_.value()),
+        std::exp(typicalDisagreement_.value()),
+        typicalTurn_.numFrames() > 0 ? std::exp(typicalTurn_.value()) : 0};
 }
 
 double NoiseScale::overCautious() const
 {
-    const Average& average = pointResiduals_.numFrames > 0 ? pointResiduals_ : planeResiduals_;
-    return average.quick / average.cautious;
+    const bool hasPoints = pointResiduals_.quick.numFrames() > kFirstFrames;
+    const Residuals& of = hasPoints ? pointResiduals_ : planeResiduals_;
+    return of.quick.value() / of.cautious.value();
 }
 
 NoiseFactors NoiseScale::factors() const
 {
     return {
-        pointResiduals_.cautious * pointCommon_.cautious * params_.pointFactor,
-        planeResiduals_.cautious * planeCommon_.cautious * params_.planeFactor};
+        pointResiduals_.cautious.value() * pointCommon_.value() * params_.pointFactor,
+        planeResiduals_.cautious.value() * planeCommon_.value() * params_.planeFactor};
 }
 }  // namespace pointplane

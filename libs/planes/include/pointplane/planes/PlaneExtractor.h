@@ -21,7 +21,7 @@ class PlaneExtractor
     struct TParams
     {
         int cellSizePx{10};
-        double minValidFraction{0.7};
+        double minValidFraction{0.3};
         double minPlaneFraction{0.01};
         double cellSigmas{2.5};
         double mergeSigmas{2.0};

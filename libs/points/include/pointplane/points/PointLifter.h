@@ -30,7 +30,6 @@ class PointLifter
     {
         std::string depthModel{"mixture"};     //!< nearest | mixture
         double maxEdgeSigmas{20};              //!< 0: keep all
-        int minValidPixels{5};                 //!< of 9
         double minDepth{0.02}, maxDepth{100};  //!< [m]
 
         template <class V>
@@ -46,10 +45,6 @@ class PointLifter
               "-",
               "a point is dropped if its 3x3 readings spread by more than this many sigma_Z; "
               "0 = never");
-            v("minValidPixels",
-              minValidPixels,
-              "-",
-              "a point is dropped if fewer of its 3x3 pixels have depth");
             v("minDepth", minDepth, "m", "nearer readings count as errors");
             v("maxDepth", maxDepth, "m", "farther readings count as errors");
         }

@@ -30,7 +30,7 @@ class JointCovariance
     {
         std::string model{"joint"};
         double noise{0.22};
-        double viewNoise{3.7};
+        double viewNoise{20};
         double vignetting{0.15};
         double principalPoint{0.3};
         double focalLength{0.0006};
@@ -54,7 +54,7 @@ class JointCovariance
               viewNoise,
               "-",
               "error that all points of a frame share because of where the camera stands, "
-              "over the error of a single point (standard deviations)");
+              "over what references contradict each other by (standard deviations)");
             v("vignetting",
               vignetting,
               "-",

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <pointplane/core/Parameters.h>
+#include <pointplane/odometry/uncertainty/FrameMean.h>
 #include <pointplane/pose/PoseSolver.h>
 
 namespace pointplane
@@ -44,10 +45,6 @@ class NoiseScale
         void check() const;
     };
 
-    /** Variance before anything is known; for the solver, as if so many frames had said it. */
-    static constexpr double kFirstVariance = 4;
-    static constexpr int kFirstFrames = 3;
-
     /** What a frame says, between a tenth and a hundred times the propagated variance: a few odd
      * frames must neither make features certain nor worthless. */
     [[nodiscard]] static double plausible(double variance);
@@ -55,8 +52,9 @@ class NoiseScale
     /** \throws std::invalid_argument naming the key */
     explicit NoiseScale(const TParams& params);
 
-    /** Learns from a measured frame, `dt` [s] after the one before. */
-    void update(const PoseAnalysis& analysis, double dt);
+    /** Learns from a measured frame, `dt` [s] after the one before.
+     * \param tells whether residuals tell its noise: if not, it counts as a usual one */
+    void update(const PoseAnalysis& analysis, double dt, bool tells = true);
 
     /** For the solver: with the constant factors, by which features are weighed against a predicted
      * motion. */
@@ -69,52 +67,42 @@ class NoiseScale
     /** Variance of the errors of the latest frame over that of a usual one: its scatter
      * (PoseAnalysis) over the geometric mean of those before, which single bad frames hardly move.
      */
-    [[nodiscard]] double ofFrame() const { return scatter_.ofFrame; }
+    [[nodiscard]] double ofFrame() const { return ofFrame_; }
 
-    /** The latest frame does not tell its noise: it counts as a usual one. */
-    void skip() { scatter_.ofFrame = 1; }
-
-    /** What the points of a frame usually have, for covariances. As geometric means, in which the
-     * first guess counts as one frame, these soon forget it: a camera that turns fast in its first
-     * frames has residuals of 50 times the propagated variance. */
+    /** What the points of a frame usually have, for covariances: geometric means, which soon forget
+     * what the first frames said. A camera that turns fast in these has residuals of 50 times the
+     * propagated variance. */
     struct TypicalPoints
     {
         double residuals;     //!< variance, over the propagated one
         double disagreement;  //!< how much more the references contradict each other
+        double turnVariance;  //!< PoseAnalysis::turnVariance; 0 = no points so far
     };
-    [[nodiscard]] TypicalPoints typicalPoints() const
-    {
-        return {pointResiduals_.typical, pointCommon_.typical};
-    }
+    [[nodiscard]] TypicalPoints typicalPoints() const;
 
     /** Learnt from the residuals alone. */
     [[nodiscard]] NoiseFactors residuals() const
     {
-        return {pointResiduals_.quick, planeResiduals_.quick};
+        return {pointResiduals_.quick.value(), planeResiduals_.quick.value()};
     }
 
  private:
-    /** What single frames say, averaged. */
-    struct Average
-    {
-        double cautious{1};  //!< from the first value on with the time constant, for the solver
-        double quick{1};     //!< at first the mean of all frames
-        double typical{1};   //!< at first the geometric mean of all frames, for covariances; the
-                             //!< first guess counts as one frame
-        int numFrames{0};
-        void follow(double variance, double dt, double timeConstant);
-    };
+    void learn(const PoseAnalysis& analysis, double rate);
 
-    struct Scatter
+    /** Of the residuals alone. */
+    struct Residuals
     {
-        double usualLog{0}, ofFrame{1};
-        int numFrames{0};
-        void follow(double scatter, double dt, double timeConstant);
+        explicit Residuals(double first);
+        void follow(double variance, double rate);
+        FrameMean cautious;  //!< for the solver
+        FrameMean quick;
     };
 
     TParams params_;
-    Scatter scatter_;
-    Average pointResiduals_, planeResiduals_;  //!< by the residuals alone
-    Average pointCommon_, planeCommon_;        //!< over that, by the references' disagreement
+    Residuals pointResiduals_, planeResiduals_;
+    FrameMean pointCommon_, planeCommon_;  //!< over that, by the references' disagreement
+    /** Logarithms, for geometric means. */
+    FrameMean typicalResiduals_, typicalDisagreement_, typicalTurn_, typicalScatter_;
+    double ofFrame_{1};
 };
 }  // namespace pointplane

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+
+namespace pointplane
+{
+/** Mean of what single frames say: at first of all of them, later mostly of the latest. */
+class FrameMean
+{
+ public:
+    /** \param first value before the first frame \param counts as if so many frames had said it */
+    explicit FrameMean(double first = 0, double counts = 0) : value_(first), numFrames_(counts) {}
+
+    /** \param rate share of this frame in the mean, at least */
+    void follow(double value, double rate)
+    {
+        ++numFrames_;
+        value_ += std::max(rate, 1 / numFrames_) * (value - value_);
+    }
+
+    [[nodiscard]] double value() const { return value_; }
+    [[nodiscard]] double numFrames() const { return numFrames_; }
+
+ private:
+    double value_, numFrames_;
+};
+}  // namespace pointplane
