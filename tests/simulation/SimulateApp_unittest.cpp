@@ -206,6 +206,70 @@ TEST(SimulateApp, masksTellWhatMoves)
     }
 }
 
+/** They appear with their recording, and leave nothing of another one. */
+TEST(SimulateApp, masksReplaceThoseOfAnEarlierRun)
+{
+    namespace fs = std::filesystem;
+    const test::TempDir dir;
+    const std::string folder = dir / "a_Masks";
+    std::vector<std::string> args = smallRun(dir / "a.rawlog");
+    args.emplace_back("--masks");
+    ASSERT_EQ(run(args).code, 0);
+    ASSERT_TRUE(fs::exists(folder + "/000003.png"));
+    fs::create_directory(folder + ".partial");
+    test::writeBytes(folder + ".partial/000000.png.partial", "of a run that was killed");
+    args[6] = "0.05";
+    const Finished shorter = run(args);
+    ASSERT_EQ(shorter.code, 0) << shorter.err;
+    EXPECT_TRUE(fs::exists(folder + "/000001.png"));
+    EXPECT_FALSE(fs::exists(folder + "/000003.png"));
+    EXPECT_FALSE(fs::exists(folder + ".partial"));
+
+    args.pop_back();
+    const Finished without = run(args);
+    EXPECT_EQ(without.code, 0);
+    EXPECT_EQ(
+        without.err,
+        "pointplane-simulate: warning: " + folder +
+            " was there before; remove it if it is of another recording\n");
+}
+
+/** By the name alone or the picture alone it is no mask. */
+TEST(SimulateApp, masksDoNotReplaceWhatIsSomebodyElses)
+{
+    namespace fs = std::filesystem;
+    const test::TempDir dir;
+    const std::string folder = dir / "a_Masks", other = dir / "other.txt";
+    test::writeBytes(other, "precious");
+    std::vector<std::string> args = smallRun(dir / "a.rawlog");
+    args.emplace_back("--masks");
+    ASSERT_EQ(run(args).code, 0);
+    const std::string rawlog = test::readBytes(dir / "a.rawlog");
+    const auto expectRefused = [&](const std::string& name)
+    {
+        const Finished refused = run(args);
+        EXPECT_EQ(refused.code, 3) << name;
+        EXPECT_THAT(
+            refused.err,
+            HasSubstr(
+                "cannot replace " + folder + ": it holds '" + name +
+                "', which is no mask of what moves; move that elsewhere\n"));
+        EXPECT_EQ(test::readBytes(dir / "a.rawlog"), rawlog);
+        EXPECT_FALSE(fs::exists(dir / "a.rawlog.partial"));
+        EXPECT_EQ(test::readBytes(other), "precious");
+        fs::remove(folder + "/" + name);
+    };
+    test::writeBytes(folder + "/000001.png", "precious");
+    expectRefused("000001.png");
+    cv::imwrite(folder + "/000001.png", cv::Mat(24, 32, CV_8UC3));
+    expectRefused("000001.png");
+    fs::copy_file(folder + "/000000.png", folder + "/mine.png");
+    expectRefused("mine.png");
+    fs::create_symlink("../other.txt", folder + "/000001.png");
+    expectRefused("000001.png");
+    EXPECT_EQ(run(args).code, 0);
+}
+
 TEST(SimulateApp, shutterIsToldUnlessHidden)
 {
     const test::TempDir dir;
