@@ -361,21 +361,66 @@ TEST(SimulateApp, nothingIsWrittenBesideAPipe)
     EXPECT_EQ(std::distance(first, end), 1);
 }
 
+/** Three names of a rawlog, and one of the ground truth. */
 TEST(SimulateApp, groundTruthOfAnotherRawlogIsNotReplaced)
 {
+    for (const std::string first : {"b.rawlog", "b.rawlog.gz", "b"})
+    {
+        const test::TempDir dir;
+        const std::string truth = dir / "b.groundtruth.txt";
+        std::vector<std::string> args{
+            "corner", "--size", "32x24", "--duration", "0.1", "--quiet", "-o", dir / first};
+        ASSERT_EQ(run(args).code, 0);
+        const std::string before = test::readBytes(truth);
+        ASSERT_EQ(run(args).code, 0);  // its own
+        args[0] = "room";
+        for (const std::string other : {"b.rawlog", "b.rawlog.gz", "b"})
+        {
+            if (other == first)
+            {
+                continue;
+            }
+            args.back() = dir / other;
+            const Finished refused = run(args);
+            EXPECT_EQ(refused.code, 2) << first << other;
+            EXPECT_THAT(
+                refused.err,
+                HasSubstr(truth + ", which is that of " + (dir / first) + "; give another name"));
+            EXPECT_EQ(test::readBytes(truth), before);
+            EXPECT_FALSE(std::filesystem::exists(dir / other));
+        }
+    }
+}
+
+/** A folder of that name is none, and a link leads to the same rawlog. */
+TEST(SimulateApp, groundTruthIsReplacedWhereNoOtherRawlogHasIt)
+{
     const test::TempDir dir;
-    std::vector<std::string> args{
-        "corner", "--size", "32x24", "--duration", "0.1", "--quiet", "-o", dir / "b.rawlog"};
-    ASSERT_EQ(run(args).code, 0);
-    const std::string truth = dir / "b.groundtruth.txt", before = test::readBytes(truth);
-    ASSERT_EQ(run(args).code, 0);  // its own
-    args.back() += ".gz";
-    args[0] = "room";
+    std::filesystem::create_directory(dir / "b");
+    std::filesystem::create_symlink("b.rawlog", dir / "b.rawlog.gz");
+    for (const char* seed : {"1", "2"})
+    {
+        std::vector<std::string> args = smallRun(dir / "b.rawlog");
+        args[8] = seed;
+        const Finished again = run(args);
+        EXPECT_EQ(again.code, 0) << again.err;
+    }
+}
+
+TEST(SimulateApp, groundTruthThatALinkLeadsToIsNotReplaced)
+{
+    const test::TempDir dir;
+    const std::string link = dir / "w.groundtruth.txt";
+    ASSERT_EQ(run(smallRun(dir / "a.rawlog")).code, 0);
+    const std::string before = test::readBytes(dir / "a.groundtruth.txt");
+    std::filesystem::create_symlink("a.groundtruth.txt", link);
+    std::vector<std::string> args = smallRun(dir / "w.rawlog");
+    EXPECT_EQ(run(args).code, 0) << "it is the same";
+    args[8] = "10";
     const Finished refused = run(args);
     EXPECT_EQ(refused.code, 2);
-    EXPECT_THAT(refused.err, HasSubstr(truth + ", which is that of " + (dir / "b.rawlog")));
-    EXPECT_EQ(test::readBytes(truth), before);
-    EXPECT_FALSE(std::filesystem::exists(dir / "b.rawlog.gz"));
+    EXPECT_THAT(refused.err, HasSubstr("would replace " + link + ", which is a different one"));
+    EXPECT_EQ(test::readBytes(dir / "a.groundtruth.txt"), before);
 }
 
 /** Nobody named it, so it may be a user's. What this program wrote can be rendered again. */
