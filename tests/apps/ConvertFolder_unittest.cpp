@@ -347,7 +347,7 @@ TEST_F(ConvertFolder, otherFoldersAreErrorsThatSayWhatIsKnown)
 TEST_F(ConvertFolder, longNumbersAreTimesSince1970)
 {
     write("in/camera.txt", kCamera);
-    for (const char* unit : {"000", "000000", "000000000"})
+    for (const char* unit : {"", "000", "000000", "000000000"})
     {
         std::filesystem::remove_all(dir_ / "in/rgb");
         std::filesystem::remove_all(dir_ / "in/depth");
@@ -364,6 +364,15 @@ TEST_F(ConvertFolder, longNumbersAreTimesSince1970)
         EXPECT_EQ(run({"folder", in_, "--fps", "30"}), kExitBadInput);
         EXPECT_THAT(text_, HasSubstr("leave --fps out"));
     }
+}
+
+/** As KITTI's. */
+TEST_F(ConvertFolder, longNumbersWithZerosInFrontAreFrames)
+{
+    write("in/camera.txt", kCamera);
+    writeFrames("in/rgb/%010d.png", "in/depth/%010d.png");
+    ASSERT_EQ(run({"folder", in_}), kExitOk) << text_;
+    expectFrames(30);
 }
 
 TEST_F(ConvertFolder, eachNumberIsOneFrame)
