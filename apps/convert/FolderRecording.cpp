@@ -90,10 +90,15 @@ void FolderRecording::chooseCamera(const FolderOptions& options)
 void FolderRecording::pairImages(const FolderOptions& options)
 {
     fps_ = options.fps > 0 ? options.fps : layout_.fps.value_or(30);
+    if (options.fps <= 0 && !layout_.stampList.empty())
+    {
+        leaveOutUnlisted();
+    }
     hasStamps_ = options.fps <= 0 && areStamped(layout_.colour) && areStamped(layout_.depth);
     if (hasStamps_)
     {
         checkStamps();
+        checkOrderOfList();
         if (options.evenStamps)
         {
             evenOutStamps();
@@ -156,6 +161,50 @@ void FolderRecording::checkStamps() const
                     << " s, is not a time stamp; check stamps or rate";
                 throw InputError(out.str());
             }
+        }
+    }
+}
+
+/** Images of which the list tells nothing, if it tells of others. */
+void FolderRecording::leaveOutUnlisted()
+{
+    const auto isListed = [](const ImageRef& image) { return image.stamp.has_value(); };
+    for (const auto* images : {&layout_.colour, &layout_.depth})
+    {
+        if (std::none_of(images->begin(), images->end(), isListed))
+        {
+            throw InputError(
+                layout_.stampList +
+                ": tells no stamps of the images beside it; give a rate by "
+                "--fps");
+        }
+    }
+    for (auto* images : {&layout_.colour, &layout_.depth})
+    {
+        const auto end = std::stable_partition(images->begin(), images->end(), isListed);
+        numUnlisted_ += static_cast<std::size_t>(images->end() - end);
+        images->erase(end, images->end());
+    }
+}
+
+/** Names are in order of their stamps, a list need not be. */
+void FolderRecording::checkOrderOfList() const
+{
+    for (const auto* images : {&layout_.colour, &layout_.depth})
+    {
+        const auto back = std::adjacent_find(
+            images->begin(),
+            images->end(),
+            [](const ImageRef& a, const ImageRef& b)
+            { return a.key < b.key && *a.stamp >= *b.stamp; });
+        if (!layout_.stampList.empty() && back != images->end())
+        {
+            std::ostringstream out;
+            out << std::setprecision(15) << layout_.stampList << ": the stamp of frame "
+                << (back + 1)->key << ", " << *(back + 1)->stamp
+                << " s, is not after that of frame " << back->key << ", " << *back->stamp
+                << " s; correct it, or give a rate by --fps";
+            throw InputError(out.str());
         }
     }
 }
@@ -314,6 +363,12 @@ std::vector<std::string> FolderRecording::notes() const
     if (layout_.cameraIsNominal)
     {
         out.emplace_back("camera: nominal, that of the data set; --camera takes a calibration");
+    }
+    if (numUnlisted_ > 0)
+    {
+        out.push_back(
+            std::to_string(numUnlisted_) + " images without a stamp in " + layout_.stampList +
+            " were left out; --fps takes them, too, at a rate of its own");
     }
     const std::size_t alone = layout_.colour.size() + layout_.depth.size() - 2 * pairs_.size();
     if (alone > 0)

@@ -41,6 +41,8 @@ class FolderRecording : public Recording
     void pairImages(const FolderOptions& options);
     void checkNumbers(bool isRateAsked) const;
     void checkStamps() const;
+    void leaveOutUnlisted();
+    void checkOrderOfList() const;
     void evenOutStamps();
     void pairByStamp(double maxDifference);
     void pairByNumber();
@@ -56,7 +58,8 @@ class FolderRecording : public Recording
     double floatUnits_{1};  //!< the same, of depth in floating point
     bool isFloat_{false};   //!< depth has been
     bool hasStamps_{false};
-    std::string evening_;  //!< what was done to the stamps, or empty
+    std::size_t numUnlisted_{0};  //!< images without a stamp in the layout's list
+    std::string evening_;         //!< what was done to the stamps, or empty
     std::vector<std::pair<std::size_t, std::size_t>> pairs_;
     std::size_t next_{0};
     std::unique_ptr<VideoFrames> video_;

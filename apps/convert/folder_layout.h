@@ -21,6 +21,7 @@ struct FolderLayout
     std::optional<PinholeCamera> depthCamera;  //!< where it is another
     double unitsPerMetre{1000};
     std::optional<double> fps;  //!< where the folder tells it
+    std::string stampList;      //!< a file that tells stamps by number, if there is one
 };
 
 /** \throws InputError if there are no colour and depth images in a layout that is known */

@@ -182,6 +182,62 @@ TEST_F(ConvertFolder, record3dHasSmallDepthImages)
     EXPECT_THAT(text_, HasSubstr("metadata.json"));
 }
 
+TEST_F(ConvertFolder, stampsOfAListThatGoBackAreRefused)
+{
+    writeFrames("in/rgb/%d.jpg", "in/depth/%d.png");
+    const std::string start = R"({"w": 64, "h": 48, "K": [60, 0, 0, 0, 60, 0, 31.5, 23.5, 1], )";
+    for (const char* stamps : {"[5.2, 5.1, 5.0]", "[5.2, 5.1, 5.3]"})
+    {
+        write("in/metadata.json", start + "\"frameTimestamps\": " + stamps + "}");
+        EXPECT_EQ(run({"folder", in_}), kExitBadInput);
+        EXPECT_THAT(
+            text_,
+            HasSubstr(
+                "in/metadata.json: the stamp of frame 1, 5.1 s, is not after that of frame 0, "
+                "5.2 s; correct it, or give a rate by --fps\n"));
+    }
+    ASSERT_EQ(run({"folder", in_, "--fps", "10"}), kExitOk) << text_;
+    expectFrames(10);
+}
+
+TEST_F(ConvertFolder, framesWithoutAStampInTheListAreLeftOut)
+{
+    const auto expectTwo = [this](const std::string& list)
+    {
+        ASSERT_EQ(run({"folder", in_}), kExitOk) << text_;
+        EXPECT_THAT(text_, HasSubstr("stamps of the recording"));
+        EXPECT_THAT(
+            text_,
+            HasSubstr(
+                "\n2 images without a stamp in " + in_ + list +
+                " were left out; --fps takes them, too, at a rate of its own\n"));
+        const auto found = frames();
+        ASSERT_EQ(found.size(), 2U);
+        EXPECT_NEAR(found[0].stamp, 7.5, 1e-6);
+        EXPECT_NEAR(found[1].stamp, 7.7, 1e-6);
+    };
+    const auto expectNone = [this](const std::string& list)
+    {
+        EXPECT_EQ(run({"folder", in_}), kExitBadInput);
+        EXPECT_THAT(
+            text_,
+            HasSubstr(list + ": tells no stamps of the images beside it; give a rate by --fps\n"));
+    };
+    const std::string record3d = R"({"w": 64, "h": 48, "K": [60, 0, 0, 0, 60, 0, 31.5, 23.5, 1], )";
+    writeFrames("in/rgb/%d.png", "in/depth/%d.png");
+    write("in/metadata.json", record3d + R"("frameTimestamps": [7.5, 7.7]})");
+    expectTwo("/metadata.json");
+    write("in/metadata.json", record3d + R"("frameTimestamps": []})");
+    expectNone("/metadata.json");
+    std::filesystem::remove(dir_ / "in/metadata.json");
+
+    write("in/camera_matrix.csv", "60, 0, 31.5\n0, 60, 23.5\n0, 0, 1\n");
+    write("in/odometry.csv", "timestamp, frame, x\n7.5, 000000, 0\n7.7, 000002, 0\n");
+    expectTwo("/odometry.csv");
+    write("in/odometry.csv", "timestamp, frame, x\n");
+    expectNone("/odometry.csv");
+}
+
 TEST_F(ConvertFolder, aFolderOfMetadataIsNoFileOfIt)
 {
     writeFrames("in/rgb/%d.jpg", "in/depth/%d.png");
