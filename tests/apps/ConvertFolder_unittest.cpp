@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/mrpt_io/mrpt_poses.h>
+
 #include <opencv2/videoio.hpp>
 
 #include <cmath>
@@ -101,6 +103,29 @@ TEST_F(ConvertFolder, scanNetHasTwoCamerasInOnePlace)
     EXPECT_EQ(scan->cameraParams.ncols, 32U);
     EXPECT_DOUBLE_EQ(scan->cameraParams.fx(), 30);
     EXPECT_DOUBLE_EQ(scan->cameraParamsIntensity.fx(), 60);
+}
+
+/** As they are before depth is moved to colour: both cameras' poses in a common base. */
+TEST_F(ConvertFolder, scanNetTellsWhereItsCamerasAre)
+{
+    writeFrames("in/color/%d.jpg", "in/depth/%d.png", 32);
+    write("in/intrinsic/intrinsic_color.txt", "60 0 31.5 0\n0 60 23.5 0\n0 0 1 0\n0 0 0 1\n");
+    write("in/intrinsic/intrinsic_depth.txt", "30 0 15.5 0\n0 30 11.5 0\n0 0 1 0\n0 0 0 1\n");
+    write("in/intrinsic/extrinsic_color.txt", "1 0 0 0.03\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
+    // Turned by 90 degrees about z.
+    write("in/intrinsic/extrinsic_depth.txt", "0 -1 0 0.01\n1 0 0 0\n0 0 1 0\n0 0 0 1\n");
+    ASSERT_EQ(run({"folder", in_}), kExitOk) << text_;
+    const Eigen::Isometry3d T_depth_colour =
+        opticalInBody().inverse() * fromMrpt(scans()[0]->relativePoseIntensityWRTDepth);
+    EXPECT_TRUE(T_depth_colour.translation().isApprox(Eigen::Vector3d(0, -0.02, 0), 1e-9));
+    EXPECT_TRUE(T_depth_colour.linear().col(0).isApprox(-Eigen::Vector3d::UnitY(), 1e-9));
+
+    for (const char* bad : {"1 0 0 0\n0 1 0 0\n0 0 1 0\n", "2 0 0 0\n0 2 0 0\n0 0 2 0\n0 0 0 1\n"})
+    {
+        write("in/intrinsic/extrinsic_color.txt", bad);
+        EXPECT_EQ(run({"folder", in_}), kExitBadInput);
+        EXPECT_THAT(text_, HasSubstr("extrinsic_color.txt: is not a 4x4 matrix of a rotation"));
+    }
 }
 
 TEST_F(ConvertFolder, sevenScenesMarksNoReadingBy65535)
