@@ -56,19 +56,15 @@ namespace
 }
 }  // namespace
 
-std::vector<std::string> imagesBeside(
-    const std::vector<ImageRef>& colour, const std::vector<ImageRef>& depth)
+std::vector<std::string> imagesBeside(const std::vector<ImageRef>& images)
 {
     std::set<fs::path> folders, taken;
-    for (const auto* images : {&colour, &depth})
+    for (const ImageRef& image : images)
     {
-        for (const ImageRef& image : *images)
+        if (!image.path.empty())  // else it is a frame of a video
         {
-            if (!image.path.empty())  // else it is a frame of a video
-            {
-                taken.insert(image.path);
-                folders.insert(fs::path(image.path).parent_path());
-            }
+            taken.insert(image.path);
+            folders.insert(fs::path(image.path).parent_path());
         }
     }
     std::vector<std::string> out;

@@ -29,8 +29,7 @@ struct ImageRef
 
 /** Names of the images in the folders of these that are none of them: their names are no numbers.
  */
-[[nodiscard]] std::vector<std::string> imagesBeside(
-    const std::vector<ImageRef>& colour, const std::vector<ImageRef>& depth);
+[[nodiscard]] std::vector<std::string> imagesBeside(const std::vector<ImageRef>& images);
 
 /** Whether the folder's own name holds these whole words: "fr1" is in scans/fr1_desk, but neither
  * in fr1_scans/desk nor in fr10. */

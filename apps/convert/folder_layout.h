@@ -23,8 +23,9 @@ struct FolderLayout
     std::optional<PinholeCamera> depthCamera;                         //!< where it is another
     Eigen::Isometry3d T_depth_colour{Eigen::Isometry3d::Identity()};  //!< of depthCamera
     double unitsPerMetre{1000};
-    std::optional<double> fps;  //!< where the folder tells it
-    std::string stampList;      //!< a file that tells stamps by number, if there is one
+    std::optional<double> fps;              //!< where the folder tells it
+    std::string stampList;                  //!< a file that tells stamps by number, if there is one
+    std::vector<std::string> otherSources;  //!< of images, that could have been meant, too
 };
 
 /** \throws InputError if there are no colour and depth images in a layout that is known */

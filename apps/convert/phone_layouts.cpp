@@ -29,7 +29,8 @@ void setStamps(FolderLayout& out, const fs::path& list, const StampOf& stampOf)
     {
         for (ImageRef& image : *images)
         {
-            if (const std::optional<double> stamp = stampOf(image.key))
+            const std::optional<double> stamp = stampOf(image.key);
+            if (image.isNumbered && stamp)
             {
                 image.stamp = stamp;
             }
@@ -70,9 +71,14 @@ std::optional<FolderLayout> strayScanner(const fs::path& folder)
     out.depth = imagesIn(folder / "depth");
     out.camera = colourCamera(cameraOfMatrix(folder / "camera_matrix.csv"));
     out.colour = imagesIn(folder / "rgb");
+    const std::string video = (folder / "rgb.mp4").string();
+    if (!out.colour.empty() && fs::exists(video))
+    {
+        out.otherSources.push_back(video);
+    }
     if (out.colour.empty())
     {
-        out.video = (folder / "rgb.mp4").string();
+        out.video = video;
         out.colour = out.depth;
         std::for_each(
             out.colour.begin(), out.colour.end(), [](ImageRef& image) { image.path.clear(); });

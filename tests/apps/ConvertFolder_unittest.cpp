@@ -236,6 +236,7 @@ TEST_F(ConvertFolder, framesWithoutAStampInTheListAreLeftOut)
             HasSubstr(
                 "\n2 images without a stamp in " + in_ + list +
                 " were left out; --fps takes them, too, at a rate of its own\n"));
+        EXPECT_THAT(text_, Not(HasSubstr("no number")));
         const auto found = frames();
         ASSERT_EQ(found.size(), 2U);
         EXPECT_NEAR(found[0].stamp, 7.5, 1e-6);
@@ -463,7 +464,33 @@ TEST_F(ConvertFolder, eachNumberIsOneFrame)
     write("in/camera.txt", kCamera);
     ASSERT_EQ(run({"folder", in_}), kExitOk) << text_;
     EXPECT_THAT(text_, HasSubstr("3 frames"));
-    EXPECT_THAT(text_, HasSubstr("\n3 images without a partner"));
+    EXPECT_THAT(text_, Not(HasSubstr("without a partner")));
+    EXPECT_THAT(
+        text_,
+        HasSubstr(
+            "\n3 images of a number or time that another one has were left out: " + in_ +
+            "/rgb/0.png, ...\n"));
+    EXPECT_THAT(text_, Not(HasSubstr("no number")));
+}
+
+TEST_F(ConvertFolder, whichOfTwoFoldersWasTakenIsTold)
+{
+    writeFrames("in/color/%d.jpg", "in/depth/%d.png");
+    write("in/camera.txt", kCamera);
+    std::filesystem::create_directory_symlink("color", dir_ / "in/rgb");  // no other one
+    std::filesystem::create_directory(dir_ / "in/image");
+    ASSERT_EQ(run({"folder", in_}), kExitOk) << text_;
+    EXPECT_THAT(text_, Not(HasSubstr("left out")));
+    writeFrames("in/image/%d.jpg", "in/depths/%d.png");
+    ASSERT_EQ(run({"folder", in_}), kExitOk) << text_;
+    for (const char* other : {"/image", "/depths"})
+    {
+        EXPECT_THAT(
+            text_,
+            HasSubstr(
+                "\n" + in_ + other + " was left out: there are images in " + in_ + "/rgb and " +
+                in_ + "/depth; move away what is not meant\n"));
+    }
 }
 
 TEST_F(ConvertFolder, impossibleCalibrationsRatesAndTimesAreRefused)
