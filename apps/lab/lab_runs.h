@@ -70,7 +70,7 @@ class WorkDirectory
     ~WorkDirectory();
     WorkDirectory(const WorkDirectory&) = delete;
     WorkDirectory& operator=(const WorkDirectory&) = delete;
-    /** A file in it, to be written (OutputFolder). */
+    /** Path for a file in it (OutputFolder). */
     [[nodiscard]] std::string fileAt(const std::string& name) const { return folder_.fileAt(name); }
 
  private:

@@ -16,8 +16,8 @@ class OutputFolder
     OutputFolder(const OutputFolder&) = delete;
     OutputFolder& operator=(const OutputFolder&) = delete;
 
-    /** Path of a file in it, to be written. Nobody named that file, so a link with its name makes
-     * way: what it leads to is not ours to write to. */
+    /** Path for a file in it, before that is written. Nobody named that file, so a link with its
+     * name makes way: what it leads to is not ours to write to. */
     [[nodiscard]] std::string fileAt(const std::string& name) const;
 
     [[nodiscard]] const std::string& path() const { return path_; }
