@@ -63,6 +63,11 @@ ImagesFolder::ImagesFolder(const std::string& path, OwnImages own) : own_(std::m
     {
         (void)imagesOf(path_);
     }
+    if (fs::is_symlink(partial_))
+    {
+        throw EnvironmentError(
+            "cannot create " + partial_ + ": something else has this name; remove it");
+    }
     folder_.emplace(partial_);
     removeImages(partial_);
 }
