@@ -202,8 +202,7 @@ void FolderRecording::leaveOutUnlisted()
         {
             throw InputError(
                 layout_.stampList +
-                ": tells no stamps of the images beside it; give a rate by "
-                "--fps");
+                ": tells no stamps of the images beside it; give a rate by --fps");
         }
     }
     for (auto* images : {&layout_.colour, &layout_.depth})
