@@ -55,7 +55,7 @@ void requireShortName(const std::string& option, const std::string& path, const 
     }
 }
 
-/** Whether nothing is lost if `text` replaces this file. */
+/** Whether nothing is lost if `text` replaces this file, or what it leads to. */
 [[nodiscard]] bool isReplaceable(const std::string& path, const std::string& text)
 {
     std::error_code error;
@@ -63,13 +63,29 @@ void requireShortName(const std::string& option, const std::string& path, const 
     {
         return true;
     }
-    const std::string rendered = kRenderedTruth;
     std::ifstream file(path, std::ios::binary);
-    std::string start(std::max(text.size(), rendered.size()) + 1, '\0');
+    std::string start(text.size() + 1, '\0');
     file.read(start.data(), static_cast<std::streamsize>(start.size()));
     start.resize(static_cast<std::size_t>(file.gcount()));
-    return file.is_open() &&
-           (start.empty() || start == text || start.compare(0, rendered.size(), rendered) == 0);
+    const bool isOwn = !fs::is_symlink(path, error) &&
+                       (start.rfind(kRenderedTruth, 0) == 0 || start.rfind(kCopiedTruth, 0) == 0);
+    return file.is_open() && (isOwn || text.find(start) != std::string::npos);
+}
+
+/** Another rawlog that is there and has this name for its ground truth, or empty. */
+[[nodiscard]] std::string otherRawlogOf(const std::string& truth, const std::string& rawlog)
+{
+    const std::string base = truth.substr(0, truth.size() - groundTruthOf("").size());
+    std::error_code error;
+    for (const char* extension : {"", ".rawlog", ".rawlog.gz"})
+    {
+        const std::string other = base + extension;
+        if (fs::is_regular_file(other, error) && !fs::equivalent(other, rawlog, error))
+        {
+            return other;
+        }
+    }
+    return "";
 }
 
 [[noreturn]] void failToWrite(const std::string& option, const std::string& path)
@@ -327,11 +343,9 @@ void OutputGuard::addGroundTruth(const std::string& rawlog, const std::string& t
         return;
     }
     const std::string truth = groundTruthOf(rawlog);
-    const fs::path path(rawlog);
-    const std::string other =
-        path.extension() == ".gz" ? fs::path(path).replace_extension().string() : rawlog + ".gz";
+    const std::string other = otherRawlogOf(truth, rawlog);
     std::error_code error;
-    if (fs::exists(truth, error) && fs::exists(other, error))
+    if (fs::exists(truth, error) && !other.empty())
     {
         throw InputError(
             "-o " + rawlog + ": its ground truth would replace " + truth + ", which is that of " +

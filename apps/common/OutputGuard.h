@@ -8,8 +8,12 @@
 
 namespace pointplane
 {
-/** How the ground truth of pointplane-simulate begins, which can be rendered again. */
+/** How ground truth begins that the programs wrote, which can be made again: that of
+ * pointplane-simulate, that of pointplane-convert.
+ * @{ */
 constexpr const char* kRenderedTruth = "# exact pose in the world of the ";
+constexpr const char* kCopiedTruth = "# copied by pointplane-convert\n";
+/** @} */
 
 /** Keeps apart what a run reads and what it writes, before anything is opened. A program tells it
  * every file, also those that it opens itself (listings, images, ground truth, configuration); in
@@ -50,9 +54,9 @@ class OutputGuard
         const std::string& option, const std::string& path, const std::string& extension);
 
     /** The ground truth beside a rawlog that is an output itself, if there is a place for it.
-     * Nobody named that file, so what may be a user's is refused: that of another rawlog (a.rawlog
-     * and a.rawlog.gz have one name for it), and a file that is neither empty nor the same nor was
-     * rendered. \param text that will be written */
+     * Nobody named that file, so what may be a user's is refused: that of another rawlog (a,
+     * a.rawlog and a.rawlog.gz have one name for it), what a link leads to, and any other file that
+     * neither is in the text nor is the programs' own. \param text that will be written */
     void addGroundTruth(const std::string& rawlog, const std::string& text);
 
     /** As addOutputFolder(), for one beside a rawlog that is an output itself, and for the partial

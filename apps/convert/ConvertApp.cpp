@@ -205,7 +205,8 @@ int convertTum(
     {
         return convert(recording, output, guard, out, err);
     }
-    guard.addGroundTruth(output.path, recording.groundTruth());
+    const std::string truth = kCopiedTruth + recording.groundTruth();
+    guard.addGroundTruth(output.path, truth);
     addOutputs(output, guard);
     const RecordingSummary summary = convertRecording(recording, output, err);
     std::vector<std::string> notes = recording.notes();
@@ -216,7 +217,7 @@ int convertTum(
     else
     {
         TextOutput file(groundTruthOf(output.path));
-        file.write(recording.groundTruth());
+        file.write(truth);
         file.close();
         notes.push_back(file.path() + ": ground truth");
     }

@@ -37,6 +37,11 @@ constexpr std::uint16_t kNoReading = 65535;  //!< 7-Scenes; farther than any cam
     return out;
 }
 
+[[nodiscard]] std::string folderOf(const std::vector<ImageRef>& images)
+{
+    return fs::path(images.front().path).parent_path().string();
+}
+
 [[nodiscard]] bool areStamped(const std::vector<ImageRef>& images)
 {
     return std::all_of(
@@ -48,6 +53,8 @@ FolderRecording::FolderRecording(const FolderOptions& options)
     : folder_(options.folder), layout_(readFolderLayout(options.folder))
 {
     chooseCamera(options);
+    leaveOutDoubles(layout_.colour);
+    leaveOutDoubles(layout_.depth);
     pairImages(options);
     if (!layout_.video.empty())
     {
@@ -90,10 +97,15 @@ void FolderRecording::chooseCamera(const FolderOptions& options)
 void FolderRecording::pairImages(const FolderOptions& options)
 {
     fps_ = options.fps > 0 ? options.fps : layout_.fps.value_or(30);
+    if (options.fps <= 0 && !layout_.stampList.empty())
+    {
+        leaveOutUnlisted();
+    }
     hasStamps_ = options.fps <= 0 && areStamped(layout_.colour) && areStamped(layout_.depth);
     if (hasStamps_)
     {
         checkStamps();
+        checkOrderOfList();
         if (options.evenStamps)
         {
             evenOutStamps();
@@ -160,6 +172,69 @@ void FolderRecording::checkStamps() const
     }
 }
 
+/** 7.png beside 7.jpg: the first one is taken. */
+void FolderRecording::leaveOutDoubles(std::vector<ImageRef>& images)
+{
+    std::vector<ImageRef> taken;
+    for (const ImageRef& image : images)
+    {
+        const bool isDouble =
+            !taken.empty() && taken.back().key == image.key && taken.back().stamp == image.stamp;
+        if (!isDouble)
+        {
+            taken.push_back(image);
+        }
+        else if (!image.path.empty())  // else it is a frame of a video
+        {
+            doubles_.push_back(image);
+        }
+    }
+    images = taken;
+}
+
+/** Images of which the list tells nothing, if it tells of others. */
+void FolderRecording::leaveOutUnlisted()
+{
+    const auto isListed = [](const ImageRef& image) { return image.stamp.has_value(); };
+    for (const auto* images : {&layout_.colour, &layout_.depth})
+    {
+        if (std::none_of(images->begin(), images->end(), isListed))
+        {
+            throw InputError(
+                layout_.stampList +
+                ": tells no stamps of the images beside it; give a rate by --fps");
+        }
+    }
+    for (auto* images : {&layout_.colour, &layout_.depth})
+    {
+        const auto end = std::stable_partition(images->begin(), images->end(), isListed);
+        unlisted_.insert(unlisted_.end(), end, images->end());
+        images->erase(end, images->end());
+    }
+}
+
+/** Names are in order of their stamps, a list need not be. */
+void FolderRecording::checkOrderOfList() const
+{
+    for (const auto* images : {&layout_.colour, &layout_.depth})
+    {
+        const auto back = std::adjacent_find(
+            images->begin(),
+            images->end(),
+            [](const ImageRef& a, const ImageRef& b)
+            { return a.key < b.key && *a.stamp >= *b.stamp; });
+        if (!layout_.stampList.empty() && back != images->end())
+        {
+            std::ostringstream out;
+            out << std::setprecision(15) << layout_.stampList << ": the stamp of frame "
+                << (back + 1)->key << ", " << *(back + 1)->stamp
+                << " s, is not after that of frame " << back->key << ", " << *back->stamp
+                << " s; correct it, or give a rate by --fps";
+            throw InputError(out.str());
+        }
+    }
+}
+
 void FolderRecording::evenOutStamps()
 {
     for (auto* images : {&layout_.depth, &layout_.colour})
@@ -196,7 +271,6 @@ void FolderRecording::pairByNumber()
         if (found != depthOf.end())
         {
             pairs_.emplace_back(i, found->second);
-            depthOf.erase(found);  // 7.jpg beside 7.png is one frame
         }
     }
 }
@@ -283,6 +357,49 @@ std::string FolderRecording::noteOfSteps() const
     return out.str();
 }
 
+/** Images that are in the folder and not in the rawlog. */
+std::vector<std::string> FolderRecording::notesOfLeftOut() const
+{
+    std::vector<std::string> out;
+    const auto add = [&out](std::size_t count, const std::string& text)
+    {
+        if (count > 0)
+        {
+            out.push_back(std::to_string(count) + " images " + text);
+        }
+    };
+    const auto examples = [](const std::string& first, std::size_t count)
+    { return first + (count > 1 ? ", ..." : ""); };
+    for (const std::string& source : layout_.otherSources)
+    {
+        out.push_back(
+            source + " was left out: there are images in " + folderOf(layout_.colour) + " and " +
+            folderOf(layout_.depth) + "; move away what is not meant");
+    }
+    add(unlisted_.size(),
+        "without a stamp in " + layout_.stampList +
+            " were left out; --fps takes them, too, at a rate of its own");
+    add(layout_.colour.size() + layout_.depth.size() - 2 * pairs_.size(),
+        "without a partner were left out");
+    if (!doubles_.empty())
+    {
+        add(doubles_.size(),
+            "of a number or time that another one has were left out: " +
+                examples(doubles_.front().path, doubles_.size()));
+    }
+    std::vector<ImageRef> known = doubles_;
+    for (const auto* images : {&unlisted_, &layout_.colour, &layout_.depth})
+    {
+        known.insert(known.end(), images->begin(), images->end());
+    }
+    if (const auto others = imagesBeside(known); !others.empty())
+    {
+        add(others.size(),
+            "whose names are no number were left out: " + examples(others.front(), others.size()));
+    }
+    return out;
+}
+
 std::vector<std::string> FolderRecording::notes() const
 {
     std::ostringstream layout;
@@ -315,18 +432,8 @@ std::vector<std::string> FolderRecording::notes() const
     {
         out.emplace_back("camera: nominal, that of the data set; --camera takes a calibration");
     }
-    const std::size_t alone = layout_.colour.size() + layout_.depth.size() - 2 * pairs_.size();
-    if (alone > 0)
-    {
-        out.push_back(std::to_string(alone) + " images without a partner were left out");
-    }
-    const auto others = imagesBeside(layout_.colour, layout_.depth);
-    if (!others.empty())
-    {
-        out.push_back(
-            std::to_string(others.size()) + " images whose names are no number were left out: " +
-            others.front() + (others.size() > 1 ? ", ..." : ""));
-    }
+    const std::vector<std::string> leftOut = notesOfLeftOut();
+    out.insert(out.end(), leftOut.begin(), leftOut.end());
     return out;
 }
 }  // namespace pointplane

@@ -41,12 +41,16 @@ class FolderRecording : public Recording
     void pairImages(const FolderOptions& options);
     void checkNumbers(bool isRateAsked) const;
     void checkStamps() const;
+    void leaveOutDoubles(std::vector<ImageRef>& images);
+    void leaveOutUnlisted();
+    void checkOrderOfList() const;
     void evenOutStamps();
     void pairByStamp(double maxDifference);
     void pairByNumber();
     [[nodiscard]] double stampOf(const ImageRef& image) const;
     [[nodiscard]] cv::Mat colourOf(const ImageRef& image);
     void readDepth(const ImageRef& image, RegisteredScan& scan);
+    [[nodiscard]] std::vector<std::string> notesOfLeftOut() const;
     /** How far numbers are apart, if that is more than one, or empty. */
     [[nodiscard]] std::string noteOfSteps() const;
 
@@ -56,6 +60,8 @@ class FolderRecording : public Recording
     double floatUnits_{1};  //!< the same, of depth in floating point
     bool isFloat_{false};   //!< depth has been
     bool hasStamps_{false};
+    // Left out: of a number or time that another image has; without a stamp in the layout's list.
+    std::vector<ImageRef> doubles_, unlisted_;
     std::string evening_;  //!< what was done to the stamps, or empty
     std::vector<std::pair<std::size_t, std::size_t>> pairs_;
     std::size_t next_{0};

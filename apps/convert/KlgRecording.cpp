@@ -7,10 +7,14 @@
 #include <opencv2/imgproc.hpp>
 
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <iomanip>
 #include <limits>
+#include <sstream>
 
+#include "quantile.h"
 #include <zlib.h>
 
 namespace pointplane
@@ -62,6 +66,43 @@ KlgRecording::KlgRecording(const KlgOptions& options) : options_(options)
     {
         numFrames_ = std::numeric_limits<std::int32_t>::max();
     }
+    checkUnitOfStamps();
+}
+
+/** By how far the first frames are apart. \throws InputError */
+void KlgRecording::checkUnitOfStamps()
+{
+    constexpr std::size_t kFrames = 20;
+    constexpr double kShortest = 1e-3, kLongest = 8;  // [s]
+    std::vector<double> intervals;
+    FrameHead before, head;
+    for (bool isThere = read(before); isThere && intervals.size() < kFrames; before = head)
+    {
+        file_.seekg(std::int64_t{before.depthSize} + before.colourSize, std::ios::cur);
+        isThere = read(head);
+        if (isThere)
+        {
+            intervals.push_back(
+                1e-6 * (static_cast<double>(head.microseconds) -
+                        static_cast<double>(before.microseconds)));
+        }
+    }
+    file_.clear();
+    file_.seekg(sizeof(numFrames_));
+    const double interval = intervals.empty() ? 0 : median(intervals);
+    if (interval > kLongest || (interval > 0 && interval < kShortest))
+    {
+        std::ostringstream out;
+        out << options_.file << ": frames are " << std::setprecision(3) << interval
+            << " s apart; are stamps in " << (interval > kLongest ? "nano" : "milli")
+            << "seconds? They must be in microseconds";
+        throw InputError(out.str());
+    }
+}
+
+bool KlgRecording::read(FrameHead& head)
+{
+    return read(head.microseconds) && read(head.depthSize) && read(head.colourSize);
 }
 
 template <class T>
@@ -182,17 +223,22 @@ std::optional<RecordedFrame> KlgRecording::next()
         return ended();
     }
     ++next_;
-    std::int64_t microseconds = 0;
-    std::int32_t depthSize = 0, colourSize = 0;
+    FrameHead head;
     std::vector<unsigned char> depth, colour;
-    if (!read(microseconds) || !read(depthSize) || !read(colourSize) || !read(depth, depthSize) ||
-        !read(colour, colourSize))
+    if (!read(head) || !read(depth, head.depthSize) || !read(colour, head.colourSize))
     {
         return stopped();
     }
+    constexpr std::int64_t kLatest = 10'000'000'000'000'000;  // [us] of the year 2286
+    if (std::abs(head.microseconds) > kLatest)
+    {
+        throw BadFrame(
+            where() + ": stamp " + std::to_string(head.microseconds) +
+            " is after the year 2286; are stamps in nanoseconds? They must be in microseconds");
+    }
     RecordedFrame out;
     out.isNominal = isNominal_;
-    out.scan.stamp = fromSeconds(1e-6 * static_cast<double>(microseconds));
+    out.scan.stamp = fromSeconds(1e-6 * static_cast<double>(head.microseconds));
     out.scan.camera = camera_.camera;
     out.scan.unitsPerMetre = camera_.unitsPerMetre;
     out.scan.depth = depthOf(depth);

@@ -35,6 +35,14 @@ class KlgRecording : public Recording
     [[nodiscard]] std::vector<std::string> notes() const override;
 
  private:
+    struct FrameHead
+    {
+        std::int64_t microseconds{0};
+        std::int32_t depthSize{0}, colourSize{0};
+    };
+
+    void checkUnitOfStamps();
+    [[nodiscard]] bool read(FrameHead& head);
     template <class T>
     [[nodiscard]] bool read(T& value);
     [[nodiscard]] bool read(std::vector<unsigned char>& bytes, std::int32_t size);

@@ -10,6 +10,15 @@ namespace pointplane
 {
 namespace fs = std::filesystem;
 
+namespace
+{
+/** Of a camera in a common base; identity if the folder does not tell. */
+[[nodiscard]] Eigen::Isometry3d extrinsicIn(const fs::path& path)
+{
+    return fs::exists(path) ? poseOfMatrix(path) : Eigen::Isometry3d::Identity();
+}
+}  // namespace
+
 std::optional<FolderLayout> scanNet(const fs::path& folder)
 {
     const fs::path intrinsic = folder / "intrinsic";
@@ -23,6 +32,8 @@ std::optional<FolderLayout> scanNet(const fs::path& folder)
     out.depth = imagesIn(folder / "depth");
     out.camera = colourCamera(cameraOfMatrix(intrinsic / "intrinsic_color.txt"));
     out.depthCamera = cameraOfMatrix(intrinsic / "intrinsic_depth.txt");
+    out.T_depth_colour = extrinsicIn(intrinsic / "extrinsic_depth.txt").inverse() *
+                         extrinsicIn(intrinsic / "extrinsic_color.txt");
     out.fps = 30;
     return out;
 }

@@ -11,7 +11,8 @@ namespace pointplane
 /** @name Folders as data sets have them; nothing if this is none of theirs
  * @{ */
 
-/** ScanNet, exported from .sens: each camera with its own size, depth in the axes of colour. */
+/** ScanNet, exported from .sens: each camera with its own size, and its pose in a common base
+ * (usually the identity, as depth was moved to colour's axes). */
 [[nodiscard]] std::optional<FolderLayout> scanNet(const std::filesystem::path& folder);
 
 /** 7-Scenes: frame-000000.color.png, frame-000000.depth.png; calibration as its authors advise. */

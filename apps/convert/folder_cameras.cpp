@@ -48,7 +48,7 @@ void setCameras(
     checkCamera(scan.camera, folder, "colour");
     if (layout.depthCamera)
     {
-        scan.depthCamera = DepthCamera{*layout.depthCamera, Eigen::Isometry3d::Identity()};
+        scan.depthCamera = DepthCamera{*layout.depthCamera, layout.T_depth_colour};
         scan.depthCamera->camera.width = scan.depth.cols;
         scan.depthCamera->camera.height = scan.depth.rows;
         checkCamera(scan.depthCamera->camera, folder, "depth");

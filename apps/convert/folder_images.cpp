@@ -30,17 +30,20 @@ namespace
 }
 
 /** Of a name that is a time since 1970: seconds with a decimal point, or so many digits that they
- * are milli-, micro- or nanoseconds of the years 2001 to 2286. */
+ * are seconds, milli-, micro- or nanoseconds of the years 2001 to 2286. */
 [[nodiscard]] std::optional<double> stampOf(const std::string& name, double number)
 {
     if (name.find('.') != std::string::npos)
     {
         return number;
     }
-    switch (std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isdigit(c); })
-                ? name.size()
-                : 0)
+    const bool isCounter =  // 0000000017 is frame 17
+        name.front() == '0' ||
+        !std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isdigit(c); });
+    switch (isCounter ? 0 : name.size())
     {
+        case 10:
+            return number;
         case 13:
             return number / 1e3;
         case 16:
@@ -53,19 +56,15 @@ namespace
 }
 }  // namespace
 
-std::vector<std::string> imagesBeside(
-    const std::vector<ImageRef>& colour, const std::vector<ImageRef>& depth)
+std::vector<std::string> imagesBeside(const std::vector<ImageRef>& images)
 {
     std::set<fs::path> folders, taken;
-    for (const auto* images : {&colour, &depth})
+    for (const ImageRef& image : images)
     {
-        for (const ImageRef& image : *images)
+        if (!image.path.empty())  // else it is a frame of a video
         {
-            if (!image.path.empty())  // else it is a frame of a video
-            {
-                taken.insert(image.path);
-                folders.insert(fs::path(image.path).parent_path());
-            }
+            taken.insert(image.path);
+            folders.insert(fs::path(image.path).parent_path());
         }
     }
     std::vector<std::string> out;

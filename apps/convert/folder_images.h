@@ -19,9 +19,9 @@ struct ImageRef
 
 /** Images of a folder whose names start and end as given, in order of their number or time.
  *
- * What is between is a number (frame 17), a time since 1970 (seconds with a decimal point, or 13,
- * 16 or 19 digits: milli-, micro- or nanoseconds), or two numbers with a dash (Redwood: frame and
- * microseconds). Other names are left out. */
+ * What is between is a number (frame 17), a time since 1970 (seconds with a decimal point, or 10,
+ * 13, 16 or 19 digits: seconds, milli-, micro- or nanoseconds), or two numbers with a dash
+ * (Redwood: frame and microseconds). Other names are left out. */
 [[nodiscard]] std::vector<ImageRef> imagesIn(
     const std::filesystem::path& folder,
     const std::string& prefix = "",
@@ -29,8 +29,7 @@ struct ImageRef
 
 /** Names of the images in the folders of these that are none of them: their names are no numbers.
  */
-[[nodiscard]] std::vector<std::string> imagesBeside(
-    const std::vector<ImageRef>& colour, const std::vector<ImageRef>& depth);
+[[nodiscard]] std::vector<std::string> imagesBeside(const std::vector<ImageRef>& images);
 
 /** Whether the folder's own name holds these whole words: "fr1" is in scans/fr1_desk, but neither
  * in fr1_scans/desk nor in fr10. */

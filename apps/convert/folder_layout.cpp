@@ -4,6 +4,7 @@
 #include <pointplane/mrpt_io/errors.h>
 
 #include <filesystem>
+#include <initializer_list>
 
 #include "dataset_layouts.h"
 #include "layout_files.h"
@@ -15,24 +16,37 @@ namespace
 {
 namespace fs = std::filesystem;
 
+/** The images of the first of these folders that has any. \param others of them that have some */
+[[nodiscard]] std::vector<ImageRef> imagesInFirst(
+    const fs::path& folder,
+    std::initializer_list<const char*> names,
+    std::vector<std::string>& others)
+{
+    std::vector<ImageRef> out;
+    for (const char* name : names)
+    {
+        const fs::path candidate = folder / name;
+        if (out.empty())
+        {
+            out = imagesIn(candidate);
+        }
+        else if (
+            !imagesIn(candidate).empty() &&
+            !fs::equivalent(candidate, fs::path(out.front().path).parent_path()))
+        {
+            others.push_back(candidate.string());
+        }
+    }
+    return out;
+}
+
 /** Colour and depth in two folders beside each other. */
 [[nodiscard]] std::optional<FolderLayout> twoFolders(const fs::path& folder)
 {
     FolderLayout out;
-    for (const char* name : {"rgb", "color", "colour", "image", "images", "RGB"})
-    {
-        if (out.colour.empty())
-        {
-            out.colour = imagesIn(folder / name);
-        }
-    }
-    for (const char* name : {"depth", "depths", "Depth"})
-    {
-        if (out.depth.empty())
-        {
-            out.depth = imagesIn(folder / name);
-        }
-    }
+    out.colour = imagesInFirst(
+        folder, {"rgb", "color", "colour", "image", "images", "RGB"}, out.otherSources);
+    out.depth = imagesInFirst(folder, {"depth", "depths", "Depth"}, out.otherSources);
     if (out.colour.empty() || out.depth.empty())
     {
         return {};

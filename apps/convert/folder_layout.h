@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Geometry>
+
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,9 +20,12 @@ struct FolderLayout
     std::string video;                //!< of colour, frame by frame; `colour` then has no paths
     std::optional<TumCamera> camera;  //!< of colour, where the folder tells it
     bool cameraIsNominal{false};      //!< a data set's usual camera, not this one's calibration
-    std::optional<PinholeCamera> depthCamera;  //!< where it is another
+    std::optional<PinholeCamera> depthCamera;                         //!< where it is another
+    Eigen::Isometry3d T_depth_colour{Eigen::Isometry3d::Identity()};  //!< of depthCamera
     double unitsPerMetre{1000};
-    std::optional<double> fps;  //!< where the folder tells it
+    std::optional<double> fps;              //!< where the folder tells it
+    std::string stampList;                  //!< a file that tells stamps by number, if there is one
+    std::vector<std::string> otherSources;  //!< of images, that could have been meant, too
 };
 
 /** \throws InputError if there are no colour and depth images in a layout that is known */

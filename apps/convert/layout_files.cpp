@@ -62,6 +62,28 @@ PinholeCamera cameraOfMatrix(const fs::path& path)
     return out;
 }
 
+Eigen::Isometry3d poseOfMatrix(const fs::path& path)
+{
+    constexpr double kRounding = 1e-3;  // of what the file holds
+    const std::vector<double> m = numbersInFile(path);
+    Eigen::Isometry3d out = Eigen::Isometry3d::Identity();
+    if (m.size() == 16)
+    {
+        out.matrix() = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(m.data());
+    }
+    const Eigen::Matrix3d R = out.linear();
+    if (m.size() != 16 || out.matrix().row(3) != Eigen::RowVector4d(0, 0, 0, 1) ||
+        !(R.transpose() * R).isIdentity(kRounding) || R.determinant() < 0)
+    {
+        throw InputError(
+            path.string() +
+            ": is not a 4x4 matrix of a rotation and a translation, with a last "
+            "row of 0 0 0 1");
+    }
+    out.linear() = Eigen::Quaterniond(R).normalized().toRotationMatrix();
+    return out;
+}
+
 std::optional<nlohmann::json> jsonObjectIn(const fs::path& path)
 {
     std::ifstream file(path);

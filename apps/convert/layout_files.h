@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Geometry>
+
 #include <filesystem>
 #include <optional>
 #include <vector>
@@ -19,6 +21,9 @@ namespace pointplane
 
 /** A 3x3 or 4x4 matrix, row by row. Its size is not in the file: 0x0. */
 [[nodiscard]] PinholeCamera cameraOfMatrix(const std::filesystem::path& path);
+
+/** A 4x4 matrix, row by row: a rotation and a translation [m]. */
+[[nodiscard]] Eigen::Isometry3d poseOfMatrix(const std::filesystem::path& path);
 
 /** A JSON file's object, or nothing if it is not there. */
 [[nodiscard]] std::optional<nlohmann::json> jsonObjectIn(const std::filesystem::path& path);

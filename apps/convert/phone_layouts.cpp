@@ -20,15 +20,17 @@ namespace fs = std::filesystem;
 
 namespace
 {
-/** Sets the stamps of images by their numbers, where `stampOf` knows them. */
+/** Sets the stamps of images by their numbers, where `stampOf` knows them. \param list its file */
 template <class StampOf>
-void setStamps(FolderLayout& out, const StampOf& stampOf)
+void setStamps(FolderLayout& out, const fs::path& list, const StampOf& stampOf)
 {
+    out.stampList = list.string();
     for (auto* images : {&out.colour, &out.depth})
     {
         for (ImageRef& image : *images)
         {
-            if (const std::optional<double> stamp = stampOf(image.key))
+            const std::optional<double> stamp = stampOf(image.key);
+            if (image.isNumbered && stamp)
             {
                 image.stamp = stamp;
             }
@@ -69,20 +71,29 @@ std::optional<FolderLayout> strayScanner(const fs::path& folder)
     out.depth = imagesIn(folder / "depth");
     out.camera = colourCamera(cameraOfMatrix(folder / "camera_matrix.csv"));
     out.colour = imagesIn(folder / "rgb");
+    const std::string video = (folder / "rgb.mp4").string();
+    if (!out.colour.empty() && fs::exists(video))
+    {
+        out.otherSources.push_back(video);
+    }
     if (out.colour.empty())
     {
-        out.video = (folder / "rgb.mp4").string();
+        out.video = video;
         out.colour = out.depth;
         std::for_each(
             out.colour.begin(), out.colour.end(), [](ImageRef& image) { image.path.clear(); });
     }
-    setStamps(
-        out,
-        [stamps = stampsOf(folder / "odometry.csv")](long frame)
-        {
-            const auto found = stamps.find(frame);
-            return found == stamps.end() ? std::nullopt : std::optional(found->second);
-        });
+    if (const fs::path list = folder / "odometry.csv"; fs::exists(list))
+    {
+        setStamps(
+            out,
+            list,
+            [stamps = stampsOf(list)](long frame)
+            {
+                const auto found = stamps.find(frame);
+                return found == stamps.end() ? std::nullopt : std::optional(found->second);
+            });
+    }
     out.fps = 60;
     return out;
 }
@@ -124,6 +135,7 @@ void readRecord3d(const fs::path& folder, FolderLayout& out)
         {
             setStamps(
                 out,
+                path,
                 [&stamps = (*json)["frameTimestamps"]](long frame) -> std::optional<double>
                 {
                     const auto i = static_cast<std::size_t>(std::max(0L, frame));

@@ -3,12 +3,11 @@
 
 #include <pointplane/core/number_text.h>
 #include <pointplane/evaluation/svg_chart.h>
-#include <pointplane/mrpt_io/errors.h>
+#include <pointplane/mrpt_io/OutputFolder.h>
 
 #include <cctype>
 #include <cstdlib>
 #include <ctime>
-#include <filesystem>
 #include <ostream>
 
 #include "OutputGuard.h"
@@ -62,18 +61,12 @@ void writeReportFile(HtmlReport report, const std::string& directory, CommandCon
 {
     report.addParagraph(
         "pointplane-eval " POINTPLANE_VERSION ", " + timeText() + ": " + context.commandLine);
-    std::error_code error;
-    std::filesystem::create_directories(directory, error);
-    if (error)
-    {
-        throw EnvironmentError("cannot create " + directory + ": " + error.message());
-    }
-    const std::string path = directory + "/index.html";
+    const OutputFolder folder(directory);
+    const std::string path = folder.fileAt("index.html");
     writeText(report.html(), path, context.out);
     for (const Chart& chart : report.charts())
     {
-        writeText(
-            svgFileOf(chart), directory + "/" + fileNameOf(chart.title) + ".svg", context.out);
+        writeText(svgFileOf(chart), folder.fileAt(fileNameOf(chart.title) + ".svg"), context.out);
     }
     context.err << "report: " << path << "\n";
 }

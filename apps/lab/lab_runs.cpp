@@ -106,27 +106,25 @@ double sizeOf(const std::string& path)
     const auto bytes = std::filesystem::file_size(path, error);
     return error ? 1.0 : 1.0 + static_cast<double>(bytes);
 }
+
+std::string temporaryFolder()
+{
+    std::error_code error;
+    std::string path =
+        (std::filesystem::temp_directory_path(error) / "pointplane-eval-XXXXXX").string();
+    if (mkdtemp(path.data()) == nullptr)
+    {
+        throw EnvironmentError("cannot create the temporary directory '" + path + "'");
+    }
+    return path;
+}
 }  // namespace
 
 WorkDirectory::WorkDirectory(const std::string& path)
     // Absolute, as its files are arguments of programs: "-x" is no option then.
-    : path_(path.empty() ? path : std::filesystem::absolute(path).string()),
+    : folder_(path.empty() ? temporaryFolder() : std::filesystem::absolute(path).string()),
       temporary_(path.empty())
 {
-    std::error_code error;
-    if (temporary_)
-    {
-        path_ = (std::filesystem::temp_directory_path(error) / "pointplane-eval-XXXXXX").string();
-        if (mkdtemp(path_.data()) == nullptr)
-        {
-            throw EnvironmentError("cannot create the temporary directory '" + path_ + "'");
-        }
-    }
-    std::filesystem::create_directories(path_, error);
-    if (!std::filesystem::is_directory(path_, error))
-    {
-        throw EnvironmentError("cannot create the directory '" + path_ + "'");
-    }
 }
 
 WorkDirectory::~WorkDirectory()
@@ -134,7 +132,7 @@ WorkDirectory::~WorkDirectory()
     if (temporary_)
     {
         std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
+        std::filesystem::remove_all(folder_.path(), ignored);
     }
 }
 
@@ -208,9 +206,11 @@ void LabRunner::requireProgram() const
 }
 
 std::vector<LabScore> LabRunner::run(
-    const std::vector<LabRun>& runs, const RpeOptions& rpe, std::ostream& err) const
+    const std::vector<LabRun>& runs,
+    const RpeOptions& rpe,
+    const WorkDirectory& work,
+    std::ostream& err) const
 {
-    const WorkDirectory work(directory);
     const std::vector<std::size_t> sameAs = firstAlike(runs);
     std::vector<std::size_t> made;  // runs that no earlier one is like
     std::vector<ProcessJob> processes;
@@ -220,11 +220,12 @@ std::vector<LabScore> LabRunner::run(
     {
         if (sameAs[k] == k)
         {
-            const std::string base = work.path() + "/" + fileName(k, runs[k].name);
+            const std::string base = fileName(k, runs[k].name);
             made.push_back(k);
-            trajectories.push_back(base + ".txt");
+            trajectories.push_back(work.fileAt(base + ".txt"));
             processes.push_back(
-                {odometryCommand(program(), runs[k], trajectories.back()), base + ".log"});
+                {odometryCommand(program(), runs[k], trajectories.back()),
+                 work.fileAt(base + ".log")});
             bytesLeft += sizeOf(runs[k].rawlog);
         }
     }

@@ -3,6 +3,7 @@
 
 #include <pointplane/evaluation/Trajectory.h>
 #include <pointplane/evaluation/rpe.h>
+#include <pointplane/mrpt_io/OutputFolder.h>
 
 #include <iosfwd>
 #include <optional>
@@ -14,6 +15,7 @@
 namespace pointplane
 {
 class OutputGuard;
+class WorkDirectory;
 
 /** One run of pointplane-odometry, to be scored against ground truth. */
 struct LabRun
@@ -50,10 +52,13 @@ struct LabRunner
 
     /** Makes all runs, several at a time, and scores them; runs with the same rawlog and the same
      * parameters are made once. A failed run is a score with its
-     * failure, not an exception. Progress, one line per run, goes to `err`. \throws
-     * EnvironmentError when the directory cannot be written */
+     * failure, not an exception. Progress, one line per run, goes to `err`.
+     * \param work made of `directory`, takes trajectories and logs */
     [[nodiscard]] std::vector<LabScore> run(
-        const std::vector<LabRun>& runs, const RpeOptions& rpe, std::ostream& err) const;
+        const std::vector<LabRun>& runs,
+        const RpeOptions& rpe,
+        const WorkDirectory& work,
+        std::ostream& err) const;
 };
 
 /** A directory that is gone with its owner, unless it was given by name. */
@@ -65,10 +70,11 @@ class WorkDirectory
     ~WorkDirectory();
     WorkDirectory(const WorkDirectory&) = delete;
     WorkDirectory& operator=(const WorkDirectory&) = delete;
-    [[nodiscard]] const std::string& path() const { return path_; }
+    /** Path for a file in it (OutputFolder). */
+    [[nodiscard]] std::string fileAt(const std::string& name) const { return folder_.fileAt(name); }
 
  private:
-    std::string path_;
+    OutputFolder folder_;
     bool temporary_;
 };
 

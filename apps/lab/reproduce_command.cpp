@@ -45,10 +45,9 @@ struct ReproduceCommand
     void plan(const std::string& paper, Reproduction& result) const;
     void makeRawlogs(
         std::vector<ReproducedSequence>& sequences,
-        const std::string& folder,
+        const WorkDirectory& work,
         CommandContext& context) const;
-    [[nodiscard]] std::string score(
-        const std::string& corner, Reproduction& result, CommandContext& context) const;
+    [[nodiscard]] std::string score(Reproduction& result, CommandContext& context) const;
     void write(const Reproduction& result, CommandContext& context) const;
 };
 
@@ -123,11 +122,11 @@ std::string findPaperConfig()
     throw InputError("config-paper.ini not found; name it by --paper-config");
 }
 
-constexpr const char* kCornerRawlog = "/corner.rawlog";
+constexpr const char* kCornerRawlog = "corner.rawlog";
 
 void ReproduceCommand::makeRawlogs(
     std::vector<ReproducedSequence>& sequences,
-    const std::string& folder,
+    const WorkDirectory& work,
     CommandContext& context) const
 {
     std::vector<ProcessJob> jobs;
@@ -139,20 +138,20 @@ void ReproduceCommand::makeRawlogs(
             {{programOr(simulate, "pointplane-simulate"),
               "corner",
               "-o",
-              folder + kCornerRawlog,
+              work.fileAt(kCornerRawlog),
               "--duration",
               format("%g", cornerDuration),
               "--quiet"},
-             folder + "/corner.log"});
+             work.fileAt("corner.log")});
     }
     for (ReproducedSequence& s : sequences)
     {
         const auto folderName = std::filesystem::path(s.folder).filename().string();
-        s.rawlog = folder + "/" + folderName + ".rawlog";
+        s.rawlog = work.fileAt(folderName + ".rawlog");
         s.groundTruth = groundTruthOf(s.rawlog);
         jobs.push_back(
             {{programOr(convert, "pointplane-convert"), "tum", s.folder, "-o", s.rawlog, "--quiet"},
-             s.rawlog + ".log"});
+             work.fileAt(folderName + ".rawlog.log")});
     }
     std::string failure;  // the callback runs in another thread and must not throw
     runProcesses(
@@ -206,11 +205,12 @@ void ReproduceCommand::plan(const std::string& paper, Reproduction& result) cons
     }
 }
 
-/** Runs all variants on all sequences. \param corner rawlog of the simulated sequence
- * \return which runs failed, or empty */
-std::string ReproduceCommand::score(
-    const std::string& corner, Reproduction& result, CommandContext& context) const
+/** Makes rawlogs, and runs all variants on them. \return which runs failed, or empty */
+std::string ReproduceCommand::score(Reproduction& result, CommandContext& context) const
 {
+    const WorkDirectory work(runner.directory);
+    makeRawlogs(result.sequences, work, context);
+    const std::string corner = work.fileAt(kCornerRawlog);
     std::vector<LabRun> runs;
     for (const ReproducedSequence& s : result.sequences)
     {
@@ -229,7 +229,7 @@ std::string ReproduceCommand::score(
         runs.push_back({"corner: " + v.name, corner, groundTruthOf(corner), v.config, v.settings});
     }
     result.rpe.fixedDelta = true;
-    result.scores = runner.run(runs, result.rpe, context.err);
+    result.scores = runner.run(runs, result.rpe, work, context.err);
     const std::string failures = failuresOf(runs, result.scores);
     for (const ReproducedSequence& s : result.sequences)
     {
@@ -259,10 +259,10 @@ void ReproduceCommand::write(const Reproduction& result, CommandContext& context
     }
     if (!figure.empty())
     {
-        const WorkDirectory folder(figure);
+        const OutputFolder folder(figure);
         for (const NamedChart& chart : figuresOf(result))
         {
-            writeText(svgFileOf(chart.chart), folder.path() + "/" + chart.fileName, context.out);
+            writeText(svgFileOf(chart.chart), folder.fileAt(chart.fileName), context.out);
         }
     }
 }
@@ -288,9 +288,7 @@ void ReproduceCommand::run(CommandContext& context) const
     plan(paper, result);
     (void)loadOdometryParams(paper, {});
     runner.requireProgram();
-    const WorkDirectory work(runner.directory);
-    makeRawlogs(result.sequences, work.path(), context);
-    const std::string failures = score(work.path() + kCornerRawlog, result, context);
+    const std::string failures = score(result, context);
     write(result, context);
     if (!failures.empty())
     {

@@ -160,7 +160,7 @@ void SweepCommand::run(CommandContext& context)
     const RpeOptions resolved = rpe.resolved();
     const std::vector<LabRun> planned = runs(sweep.values);
     runner.requireProgram();
-    sweep.scores = runner.run(planned, resolved, context.err);
+    sweep.scores = runner.run(planned, resolved, WorkDirectory(runner.directory), context.err);
     sweep.protocol = describe(resolved);
 
     if (!files.replaceTable())

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OverlaySink.h"
 
-#include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/image_file.h>
 
 #include <cstdio>
@@ -12,12 +11,6 @@ namespace pointplane
 OverlaySink::OverlaySink(const std::string& folder, std::size_t every)
     : folder_(folder), every_(every)
 {
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error)
-    {
-        throw EnvironmentError("cannot create " + folder + ": " + error.message());
-    }
 }
 
 /** Since the frame before. */
@@ -59,7 +52,7 @@ void OverlaySink::add(const OutputItem& item)
         item.source.frameIndex,
         frame.stamp - *firstStamp_,
         speed);
-    writeJpegFile(folder_ + "/" + name, picture, kQuality);
+    writeJpegFile(folder_.fileAt(name), picture, kQuality);
     names_.insert(name);
 }
 
@@ -69,7 +62,7 @@ std::set<std::string> OverlaySink::earlierPictures() const
     constexpr std::size_t kFewestDigits = 6;
     std::set<std::string> out;
     std::error_code error;
-    for (const auto& entry : std::filesystem::directory_iterator(folder_, error))
+    for (const auto& entry : std::filesystem::directory_iterator(folder_.path(), error))
     {
         const std::string name = entry.path().filename(), stem = entry.path().stem();
         const bool isNumber = stem.size() >= kFewestDigits &&
@@ -85,7 +78,7 @@ std::set<std::string> OverlaySink::earlierPictures() const
 std::string OverlaySink::description() const
 {
     const auto earlier = earlierPictures();
-    return folder_ + ": " + std::to_string(names_.size()) + " pictures" +
+    return folder_.path() + ": " + std::to_string(names_.size()) + " pictures" +
            (earlier.empty() ? ""
                             : ", and " + std::to_string(earlier.size()) +
                                   " of an earlier run, e.g. " + *earlier.begin());

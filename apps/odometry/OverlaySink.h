@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pointplane/mrpt_io/OutputFolder.h>
+
 #include <optional>
 #include <set>
 #include <string>
@@ -14,7 +16,7 @@ namespace pointplane
 class OverlaySink : public Sink
 {
  public:
-    /** \throws EnvironmentError if the folder cannot be created */
+    /** \throws EnvironmentError if the folder cannot be created, or another program writes there */
     OverlaySink(const std::string& folder, std::size_t every);
 
     void add(const OutputItem& item) override;
@@ -27,7 +29,7 @@ class OverlaySink : public Sink
     [[nodiscard]] std::optional<CameraSpeed> speedAt(const OutputItem& item);
     [[nodiscard]] std::set<std::string> earlierPictures() const;
 
-    std::string folder_;
+    OutputFolder folder_;
     std::size_t every_;
     std::size_t numFrames_{0};
     std::set<std::string> names_;                     //!< of the files

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SequenceWriter.h"
 
+#include <pointplane/mrpt_io/ImagesFolder.h>
 #include <pointplane/mrpt_io/ObservationConverter.h>
 #include <pointplane/mrpt_io/ScanWriter.h>
 #include <pointplane/mrpt_io/errors.h>
@@ -12,7 +13,9 @@
 #include <cstdio>
 #include <deque>
 #include <filesystem>
+#include <fstream>
 #include <future>
+#include <memory>
 #include <optional>
 #include <thread>
 
@@ -61,15 +64,23 @@ class Renderers
     int started_{0};
 };
 
+/** Whether a file may be one of writeMasks(), complete or not: a number as its name, eight bits of
+ * grey. */
+[[nodiscard]] bool isMask(const std::filesystem::path& path)
+{
+    const std::string name = path.filename().string();
+    const std::string rest =
+        name.substr(std::min(name.size(), name.find_first_not_of("0123456789")));
+    constexpr std::size_t kBits = 24, kColours = 25, kHead = 26;  // of a PNG, all bytes before
+    char head[kHead] = {};
+    std::ifstream(path, std::ios::binary).read(head, sizeof head);
+    return rest.size() < name.size() &&
+           (rest == ".png.partial" || (rest == ".png" && head[kBits] == 8 && head[kColours] == 0));
+}
+
 /** One picture a frame, of the colour image's pixels: 0 = the still world, i + 1 = mover i. */
 void writeMasks(const SimulatedSequence& sequence, const std::string& folder)
 {
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error)
-    {
-        throw EnvironmentError("cannot create " + folder + ": " + error.message());
-    }
     for (int i = 0; i < sequence.numFrames(); ++i)
     {
         char name[32];
@@ -94,6 +105,24 @@ void writeMasks(const SimulatedSequence& sequence, const std::string& folder)
         text += "\n";
     }
     return text;
+}
+
+/** Where masks go, if they are asked for. After the rawlog: who writes that has them to himself. */
+[[nodiscard]] std::unique_ptr<ImagesFolder> openMasks(
+    const SequenceOutput& output, ScanWriter& writer)
+{
+    try
+    {
+        return !output.masks
+                   ? nullptr
+                   : std::make_unique<ImagesFolder>(
+                         masksFolderOf(output.path), OwnImages{"mask of what moves", isMask});
+    }
+    catch (...)
+    {
+        writer.discard();
+        throw;
+    }
 }
 
 void writeFrames(
@@ -153,6 +182,7 @@ void writeSequence(
         guard.addFolderBeside("masks of -o", output.path, masksFolderOf(output.path));
     }
     ScanWriter writer(output.path, output.label, output.external);
+    const std::unique_ptr<ImagesFolder> masks = openMasks(output, writer);
     try
     {
         writeFrames(sequence, output, writer, progress);
@@ -162,11 +192,15 @@ void writeSequence(
             file.write(truth);
             file.close();
         }
-        if (output.masks)
+        if (masks)
         {
-            writeMasks(sequence, masksFolderOf(output.path));
+            writeMasks(sequence, masks->partialPath());
+            masks->completeWith([&] { writer.close(); });
         }
-        writer.close();
+        else
+        {
+            writer.close();
+        }
     }
     catch (const EnvironmentError&)
     {
@@ -175,6 +209,10 @@ void writeSequence(
     catch (...)
     {
         writer.discard();
+        if (masks)
+        {
+            masks->removePartial();
+        }
         throw;
     }
 }

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
+#include <filesystem>
 #include <optional>
 #include <ostream>
 
@@ -178,6 +179,12 @@ int simulate(Arguments& args, std::ostream& standard, std::ostream& err)
         << (writesTruth ? groundTruthOf(args.output.path) + ": ground truth"
                         : args.output.path + ": is not a file; the ground truth was not written")
         << "\n";
+    if (std::error_code error;
+        !args.output.masks && std::filesystem::exists(masksFolderOf(args.output.path), error))
+    {
+        err << "pointplane-simulate: warning: " << masksFolderOf(args.output.path)
+            << " was there before; remove it if it is of another recording\n";
+    }
     if (args.output.masks)
     {
         out << masksFolderOf(args.output.path) << ": masks of " << sequence.scene()->movers.size()

@@ -160,7 +160,7 @@ TEST_F(ConvertApp, pairsAreThoseOfAssociateAndNothingIsLost)
     EXPECT_EQ(stampText(scans[0]->timestamp), "1305031102.175304000");
     EXPECT_EQ(
         test::readBytes(dir_ / "out.groundtruth.txt"),
-        test::readBytes(dir_ / "in/groundtruth.txt"));
+        "# copied by pointplane-convert\n" + test::readBytes(dir_ / "in/groundtruth.txt"));
 }
 
 TEST_F(ConvertApp, cameraAndDelayReachEachFrame)
@@ -491,6 +491,7 @@ TEST_F(ConvertApp, groundTruthOfAnotherRawlogIsNotReplacedAndNotAdopted)
     for (const std::string& own :
          {test::readBytes(dir_ / "in/groundtruth.txt"),
           std::string(),
+          std::string("# copied by pointplane-convert\nwhat was in the folder before\n"),
           std::string("# exact pose in the world of the robot, as rendered\n")})
     {
         writeBytes(truth, own);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/mrpt_io/mrpt_poses.h>
+
 #include <opencv2/videoio.hpp>
 
 #include <cmath>
@@ -103,6 +105,29 @@ TEST_F(ConvertFolder, scanNetHasTwoCamerasInOnePlace)
     EXPECT_DOUBLE_EQ(scan->cameraParamsIntensity.fx(), 60);
 }
 
+/** As they are before depth is moved to colour: both cameras' poses in a common base. */
+TEST_F(ConvertFolder, scanNetTellsWhereItsCamerasAre)
+{
+    writeFrames("in/color/%d.jpg", "in/depth/%d.png", 32);
+    write("in/intrinsic/intrinsic_color.txt", "60 0 31.5 0\n0 60 23.5 0\n0 0 1 0\n0 0 0 1\n");
+    write("in/intrinsic/intrinsic_depth.txt", "30 0 15.5 0\n0 30 11.5 0\n0 0 1 0\n0 0 0 1\n");
+    write("in/intrinsic/extrinsic_color.txt", "1 0 0 0.03\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
+    // Turned by 90 degrees about z.
+    write("in/intrinsic/extrinsic_depth.txt", "0 -1 0 0.01\n1 0 0 0\n0 0 1 0\n0 0 0 1\n");
+    ASSERT_EQ(run({"folder", in_}), kExitOk) << text_;
+    const Eigen::Isometry3d T_depth_colour =
+        opticalInBody().inverse() * fromMrpt(scans()[0]->relativePoseIntensityWRTDepth);
+    EXPECT_TRUE(T_depth_colour.translation().isApprox(Eigen::Vector3d(0, -0.02, 0), 1e-9));
+    EXPECT_TRUE(T_depth_colour.linear().col(0).isApprox(-Eigen::Vector3d::UnitY(), 1e-9));
+
+    for (const char* bad : {"1 0 0 0\n0 1 0 0\n0 0 1 0\n", "2 0 0 0\n0 2 0 0\n0 0 2 0\n0 0 0 1\n"})
+    {
+        write("in/intrinsic/extrinsic_color.txt", bad);
+        EXPECT_EQ(run({"folder", in_}), kExitBadInput);
+        EXPECT_THAT(text_, HasSubstr("extrinsic_color.txt: is not a 4x4 matrix of a rotation"));
+    }
+}
+
 TEST_F(ConvertFolder, sevenScenesMarksNoReadingBy65535)
 {
     for (int i = 0; i < 3; ++i)
@@ -180,6 +205,63 @@ TEST_F(ConvertFolder, record3dHasSmallDepthImages)
     write("in/metadata.json", R"({"w": 64, "h": 48, "K": [60, 0], "fps": 60})");
     EXPECT_EQ(run({"folder", in_}), kExitBadInput);
     EXPECT_THAT(text_, HasSubstr("metadata.json"));
+}
+
+TEST_F(ConvertFolder, stampsOfAListThatGoBackAreRefused)
+{
+    writeFrames("in/rgb/%d.jpg", "in/depth/%d.png");
+    const std::string start = R"({"w": 64, "h": 48, "K": [60, 0, 0, 0, 60, 0, 31.5, 23.5, 1], )";
+    for (const char* stamps : {"[5.2, 5.1, 5.0]", "[5.2, 5.1, 5.3]"})
+    {
+        write("in/metadata.json", start + "\"frameTimestamps\": " + stamps + "}");
+        EXPECT_EQ(run({"folder", in_}), kExitBadInput);
+        EXPECT_THAT(
+            text_,
+            HasSubstr(
+                "in/metadata.json: the stamp of frame 1, 5.1 s, is not after that of frame 0, "
+                "5.2 s; correct it, or give a rate by --fps\n"));
+    }
+    ASSERT_EQ(run({"folder", in_, "--fps", "10"}), kExitOk) << text_;
+    expectFrames(10);
+}
+
+TEST_F(ConvertFolder, framesWithoutAStampInTheListAreLeftOut)
+{
+    const auto expectTwo = [this](const std::string& list)
+    {
+        ASSERT_EQ(run({"folder", in_}), kExitOk) << text_;
+        EXPECT_THAT(text_, HasSubstr("stamps of the recording"));
+        EXPECT_THAT(
+            text_,
+            HasSubstr(
+                "\n2 images without a stamp in " + in_ + list +
+                " were left out; --fps takes them, too, at a rate of its own\n"));
+        EXPECT_THAT(text_, Not(HasSubstr("no number")));
+        const auto found = frames();
+        ASSERT_EQ(found.size(), 2U);
+        EXPECT_NEAR(found[0].stamp, 7.5, 1e-6);
+        EXPECT_NEAR(found[1].stamp, 7.7, 1e-6);
+    };
+    const auto expectNone = [this](const std::string& list)
+    {
+        EXPECT_EQ(run({"folder", in_}), kExitBadInput);
+        EXPECT_THAT(
+            text_,
+            HasSubstr(list + ": tells no stamps of the images beside it; give a rate by --fps\n"));
+    };
+    const std::string record3d = R"({"w": 64, "h": 48, "K": [60, 0, 0, 0, 60, 0, 31.5, 23.5, 1], )";
+    writeFrames("in/rgb/%d.png", "in/depth/%d.png");
+    write("in/metadata.json", record3d + R"("frameTimestamps": [7.5, 7.7]})");
+    expectTwo("/metadata.json");
+    write("in/metadata.json", record3d + R"("frameTimestamps": []})");
+    expectNone("/metadata.json");
+    std::filesystem::remove(dir_ / "in/metadata.json");
+
+    write("in/camera_matrix.csv", "60, 0, 31.5\n0, 60, 23.5\n0, 0, 1\n");
+    write("in/odometry.csv", "timestamp, frame, x\n7.5, 000000, 0\n7.7, 000002, 0\n");
+    expectTwo("/odometry.csv");
+    write("in/odometry.csv", "timestamp, frame, x\n");
+    expectNone("/odometry.csv");
 }
 
 TEST_F(ConvertFolder, aFolderOfMetadataIsNoFileOfIt)
@@ -347,7 +429,7 @@ TEST_F(ConvertFolder, otherFoldersAreErrorsThatSayWhatIsKnown)
 TEST_F(ConvertFolder, longNumbersAreTimesSince1970)
 {
     write("in/camera.txt", kCamera);
-    for (const char* unit : {"000", "000000", "000000000"})
+    for (const char* unit : {"", "000", "000000", "000000000"})
     {
         std::filesystem::remove_all(dir_ / "in/rgb");
         std::filesystem::remove_all(dir_ / "in/depth");
@@ -366,6 +448,15 @@ TEST_F(ConvertFolder, longNumbersAreTimesSince1970)
     }
 }
 
+/** As KITTI's. */
+TEST_F(ConvertFolder, longNumbersWithZerosInFrontAreFrames)
+{
+    write("in/camera.txt", kCamera);
+    writeFrames("in/rgb/%010d.png", "in/depth/%010d.png");
+    ASSERT_EQ(run({"folder", in_}), kExitOk) << text_;
+    expectFrames(30);
+}
+
 TEST_F(ConvertFolder, eachNumberIsOneFrame)
 {
     writeFrames("in/rgb/%d.jpg", "in/depth/%d.png");
@@ -373,7 +464,33 @@ TEST_F(ConvertFolder, eachNumberIsOneFrame)
     write("in/camera.txt", kCamera);
     ASSERT_EQ(run({"folder", in_}), kExitOk) << text_;
     EXPECT_THAT(text_, HasSubstr("3 frames"));
-    EXPECT_THAT(text_, HasSubstr("\n3 images without a partner"));
+    EXPECT_THAT(text_, Not(HasSubstr("without a partner")));
+    EXPECT_THAT(
+        text_,
+        HasSubstr(
+            "\n3 images of a number or time that another one has were left out: " + in_ +
+            "/rgb/0.png, ...\n"));
+    EXPECT_THAT(text_, Not(HasSubstr("no number")));
+}
+
+TEST_F(ConvertFolder, whichOfTwoFoldersWasTakenIsTold)
+{
+    writeFrames("in/color/%d.jpg", "in/depth/%d.png");
+    write("in/camera.txt", kCamera);
+    std::filesystem::create_directory_symlink("color", dir_ / "in/rgb");  // no other one
+    std::filesystem::create_directory(dir_ / "in/image");
+    ASSERT_EQ(run({"folder", in_}), kExitOk) << text_;
+    EXPECT_THAT(text_, Not(HasSubstr("left out")));
+    writeFrames("in/image/%d.jpg", "in/depths/%d.png");
+    ASSERT_EQ(run({"folder", in_}), kExitOk) << text_;
+    for (const char* other : {"/image", "/depths"})
+    {
+        EXPECT_THAT(
+            text_,
+            HasSubstr(
+                "\n" + in_ + other + " was left out: there are images in " + in_ + "/rgb and " +
+                in_ + "/depth; move away what is not meant\n"));
+    }
 }
 
 TEST_F(ConvertFolder, impossibleCalibrationsRatesAndTimesAreRefused)

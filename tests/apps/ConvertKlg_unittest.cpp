@@ -39,7 +39,8 @@ void append(std::string& out, const T& value)
 }
 
 /** As ElasticFusion's Logger2 writes it: RGB, which OpenCV's encoder takes for BGR. */
-[[nodiscard]] std::string log(int numFrames, bool isCompressed)
+[[nodiscard]] std::string log(
+    int numFrames, bool isCompressed, std::int64_t start = 5000000, std::int64_t step = 33333)
 {
     std::string out;
     append(out, static_cast<std::int32_t>(numFrames));
@@ -55,7 +56,7 @@ void append(std::string& out, const T& value)
             cv::imencode(".jpg", rgb, jpeg);
             colour.assign(jpeg.begin(), jpeg.end());
         }
-        append(out, static_cast<std::int64_t>(5000000 + 33333 * i));
+        append(out, start + step * i);
         append(out, static_cast<std::int32_t>(depth.size()));
         append(out, static_cast<std::int32_t>(colour.size()));
         out += depth + colour;
@@ -135,6 +136,24 @@ TEST_F(ConvertKlg, framesBehindTheNumberAreTold)
     EXPECT_THAT(text_, HasSubstr("goes on behind the 2 frames"));
     EXPECT_EQ(frames().size(), 2U);
     EXPECT_EQ(convert(std::string(4, '\0')), kExitBadInput);
+}
+
+TEST_F(ConvertKlg, stampsInAnotherUnitAreRefused)
+{
+    EXPECT_EQ(convert(log(4, true, 1'500'000'000'000'000'000, 33'333'333)), kExitBadInput);
+    EXPECT_THAT(
+        text_,
+        HasSubstr("in.klg: frames are 33.3 s apart; are stamps in nanoseconds? They must be in "
+                  "microseconds\n"));
+    EXPECT_EQ(convert(log(4, true, 5000, 33)), kExitBadInput);
+    EXPECT_THAT(text_, HasSubstr("frames are 3.3e-05 s apart; are stamps in milliseconds?"));
+    EXPECT_EQ(convert(log(1, true, 1'500'000'000'000'000'000, 0)), kExitBadInput);
+    EXPECT_THAT(
+        text_,
+        HasSubstr("in.klg: frame 0: stamp 1500000000000000000 is after the year 2286; are stamps "
+                  "in nanoseconds?"));
+    EXPECT_FALSE(std::filesystem::exists(out_));
+    EXPECT_EQ(convert(log(4, true, 1'500'000'000'000'000, 1'000'000)), kExitOk) << text_;
 }
 
 TEST_F(ConvertKlg, damagedFramesAreLeftOut)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // No output destroys anything: of pointplane-odometry, whose outputs are all others' outputs, too.
 #include <pointplane/mrpt_io/OutputFile.h>
+#include <pointplane/mrpt_io/OutputFolder.h>
 #include <pointplane/mrpt_io/errors.h>
 
 #include <algorithm>
@@ -381,6 +382,42 @@ TEST_F(Outputs, twoProgramsDoNotWriteOneFile)
     EXPECT_EQ(readBytes(out_), "first");
     EXPECT_EQ(run({in_, "--trajectory", out_}).code, kExitOk);
     EXPECT_NE(readBytes(out_), "first");
+}
+
+/** Nobody named the files in it. */
+TEST_F(Outputs, linksInAFolderAreReplacedAndNotFollowed)
+{
+    const std::string folder = dir_ / "pictures", input = readBytes(in_);
+    fs::create_directory(folder);
+    fs::create_symlink("../in/a.rawlog", folder + "/000000.jpg");
+    fs::create_symlink("../nothing", folder + "/000001.jpg");
+    fs::create_hard_link(in_, folder + "/000002.jpg");
+    const AppRun outcome = run({in_, "--overlay", folder});
+    EXPECT_EQ(outcome.code, kExitOk) << outcome.err;
+    EXPECT_EQ(readBytes(in_), input);
+    EXPECT_FALSE(fs::exists(dir_ / "nothing"));
+    for (const char* name : {"/000000.jpg", "/000001.jpg", "/000002.jpg"})
+    {
+        EXPECT_EQ(fs::symlink_status(folder + name).type(), fs::file_type::regular) << name;
+        EXPECT_EQ(readBytes(folder + name).substr(0, 2), "\xFF\xD8") << name;
+    }
+}
+
+TEST_F(Outputs, twoProgramsDoNotWriteIntoOneFolder)
+{
+    const std::string folder = dir_ / "pictures";
+    {
+        const OutputFolder first(folder);
+        const auto before = files();
+        const AppRun outcome = run({in_, "--overlay", folder});
+        EXPECT_EQ(outcome.code, kExitEnvironment);
+        EXPECT_EQ(
+            outcome.err,
+            "pointplane-odometry: --overlay: cannot write into " + folder +
+                ": another program is writing there\n");
+        EXPECT_EQ(files(), before);
+    }
+    EXPECT_EQ(run({in_, "--overlay", folder}).code, kExitOk);
 }
 
 TEST_F(Outputs, aReplacedFileKeepsItsPermissions)

@@ -442,6 +442,30 @@ TEST_F(EvalApp, reportsOfOneRun)
     EXPECT_EQ(run({"rpe", truth, estimate, "--report", truth}).code, 2);  // a file, no folder
 }
 
+TEST_F(EvalApp, reportsDoNotFollowLinks)
+{
+    const std::string folder = files / "r", before = test::readBytes(truth);
+    for (const std::vector<std::string>& command :
+         {std::vector<std::string>{"rpe", truth, estimate},
+          {"ate", truth, estimate},
+          {"compare", truth, estimate, estimate}})
+    {
+        std::filesystem::remove_all(folder);
+        std::filesystem::create_directory(folder);
+        for (const char* name : {"index.html", "path-from-above.svg"})
+        {
+            std::filesystem::create_symlink("../truth.txt", folder + "/" + name);
+        }
+        std::vector<std::string> args = command;
+        args.insert(args.end(), {"--report", folder});
+        const test::AppRun r = run(args);
+        EXPECT_EQ(r.code, 0) << r.err;
+        EXPECT_EQ(test::readBytes(truth), before) << command[0];
+        EXPECT_THAT(test::readBytes(folder + "/index.html"), HasSubstr("<html")) << command[0];
+        EXPECT_THAT(test::readBytes(folder + "/path-from-above.svg"), HasSubstr("<svg"));
+    }
+}
+
 /** All pairs by default, a fixed delta if asked for: the report shows what the terminal shows. */
 TEST_F(EvalApp, theReportShowsTheTerminalsFigures)
 {

@@ -108,6 +108,35 @@ TEST_F(FakePrograms, sweepScoresEveryValue)
     EXPECT_THAT(test::readBytes(dir / "report/index.html"), HasSubstr("Sweep of PoseSolver.alpha"));
 }
 
+TEST_F(FakePrograms, linksInTheFoldersOfASweepAreNotFollowed)
+{
+    const std::string rawlog = writeFile(dir, "a.rawlog", "");
+    const std::string truth = dir / "a.groundtruth.txt", keep = dir / "kept";
+    ASSERT_EQ(std::system((straightLine("1") + " > " + truth).c_str()), 0);
+    const std::string before = test::readBytes(truth);
+    std::filesystem::create_directory(keep);
+    for (const char* name :
+         {"index.html", "000_a_PoseSolver.alpha=1.1.txt", "000_a_PoseSolver.alpha=1.1.log"})
+    {
+        std::filesystem::create_symlink("../a.groundtruth.txt", keep + "/" + name);
+    }
+    const test::AppRun r = run(
+        {"sweep",
+         "PoseSolver.alpha",
+         rawlog,
+         "--values",
+         "1.1",
+         "--odometry",
+         odometry,
+         "--keep",
+         keep,
+         "--report",
+         keep});
+    EXPECT_EQ(r.code, 0) << r.err;
+    EXPECT_EQ(test::readBytes(truth), before);
+    EXPECT_THAT(test::readBytes(keep + "/index.html"), HasSubstr("<html"));
+}
+
 TEST_F(FakePrograms, aFailedRunIsSaidAndTheOthersAreKept)
 {
     const std::string rawlog = writeFile(dir, "a.rawlog", "");

@@ -253,6 +253,25 @@ TEST_F(ExternalImages, stayWhereALinkLeads)
     EXPECT_EQ(filesIn(dir_ / "disk").size(), 2U);
 }
 
+/** a and a.rawlog have one name for them. */
+TEST_F(ExternalImages, ofTwoRawlogsAtATimeAreNotMixed)
+{
+    ScanWriter first(path_, "RGBD", true);
+    first.write(scan_);
+    EXPECT_THROW(ScanWriter(dir_ / "a", "RGBD", true), EnvironmentError);
+    first.close();
+    EXPECT_EQ(filesIn(dir_ / "a_Images").size(), 2U);
+}
+
+TEST_F(ExternalImages, areNotRemovedBehindALinkWithThePartialName)
+{
+    writeComplete(10);
+    const auto images = filesIn(dir_ / "a_Images");
+    std::filesystem::create_directory_symlink("a_Images", dir_ / "b_Images.partial");
+    EXPECT_THROW(ScanWriter(dir_ / "b.rawlog", "RGBD", true), EnvironmentError);
+    EXPECT_EQ(filesIn(dir_ / "a_Images"), images);
+}
+
 TEST_F(ExternalImages, areNotTakenAwayWhereTheyAreTheInput)
 {
     ScanWriter writer(path_, "RGBD", true);

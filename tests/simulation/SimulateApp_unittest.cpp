@@ -206,6 +206,70 @@ TEST(SimulateApp, masksTellWhatMoves)
     }
 }
 
+/** They appear with their recording, and leave nothing of another one. */
+TEST(SimulateApp, masksReplaceThoseOfAnEarlierRun)
+{
+    namespace fs = std::filesystem;
+    const test::TempDir dir;
+    const std::string folder = dir / "a_Masks";
+    std::vector<std::string> args = smallRun(dir / "a.rawlog");
+    args.emplace_back("--masks");
+    ASSERT_EQ(run(args).code, 0);
+    ASSERT_TRUE(fs::exists(folder + "/000003.png"));
+    fs::create_directory(folder + ".partial");
+    test::writeBytes(folder + ".partial/000000.png.partial", "of a run that was killed");
+    args[6] = "0.05";
+    const Finished shorter = run(args);
+    ASSERT_EQ(shorter.code, 0) << shorter.err;
+    EXPECT_TRUE(fs::exists(folder + "/000001.png"));
+    EXPECT_FALSE(fs::exists(folder + "/000003.png"));
+    EXPECT_FALSE(fs::exists(folder + ".partial"));
+
+    args.pop_back();
+    const Finished without = run(args);
+    EXPECT_EQ(without.code, 0);
+    EXPECT_EQ(
+        without.err,
+        "pointplane-simulate: warning: " + folder +
+            " was there before; remove it if it is of another recording\n");
+}
+
+/** By the name alone or the picture alone it is no mask. */
+TEST(SimulateApp, masksDoNotReplaceWhatIsSomebodyElses)
+{
+    namespace fs = std::filesystem;
+    const test::TempDir dir;
+    const std::string folder = dir / "a_Masks", other = dir / "other.txt";
+    test::writeBytes(other, "precious");
+    std::vector<std::string> args = smallRun(dir / "a.rawlog");
+    args.emplace_back("--masks");
+    ASSERT_EQ(run(args).code, 0);
+    const std::string rawlog = test::readBytes(dir / "a.rawlog");
+    const auto expectRefused = [&](const std::string& name)
+    {
+        const Finished refused = run(args);
+        EXPECT_EQ(refused.code, 3) << name;
+        EXPECT_THAT(
+            refused.err,
+            HasSubstr(
+                "cannot replace " + folder + ": it holds '" + name +
+                "', which is no mask of what moves; move that elsewhere\n"));
+        EXPECT_EQ(test::readBytes(dir / "a.rawlog"), rawlog);
+        EXPECT_FALSE(fs::exists(dir / "a.rawlog.partial"));
+        EXPECT_EQ(test::readBytes(other), "precious");
+        fs::remove(folder + "/" + name);
+    };
+    test::writeBytes(folder + "/000001.png", "precious");
+    expectRefused("000001.png");
+    cv::imwrite(folder + "/000001.png", cv::Mat(24, 32, CV_8UC3));
+    expectRefused("000001.png");
+    fs::copy_file(folder + "/000000.png", folder + "/mine.png");
+    expectRefused("mine.png");
+    fs::create_symlink("../other.txt", folder + "/000001.png");
+    expectRefused("000001.png");
+    EXPECT_EQ(run(args).code, 0);
+}
+
 TEST(SimulateApp, shutterIsToldUnlessHidden)
 {
     const test::TempDir dir;
@@ -297,21 +361,66 @@ TEST(SimulateApp, nothingIsWrittenBesideAPipe)
     EXPECT_EQ(std::distance(first, end), 1);
 }
 
+/** Three names of a rawlog, and one of the ground truth. */
 TEST(SimulateApp, groundTruthOfAnotherRawlogIsNotReplaced)
 {
+    for (const std::string first : {"b.rawlog", "b.rawlog.gz", "b"})
+    {
+        const test::TempDir dir;
+        const std::string truth = dir / "b.groundtruth.txt";
+        std::vector<std::string> args{
+            "corner", "--size", "32x24", "--duration", "0.1", "--quiet", "-o", dir / first};
+        ASSERT_EQ(run(args).code, 0);
+        const std::string before = test::readBytes(truth);
+        ASSERT_EQ(run(args).code, 0);  // its own
+        args[0] = "room";
+        for (const std::string other : {"b.rawlog", "b.rawlog.gz", "b"})
+        {
+            if (other == first)
+            {
+                continue;
+            }
+            args.back() = dir / other;
+            const Finished refused = run(args);
+            EXPECT_EQ(refused.code, 2) << first << other;
+            EXPECT_THAT(
+                refused.err,
+                HasSubstr(truth + ", which is that of " + (dir / first) + "; give another name"));
+            EXPECT_EQ(test::readBytes(truth), before);
+            EXPECT_FALSE(std::filesystem::exists(dir / other));
+        }
+    }
+}
+
+/** A folder of that name is none, and a link leads to the same rawlog. */
+TEST(SimulateApp, groundTruthIsReplacedWhereNoOtherRawlogHasIt)
+{
     const test::TempDir dir;
-    std::vector<std::string> args{
-        "corner", "--size", "32x24", "--duration", "0.1", "--quiet", "-o", dir / "b.rawlog"};
-    ASSERT_EQ(run(args).code, 0);
-    const std::string truth = dir / "b.groundtruth.txt", before = test::readBytes(truth);
-    ASSERT_EQ(run(args).code, 0);  // its own
-    args.back() += ".gz";
-    args[0] = "room";
+    std::filesystem::create_directory(dir / "b");
+    std::filesystem::create_symlink("b.rawlog", dir / "b.rawlog.gz");
+    for (const char* seed : {"1", "2"})
+    {
+        std::vector<std::string> args = smallRun(dir / "b.rawlog");
+        args[8] = seed;
+        const Finished again = run(args);
+        EXPECT_EQ(again.code, 0) << again.err;
+    }
+}
+
+TEST(SimulateApp, groundTruthThatALinkLeadsToIsNotReplaced)
+{
+    const test::TempDir dir;
+    const std::string link = dir / "w.groundtruth.txt";
+    ASSERT_EQ(run(smallRun(dir / "a.rawlog")).code, 0);
+    const std::string before = test::readBytes(dir / "a.groundtruth.txt");
+    std::filesystem::create_symlink("a.groundtruth.txt", link);
+    std::vector<std::string> args = smallRun(dir / "w.rawlog");
+    EXPECT_EQ(run(args).code, 0) << "it is the same";
+    args[8] = "10";
     const Finished refused = run(args);
     EXPECT_EQ(refused.code, 2);
-    EXPECT_THAT(refused.err, HasSubstr(truth + ", which is that of " + (dir / "b.rawlog")));
-    EXPECT_EQ(test::readBytes(truth), before);
-    EXPECT_FALSE(std::filesystem::exists(dir / "b.rawlog.gz"));
+    EXPECT_THAT(refused.err, HasSubstr("would replace " + link + ", which is a different one"));
+    EXPECT_EQ(test::readBytes(dir / "a.groundtruth.txt"), before);
 }
 
 /** Nobody named it, so it may be a user's. What this program wrote can be rendered again. */

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ImagesFolder.h"
-
+#include <pointplane/mrpt_io/ImagesFolder.h>
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/rawlog_names.h>
 
@@ -8,27 +7,17 @@
 #include <cstring>
 #include <filesystem>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include <fcntl.h>
 
 namespace pointplane
 {
-namespace
-{
 namespace fs = std::filesystem;
 
-/** Whether the name is one that ScanWriter gives: a stamp, and `_rgb.png` or `_depth.bin`. */
-[[nodiscard]] bool isImageName(const std::string& name)
-{
-    const std::size_t end = name.find_first_not_of("0123456789.-");
-    return end != 0 && end != std::string::npos &&
-           (name.compare(end, 5, "_rgb.") == 0 ||
-            name.compare(end, std::string::npos, "_depth.bin") == 0);
-}
-
 /** The images of a folder. \throws EnvironmentError if there is anything else in it */
-[[nodiscard]] std::vector<fs::path> imagesOf(const std::string& folder)
+std::vector<fs::path> ImagesFolder::imagesOf(const std::string& folder) const
 {
     std::vector<fs::path> out;
     std::error_code error;
@@ -36,11 +25,11 @@ namespace fs = std::filesystem;
          entry.increment(error))
     {
         const std::string name = entry->path().filename().string();
-        if (!entry->is_regular_file() || entry->is_symlink() || !isImageName(name))
+        if (!entry->is_regular_file() || entry->is_symlink() || !own_.include(entry->path()))
         {
             throw EnvironmentError(
-                "cannot replace " + folder + ": it holds '" + name +
-                "', which is no image of a rawlog; move that elsewhere");
+                "cannot replace " + folder + ": it holds '" + name + "', which is no " + own_.kind +
+                "; move that elsewhere");
         }
         out.push_back(entry->path());
     }
@@ -51,16 +40,15 @@ namespace fs = std::filesystem;
     return out;
 }
 
-void removeImages(const std::string& folder)
+void ImagesFolder::removeImages(const std::string& folder) const
 {
     for (const fs::path& image : imagesOf(folder))
     {
         fs::remove(image);
     }
 }
-}  // namespace
 
-ImagesFolder::ImagesFolder(const std::string& path)
+ImagesFolder::ImagesFolder(const std::string& path, OwnImages own) : own_(std::move(own))
 {
     std::error_code error;
     const fs::path real = fs::weakly_canonical(path, error);  // a link stays where it leads
@@ -75,11 +63,12 @@ ImagesFolder::ImagesFolder(const std::string& path)
     {
         (void)imagesOf(path_);
     }
-    fs::create_directories(partial_, error);
-    if (error)
+    if (fs::is_symlink(partial_))
     {
-        throw EnvironmentError("cannot create " + partial_ + ": " + error.message());
+        throw EnvironmentError(
+            "cannot create " + partial_ + ": something else has this name; remove it");
     }
+    folder_.emplace(partial_);
     removeImages(partial_);
 }
 
@@ -106,6 +95,21 @@ void ImagesFolder::exchange()
         throw EnvironmentError("cannot rename " + partial_ + ": " + std::strerror(errno));
     }
     isInPlace_ = !isInPlace_;
+}
+
+void ImagesFolder::completeWith(const std::function<void()>& completeRawlog)
+{
+    exchange();
+    try
+    {
+        completeRawlog();
+    }
+    catch (...)
+    {
+        exchange();  // the earlier rawlog is still there
+        throw;
+    }
+    removePartial();
 }
 
 void ImagesFolder::removePartial() noexcept

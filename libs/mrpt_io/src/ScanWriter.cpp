@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/core/check.h>
 #include <pointplane/core/number_text.h>
+#include <pointplane/mrpt_io/ImagesFolder.h>
 #include <pointplane/mrpt_io/ScanWriter.h>
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/external_range.h>
@@ -19,8 +20,6 @@
 #include <cstring>
 #include <filesystem>
 #include <limits>
-
-#include "ImagesFolder.h"
 
 namespace pointplane
 {
@@ -78,6 +77,15 @@ void setDepth(CObservation3DRangeScan& out, const RegisteredScan& scan)
     }
 }
 
+/** Whether the name is one that is given here: a stamp, and `_rgb.png` or `_depth.bin`. */
+[[nodiscard]] bool isImageName(const std::string& name)
+{
+    const std::size_t end = name.find_first_not_of("0123456789.-");
+    return end != 0 && end != std::string::npos &&
+           (name.compare(end, 5, "_rgb.") == 0 ||
+            name.compare(end, std::string::npos, "_depth.bin") == 0);
+}
+
 /** The file's bytes where the image came from one, else a PNG. \return its name */
 std::string writeColourFile(
     const RegisteredScan& scan, const std::string& folder, const std::string& stamp)
@@ -116,7 +124,10 @@ ScanWriter::ScanWriter(const std::string& path, std::string label, bool external
     try
     {
         // After the rawlog: who writes that has its images to himself.
-        images_ = std::make_unique<ImagesFolder>(imagesFolderOf(path));
+        images_ = std::make_unique<ImagesFolder>(
+            imagesFolderOf(path), OwnImages{"image of a rawlog", [](const fs::path& file) {
+                                                return isImageName(file.filename().string());
+                                            }});
     }
     catch (...)
     {
@@ -134,17 +145,7 @@ void ScanWriter::close()
         writer_.close();
         return;
     }
-    images_->exchange();
-    try
-    {
-        writer_.close();
-    }
-    catch (...)
-    {
-        images_->exchange();  // the earlier rawlog is still there
-        throw;
-    }
-    images_->removePartial();
+    images_->completeWith([this] { writer_.close(); });
 }
 
 void ScanWriter::discard() noexcept
