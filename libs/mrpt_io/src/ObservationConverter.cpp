@@ -283,12 +283,15 @@ void ObservationConverter::setExternalsDirectory(const std::string& directory)
     }
 }
 
-void ObservationConverter::readComment(const mrpt::obs::CObservationComment& comment)
+std::string ObservationConverter::readComment(const mrpt::obs::CObservationComment& comment)
 {
-    if (auto parsed = parseCameraComment(comment.text))
+    const auto parsed = parseCameraComment(comment.text);
+    if (!parsed)
     {
-        impl_->told[parsed->label] = *parsed;
+        return "";
     }
+    impl_->told[parsed->label] = *parsed;
+    return parsed->label;
 }
 
 ConvertedFrame ObservationConverter::convert(const CObservation3DRangeScan& scan) const
