@@ -159,6 +159,9 @@ class Odometry(unittest.TestCase):
             odometry.process(frame.depth, np.zeros((1, 2, 4), np.uint8), frame.camera, 1.0)
         with self.assertRaisesRegex(ValueError, "focal"):
             pointplane.Camera(0, 500, 320, 240, 640, 480)
+        for cx, cy in ((0, 0), (-1, 240), (5000, 240), (320, 480)):
+            with self.assertRaisesRegex(ValueError, "principal point is outside of the image"):
+                pointplane.Camera(500, 500, cx, cy, 640, 480)
 
     def test_units_of_depth_that_no_camera_has_are_refused(self):
         frame = next(iter(pointplane.read_rawlog(RAWLOG)))
