@@ -35,6 +35,20 @@ namespace pointplane
 {
 namespace
 {
+/** Whether it holds numbers of this type. A pickled array, or one with metadata, has a dtype object
+ * of its own. \param fill what a masked element should be, for the message */
+template <class T>
+bool isOf(const py::array& array, const char* what, const char* fill)
+{
+    if (py::isinstance(array, py::module_::import("numpy.ma").attr("MaskedArray")))
+    {
+        throw py::type_error(
+            std::string(what) + ": is a masked array, whose mask is not read; give " + what +
+            ".filled(" + fill + ")");
+    }
+    return array.dtype().equal(py::dtype::of<T>());
+}
+
 /** An image in NumPy's memory; rows have to be contiguous. */
 cv::Mat matOf(const py::array& array, int type, const char* what)
 {
@@ -64,11 +78,11 @@ cv::Mat matOf(const py::array& array, int type, const char* what)
 /** float32 in metres as it is; integers times `unit`, zero = no reading. */
 cv::Mat depthOf(const py::array& depth, double unit)
 {
-    if (depth.dtype().is(py::dtype::of<float>()))
+    if (isOf<float>(depth, "depth", "numpy.nan), or of integers depth.filled(0"))
     {
         return matOf(depth, CV_32FC1, "depth");
     }
-    if (!depth.dtype().is(py::dtype::of<std::uint16_t>()))
+    if (!isOf<std::uint16_t>(depth, "depth", "0"))
     {
         throw py::type_error("depth: expected float32 in metres, or uint16 in units of depth_unit");
     }
@@ -94,7 +108,7 @@ cv::Mat grayOf(const py::object& colour, const char* name)
         return {};
     }
     const auto array = py::cast<py::array>(colour);
-    if (!array.dtype().is(py::dtype::of<std::uint8_t>()))
+    if (!isOf<std::uint8_t>(array, name, "0"))
     {
         throw py::type_error(std::string(name) + ": expected uint8, gray or RGB");
     }

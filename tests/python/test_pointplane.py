@@ -4,6 +4,7 @@ import gc
 import gzip
 import os
 import pathlib
+import pickle
 import re
 import struct
 import sys
@@ -162,6 +163,35 @@ class Odometry(unittest.TestCase):
         for cx, cy in ((0, 0), (-1, 240), (5000, 240), (320, 480)):
             with self.assertRaisesRegex(ValueError, "principal point is outside of the image"):
                 pointplane.Camera(500, 500, cx, cy, 640, 480)
+
+    def test_arrays_of_another_process_are_taken(self):
+        frame = next(iter(pointplane.read_rawlog(RAWLOG)))
+        millimetres = np.nan_to_num(frame.depth * 1000).astype(np.uint16)
+        for depth in (frame.depth, millimetres):
+            for change in (
+                lambda array: pickle.loads(pickle.dumps(array)),
+                lambda array: array.astype(np.dtype(array.dtype, metadata={"unit": "m"})),
+            ):
+                odometry = pointplane.VisualOdometry()
+                odometry.set_mask(change(np.full(frame.gray.shape, 255, np.uint8)))
+                result = odometry.process(change(depth), change(frame.gray), frame.camera, 1.0)
+                self.assertEqual(result.status, "first")
+        with self.assertRaisesRegex(TypeError, "^depth: expected float32"):
+            odometry.process(frame.depth.astype(">f4"), None, frame.camera, 1.0)
+
+    def test_masked_arrays_are_refused_because_their_mask_would_be_lost(self):
+        frame = next(iter(pointplane.read_rawlog(RAWLOG)))
+        odometry = pointplane.VisualOdometry()
+        far = np.ma.masked_greater(frame.depth, 2)
+        dark = np.ma.masked_less(frame.gray, 9)
+        with self.assertRaisesRegex(TypeError, r"^depth: is a masked.*depth.filled\(numpy.nan\)"):
+            odometry.process(far, frame.gray, frame.camera, 1.0)
+        with self.assertRaisesRegex(TypeError, r"^colour: is a masked.*give colour.filled\(0\)$"):
+            odometry.process(frame.depth, dark, frame.camera, 1.0)
+        with self.assertRaisesRegex(TypeError, "^mask: is a masked array"):
+            odometry.set_mask(dark)
+        result = odometry.process(far.filled(np.nan), dark.filled(0), frame.camera, 1.0)
+        self.assertEqual(result.status, "first")
 
     def test_units_of_depth_that_no_camera_has_are_refused(self):
         frame = next(iter(pointplane.read_rawlog(RAWLOG)))
