@@ -121,18 +121,6 @@ cv::Mat grayOf(const py::object& colour, const char* name)
     return gray;
 }
 
-cv::Mat maskOf(const py::object& image)
-{
-    cv::Mat mask = grayOf(image, "mask");
-    if (!image.is_none() && cv::countNonZero(mask) == 0)
-    {
-        throw py::value_error(
-            "mask: is 0 everywhere; it must be 0 where the camera sees the robot itself, and "
-            "another number elsewhere");
-    }
-    return mask;
-}
-
 std::vector<std::string> settingsOf(const py::object& settings)
 {
     try
@@ -423,10 +411,11 @@ void addOdometry(py::module_& m)
         .def(
             "set_mask",
             [](SharedOdometry& odometry, const py::object& mask)
-            { odometry.setMask(maskOf(mask)); },
+            { odometry.setMask(grayOf(mask, "mask")); },
             py::arg("mask"),
             "Leaves out what the camera sees of the robot that carries it. mask: (height, width), "
-            "uint8, 0 where the robot is, or None for no mask.")
+            "uint8, or None for no mask. The robot is where it is less than half of its largest "
+            "value: 0 and 1, or 0 and 255.")
         .def("reset", &SharedOdometry::reset, "Starts anew with the same configuration and mask.");
 }
 

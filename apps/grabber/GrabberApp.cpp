@@ -160,8 +160,9 @@ void addOtherOptions(CLI::App& app, GrabberOptions& o, Words& words)
     app.add_option(
            "--live-mask",
            o.liveOdometry.mask,
-           "With --live: image that is black where the camera sees the robot itself; that is left "
-           "out")
+           "With --live: image that is black (darker than half of its brightest) where the camera "
+           "sees "
+           "the robot itself: that is left out")
         ->group("Live odometry");
     app.add_option(
            "--live-output",

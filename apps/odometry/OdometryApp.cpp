@@ -34,7 +34,8 @@ void addOptions(CLI::App& app, OdometryOptions& o, bool& dumpConfig, bool& dumpK
     app.add_option(
         "--mask",
         o.mask,
-        "Image that is black where the camera sees the robot itself: that is left out");
+        "Image that is black (darker than half of its brightest) where the camera sees the robot "
+        "itself: that is left out");
     app.add_flag("--dump-config", dumpConfig, "Print all keys with the values in effect, and exit");
     app.add_flag("--dump-keys", dumpKeys, "The same as Markdown tables, for docs/config.md")
         ->group("");

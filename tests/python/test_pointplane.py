@@ -139,8 +139,21 @@ class Odometry(unittest.TestCase):
         self.assertIn("the mask", odometry.process(frames[0]).reason)
         with self.assertRaises(TypeError):
             odometry.set_mask(mask.astype(np.float32))
-        with self.assertRaisesRegex(ValueError, "^mask: is 0 everywhere; it must be 0 where"):
-            odometry.set_mask(np.zeros_like(mask))
+        for value, word in ((0, "black"), (1, "white"), (255, "white")):
+            with self.assertRaisesRegex(ValueError, f"^the mask is {word} everywhere; it must be"):
+                odometry.set_mask(np.full_like(mask, value))
+
+    def test_a_mask_means_the_same_whatever_its_largest_value(self):
+        frames = list(pointplane.read_rawlog(RAWLOG))
+        poses = []
+        for dark, bright in ((0, 255), (20, 255), (0, 1)):
+            mask = np.full(frames[0].gray.shape, bright, np.uint8)
+            mask[: mask.shape[0] // 2] = dark
+            odometry = pointplane.VisualOdometry()
+            odometry.set_mask(mask)
+            poses.append([odometry.process(frame).pose for frame in frames][-1])
+        np.testing.assert_array_equal(poses[0], poses[1])
+        np.testing.assert_array_equal(poses[0], poses[2])
 
     def test_wrong_types_and_shapes_are_refused(self):
         frame = next(iter(pointplane.read_rawlog(RAWLOG)))
@@ -173,7 +186,7 @@ class Odometry(unittest.TestCase):
                 lambda array: array.astype(np.dtype(array.dtype, metadata={"unit": "m"})),
             ):
                 odometry = pointplane.VisualOdometry()
-                odometry.set_mask(change(np.full(frame.gray.shape, 255, np.uint8)))
+                odometry.set_mask(change((frame.gray > 99).astype(np.uint8)))
                 result = odometry.process(change(depth), change(frame.gray), frame.camera, 1.0)
                 self.assertEqual(result.status, "first")
         with self.assertRaisesRegex(TypeError, "^depth: expected float32"):
