@@ -124,6 +124,8 @@ void AteCommand::run(CommandContext& context) const
     run.ate = options;
     run.nees.T_truth_body = input.T_truth_body();
     run.intervals = {{1, DeltaUnit::Frames}, {1, DeltaUnit::Seconds}};
+    run.hint = hintAtBodies(input, run.groundTruth, run.estimate);
+    context.hint(run.hint);
     const Trajectory measured = withoutLost(run.estimate);
     const AteResult result = absoluteTrajectoryError(
         withBody(run.groundTruth, run.nees.T_truth_body), measured, options);

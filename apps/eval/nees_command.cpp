@@ -161,6 +161,7 @@ std::string hintAtBody(
 {
     return hintAtAxes(
         input,
+        truth,
         estimate,
         jointNees(run.tested.front()),
         0.25,

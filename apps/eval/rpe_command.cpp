@@ -139,17 +139,9 @@ void RpeCommand::run(CommandContext& context) const
     run.nees.T_truth_body = input.T_truth_body();
     run.intervals = {{1, DeltaUnit::Frames}, {1, DeltaUnit::Seconds}};
     const Trajectory measured = withoutLost(run.estimate);
-    const auto scoreWith = [&](const Eigen::Isometry3d& T_truth_body)
-    { return relativePoseError(withBody(run.groundTruth, T_truth_body), measured, rpe); };
-    const RpeResult result = scoreWith(run.nees.T_truth_body);
-
-    run.hint = hintAtAxes(
-        input,
-        measured,
-        result.translation.rmse,
-        0.5,
-        "translation RMSE in m",
-        [&](const auto& T_truth_body) { return scoreWith(T_truth_body).translation.rmse; });
+    const RpeResult result =
+        relativePoseError(withBody(run.groundTruth, run.nees.T_truth_body), measured, rpe);
+    run.hint = hintAtAxes(input, run.groundTruth, measured, result, rpe);
     context.hint(run.hint);
     if (!files.save.empty() && result.pairs.empty())
     {
