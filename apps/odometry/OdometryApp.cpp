@@ -24,7 +24,7 @@ void addOptions(CLI::App& app, OdometryOptions& o, bool& dumpConfig, bool& dumpK
     app.add_option("rawlogs", o.inputs, "Input rawlogs, taken as one sequence");
     app.add_option(
         "-c,--config", o.config, "Read the configuration from this file (default: built in)");
-    app.add_option("--set", o.settings, "Override one key: Section.key=value; repeatable")
+    app.add_option("--set", o.settings, "Override one key: Section.key=value; once for each key")
         ->type_size(1)
         ->allow_extra_args(false);
     app.add_option(

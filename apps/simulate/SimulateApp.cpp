@@ -84,7 +84,7 @@ void addOptions(CLI::App& app, Arguments& args)
     app.add_option(
            "--set",
            args.settings,
-           "Set a property of the camera, key=value; repeatable (--list-settings)")
+           "Set a property of the camera, key=value; once for each key (--list-settings)")
         ->expected(1)
         ->take_all();
     app.add_option("--label", args.output.label, "Label of the camera in the rawlog")
@@ -107,8 +107,18 @@ void addOptions(CLI::App& app, Arguments& args)
     app.set_version_flag("--version", POINTPLANE_VERSION);
 }
 
-/** What applySetting() would say of sections, which --set does not have here. */
-void requireKnown(const std::string& setting, const ParameterTable& table)
+/** The option that sets this key, too, if it is given. */
+std::string optionFor(const std::string& key, const Arguments& args)
+{
+    const bool isSize = key == "width" || key == "height";
+    return key == "duration" && args.duration ? "--duration"
+           : key == "fps" && args.fps         ? "--fps"
+           : isSize && !args.size.empty()     ? "--size"
+                                              : "";
+}
+
+/** What applySettings() would say of sections, which --set does not have here. */
+void requireKnown(const std::string& setting, const Arguments& args, const ParameterTable& table)
 {
     const std::size_t equals = setting.find('=');
     if (equals == std::string::npos)
@@ -120,6 +130,10 @@ void requireKnown(const std::string& setting, const ParameterTable& table)
             table.begin(), table.end(), [&](const ParameterRef& p) { return p.key == key; }))
     {
         throw InputError("--set " + setting + ": unknown key '" + key + "' (see --list-settings)");
+    }
+    if (const std::string option = optionFor(key, args); !option.empty())
+    {
+        throw InputError("--set " + setting + ": " + option + " sets it, too");
     }
 }
 
@@ -140,11 +154,13 @@ SimulationParams paramsOf(const Arguments& args)
         }
     }
     const ParameterTable table = parametersOf(kSection, params);
+    std::vector<std::string> settings;
     for (const std::string& setting : args.settings)
     {
-        requireKnown(setting, table);
-        applySetting(std::string(kSection) + "." + setting, table);
+        requireKnown(setting, args, table);
+        settings.push_back(std::string(kSection) + "." + setting);
     }
+    applySettings(settings, table);
     params.check();
     return params;
 }
