@@ -383,6 +383,15 @@ TEST(ObservationConverter, everyBadFrameHasItsText)
         "relativePoseIntensityWRTDepth has no rotation matrix");
 }
 
+TEST(ObservationConverter, aNewLineInAPathDoesNotEndTheProblem)
+{
+    const auto scan = sampleScan(0);
+    scan->intensityImage.setExternalStorage("rgb.png");
+    ObservationConverter converter;
+    converter.setExternalsDirectory("/no\nsuch");
+    EXPECT_EQ(converter.convert(*scan).problem, "cannot open /no?such: no such folder");
+}
+
 TEST(ObservationConverter, tinyAndHugeImages)
 {
     for (const auto& [width, height] : {std::pair{1, 1}, {2, 1}, {4096, 3072}})
