@@ -335,7 +335,11 @@ void addResult(py::module_& m)
             "status",
             [](const OdometryResult& r) { return toString(r.status); },
             "first, tracked, predicted or lost")
-        .def_readonly("reason", &OdometryResult::reason, "why it was not tracked, or empty")
+        .def_readonly(
+            "reason",
+            &OdometryResult::reason,
+            "why it was not tracked, or what limits a tracked one (directions that are predicted, "
+            "an image that is left out); or empty")
         .def_readonly("stamp", &OdometryResult::stamp, "of the frame [s]")
         .def_property_readonly(
             "pose",

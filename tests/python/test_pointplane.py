@@ -124,6 +124,16 @@ class Odometry(unittest.TestCase):
         self.assertEqual(result.status, "lost")
         self.assertIn("10x10", result.reason)
 
+    def test_a_motion_that_is_measured_in_part_is_tracked_with_a_reason(self):
+        camera = pointplane.Camera(260, 260, 159.5, 119.5, 320, 240)
+        wall = np.full((240, 320), 2, np.float32)
+        odometry = pointplane.VisualOdometry()
+        for i in range(3):
+            result = odometry.process(wall - 0.001 * np.float32(i), None, camera, 1 + i / 30)
+        self.assertEqual(result.status, "tracked")
+        self.assertIn("3 of 6 directions are measured", result.reason)
+        self.assertIn("what limits a tracked one", pointplane.Result.reason.__doc__)
+
     def test_a_mask_leaves_out_a_part_of_the_images(self):
         odometry = pointplane.VisualOdometry()
         frames = list(pointplane.read_rawlog(RAWLOG))
