@@ -12,6 +12,7 @@
 #include "result_output.h"
 #include "rpe_options.h"
 #include "trajectory_report.h"
+#include "word_check.h"
 
 namespace pointplane
 {
@@ -171,9 +172,7 @@ void RpeCommandOptions::addTo(CLI::App& command, bool choosesPairs)
     delta->capture_default_str()->check(isPositive())->group(group);
     CLI::Option* deltaUnit =
         command.add_option("--delta-unit", unit, "s, m, rad, deg or f (frames)");
-    deltaUnit->capture_default_str()
-        ->check(CLI::IsMember({"s", "m", "rad", "deg", "f"}))
-        ->group(group);
+    deltaUnit->capture_default_str()->check(isOneOf({"s", "m", "rad", "deg", "f"}))->group(group);
     fixedDelta->group(choosesPairs ? group : "");
     if (choosesPairs)
     {

@@ -13,6 +13,7 @@
 #include "number_checks.h"
 #include "run_program.h"
 #include "standard_streams.h"
+#include "word_check.h"
 #include <CLI/CLI.hpp>
 
 namespace pointplane
@@ -82,7 +83,7 @@ void addOutputOptions(CLI::App& app, OdometryOptions& o)
     auto* trajectory = app.add_option("--trajectory", o.trajectory, "Write the poses as TUM text");
     app.add_option(
            "--trajectory-frame", o.trajectoryFrame, "Whose poses: optical (the camera's) or robot")
-        ->check(CLI::IsMember({"optical", "robot"}))
+        ->check(isOneOf({"optical", "robot"}))
         ->capture_default_str()
         ->needs(trajectory);
     app.add_option("--diagnostics", o.diagnostics, "Write a table with a line per frame (CSV)");

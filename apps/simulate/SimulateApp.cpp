@@ -19,6 +19,7 @@
 #include "label_check.h"
 #include "run_program.h"
 #include "standard_streams.h"
+#include "word_check.h"
 #include <CLI/CLI.hpp>
 
 namespace pointplane
@@ -78,7 +79,7 @@ void addOptions(CLI::App& app, Arguments& args)
            args.camera,
            "kinect, d435 (active stereo), azure (time of flight) or phone (LiDAR); each has its "
            "resolution, field of view, depth noise and shutters")
-        ->check(CLI::IsMember({"kinect", "d435", "azure", "phone"}))
+        ->check(isOneOf({"kinect", "d435", "azure", "phone"}))
         ->capture_default_str();
     app.add_flag("--ideal", args.ideal, "Without noise, gaps, blur and shutter effects");
     app.add_option(
@@ -101,7 +102,7 @@ void addOptions(CLI::App& app, Arguments& args)
            "--truth-frame",
            args.output.truthFrame,
            "Whose poses the ground truth holds: optical (the camera's) or robot")
-        ->check(CLI::IsMember({"optical", "robot"}))
+        ->check(isOneOf({"optical", "robot"}))
         ->capture_default_str();
     app.add_flag("--quiet", args.output.quiet, "Show no progress");
     app.set_version_flag("--version", POINTPLANE_VERSION);

@@ -65,6 +65,23 @@ TEST_F(EvalApp, verboseIsTheScriptsOutput)
                             "absolute_translational_error.rmse 0.073598 m\n"));
 }
 
+TEST_F(EvalApp, aWordThatAnOptionDoesNotKnowIsToldWithThoseItKnows)
+{
+    for (const std::string word : {"horn", "1", "Se3"})
+    {
+        const test::AppRun r = run({"ate", truth, estimate, "--align", word});
+        EXPECT_EQ(r.code, 2);
+        EXPECT_EQ(
+            r.err,
+            "pointplane-eval: --align: '" + word +
+                "' is not one of se3, first, none (see --help)\n");
+    }
+    EXPECT_THAT(
+        run({"rpe", truth, estimate, "--fixed-delta", "--delta-unit", "min"}).err,
+        HasSubstr("--delta-unit: 'min' is not one of s, m, rad, deg, f (see"));
+    EXPECT_EQ(run({"ate", truth, estimate, "--align", "first"}).code, 0);
+}
+
 /** Where files tell whose poses they hold, those of different bodies are never compared in silence.
  */
 TEST_F(EvalApp, posesOfDifferentBodiesAreTold)
