@@ -35,6 +35,20 @@ namespace pointplane
 {
 namespace
 {
+/** Whether it holds numbers of this type. A pickled array, or one with metadata, has a dtype object
+ * of its own. \param fill what a masked element should be, for the message */
+template <class T>
+bool isOf(const py::array& array, const char* what, const char* fill)
+{
+    if (py::isinstance(array, py::module_::import("numpy.ma").attr("MaskedArray")))
+    {
+        throw py::type_error(
+            std::string(what) + ": is a masked array, whose mask is not read; give " + what +
+            ".filled(" + fill + ")");
+    }
+    return array.dtype().equal(py::dtype::of<T>());
+}
+
 /** An image in NumPy's memory; rows have to be contiguous. */
 cv::Mat matOf(const py::array& array, int type, const char* what)
 {
@@ -64,11 +78,11 @@ cv::Mat matOf(const py::array& array, int type, const char* what)
 /** float32 in metres as it is; integers times `unit`, zero = no reading. */
 cv::Mat depthOf(const py::array& depth, double unit)
 {
-    if (depth.dtype().is(py::dtype::of<float>()))
+    if (isOf<float>(depth, "depth", "numpy.nan), or of integers depth.filled(0"))
     {
         return matOf(depth, CV_32FC1, "depth");
     }
-    if (!depth.dtype().is(py::dtype::of<std::uint16_t>()))
+    if (!isOf<std::uint16_t>(depth, "depth", "0"))
     {
         throw py::type_error("depth: expected float32 in metres, or uint16 in units of depth_unit");
     }
@@ -94,7 +108,7 @@ cv::Mat grayOf(const py::object& colour, const char* name)
         return {};
     }
     const auto array = py::cast<py::array>(colour);
-    if (!array.dtype().is(py::dtype::of<std::uint8_t>()))
+    if (!isOf<std::uint8_t>(array, name, "0"))
     {
         throw py::type_error(std::string(name) + ": expected uint8, gray or RGB");
     }
@@ -105,18 +119,6 @@ cv::Mat grayOf(const py::object& colour, const char* name)
     cv::Mat gray;
     cv::cvtColor(matOf(array, CV_8UC3, name), gray, cv::COLOR_RGB2GRAY);
     return gray;
-}
-
-cv::Mat maskOf(const py::object& image)
-{
-    cv::Mat mask = grayOf(image, "mask");
-    if (!image.is_none() && cv::countNonZero(mask) == 0)
-    {
-        throw py::value_error(
-            "mask: is 0 everywhere; it must be 0 where the camera sees the robot itself, and "
-            "another number elsewhere");
-    }
-    return mask;
 }
 
 std::vector<std::string> settingsOf(const py::object& settings)
@@ -333,7 +335,11 @@ void addResult(py::module_& m)
             "status",
             [](const OdometryResult& r) { return toString(r.status); },
             "first, tracked, predicted or lost")
-        .def_readonly("reason", &OdometryResult::reason, "why it was not tracked, or empty")
+        .def_readonly(
+            "reason",
+            &OdometryResult::reason,
+            "why it was not tracked, or what limits a tracked one (directions that are predicted, "
+            "an image that is left out); or empty")
         .def_readonly("stamp", &OdometryResult::stamp, "of the frame [s]")
         .def_property_readonly(
             "pose",
@@ -409,10 +415,11 @@ void addOdometry(py::module_& m)
         .def(
             "set_mask",
             [](SharedOdometry& odometry, const py::object& mask)
-            { odometry.setMask(maskOf(mask)); },
+            { odometry.setMask(grayOf(mask, "mask")); },
             py::arg("mask"),
             "Leaves out what the camera sees of the robot that carries it. mask: (height, width), "
-            "uint8, 0 where the robot is, or None for no mask.")
+            "uint8, or None for no mask. The robot is where it is less than half of its largest "
+            "value: 0 and 1, or 0 and 255.")
         .def("reset", &SharedOdometry::reset, "Starts anew with the same configuration and mask.");
 }
 

@@ -71,7 +71,8 @@ void FolderRecording::chooseCamera(const FolderOptions& options)
     unitsPerMetre_ = layout_.unitsPerMetre;
     if (!options.camera.empty() || fs::exists(local))
     {
-        layout_.camera = loadCameraFile(options.camera.empty() ? local : options.camera);
+        layout_.calibration = options.camera.empty() ? local : options.camera;
+        layout_.camera = loadCameraFile(layout_.calibration);
         layout_.cameraIsNominal = false;
         layout_.depthCamera.reset();
         if (layout_.camera->tellsUnits)
@@ -323,7 +324,7 @@ std::optional<RecordedFrame> FolderRecording::next()
     readDepth(depth, out.scan);
     out.scan.colour = colourOf(colour);
     out.scan.colourFile = colour.path;
-    setCameras(out.scan, layout_, folder_, colour.path.empty() ? depth.path : colour.path);
+    setCameras(out.scan, layout_, colour.path.empty() ? depth.path : colour.path);
     return out;
 }
 

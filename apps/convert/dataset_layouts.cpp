@@ -34,6 +34,7 @@ std::optional<FolderLayout> scanNet(const fs::path& folder)
     out.depthCamera = cameraOfMatrix(intrinsic / "intrinsic_depth.txt");
     out.T_depth_colour = extrinsicIn(intrinsic / "extrinsic_depth.txt").inverse() *
                          extrinsicIn(intrinsic / "extrinsic_color.txt");
+    out.calibration = intrinsic.string();
     out.fps = 30;
     return out;
 }
@@ -78,6 +79,7 @@ std::optional<FolderLayout> replica(const fs::path& folder)
                 numberAt(c, "cy", path));
             camera.fy = numberAt(c, "fy", path);
             out.camera = colourCamera(camera);
+            out.calibration = path.string();
             out.unitsPerMetre = numberAt(c, "scale", path);
             break;
         }

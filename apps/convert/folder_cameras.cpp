@@ -10,21 +10,17 @@ namespace pointplane
 {
 namespace
 {
-void checkCamera(const PinholeCamera& camera, const std::string& folder, const char* which)
+void checkCamera(const PinholeCamera& camera, const std::string& file, const char* which)
 {
     const std::string problem = camera.problem();
     if (!problem.empty())
     {
-        throw BadFrame(folder + ": calibration of the " + which + " camera: " + problem);
+        throw BadFrame(file + ": calibration of the " + which + " camera: " + problem);
     }
 }
 }  // namespace
 
-void setCameras(
-    RegisteredScan& scan,
-    const FolderLayout& layout,
-    const std::string& folder,
-    const std::string& name)
+void setCameras(RegisteredScan& scan, const FolderLayout& layout, const std::string& name)
 {
     scan.camera = layout.camera->camera;
     if (scan.camera.width == 0)  // of a matrix without a size
@@ -32,6 +28,7 @@ void setCameras(
         scan.camera.width = scan.colour.cols;
         scan.camera.height = scan.colour.rows;
     }
+    checkCamera(scan.camera, layout.calibration, "colour");
     // A calibration for another size of the same picture.
     if (scan.colour.cols != scan.camera.width &&
         std::int64_t{scan.colour.cols} * scan.camera.height ==
@@ -45,13 +42,12 @@ void setCameras(
             name + ": is " + sizeText(scan.colour.size()) + ", but the camera is for " +
             sizeText({scan.camera.width, scan.camera.height}));
     }
-    checkCamera(scan.camera, folder, "colour");
     if (layout.depthCamera)
     {
         scan.depthCamera = DepthCamera{*layout.depthCamera, layout.T_depth_colour};
         scan.depthCamera->camera.width = scan.depth.cols;
         scan.depthCamera->camera.height = scan.depth.rows;
-        checkCamera(scan.depthCamera->camera, folder, "depth");
+        checkCamera(scan.depthCamera->camera, layout.calibration, "depth");
     }
     else if (scan.depth.size() != scan.colour.size())
     {

@@ -12,11 +12,7 @@ namespace pointplane
  *
  * A calibration for another size of the same picture is scaled. Depth of another size than colour,
  * and without a camera in the layout, is taken as seen by colour's, without distortion.
- * \param scan with its images \param layout with a camera of colour \param folder, name of the
- * recording and of the frame, for errors \throws BadFrame if the sizes do not fit */
-void setCameras(
-    RegisteredScan& scan,
-    const FolderLayout& layout,
-    const std::string& folder,
-    const std::string& name);
+ * \param scan with its images \param layout with a camera of colour \param name of the frame, for
+ * errors \throws BadFrame if the sizes do not fit */
+void setCameras(RegisteredScan& scan, const FolderLayout& layout, const std::string& name);
 }  // namespace pointplane

@@ -19,6 +19,7 @@ struct FolderLayout
     std::vector<ImageRef> colour, depth;
     std::string video;                //!< of colour, frame by frame; `colour` then has no paths
     std::optional<TumCamera> camera;  //!< of colour, where the folder tells it
+    std::string calibration;          //!< file or folder that tells the cameras
     bool cameraIsNominal{false};      //!< a data set's usual camera, not this one's calibration
     std::optional<PinholeCamera> depthCamera;                         //!< where it is another
     Eigen::Isometry3d T_depth_colour{Eigen::Isometry3d::Identity()};  //!< of depthCamera

@@ -69,7 +69,8 @@ std::optional<FolderLayout> strayScanner(const fs::path& folder)
     FolderLayout out;
     out.name = "StrayScanner";
     out.depth = imagesIn(folder / "depth");
-    out.camera = colourCamera(cameraOfMatrix(folder / "camera_matrix.csv"));
+    out.calibration = (folder / "camera_matrix.csv").string();
+    out.camera = colourCamera(cameraOfMatrix(out.calibration));
     out.colour = imagesIn(folder / "rgb");
     const std::string video = (folder / "rgb.mp4").string();
     if (!out.colour.empty() && fs::exists(video))
@@ -114,14 +115,17 @@ void readRecord3d(const fs::path& folder, FolderLayout& out)
         {
             throw InputError(path.string() + ": K is not a list of 9 numbers");
         }
+        // Record3D writes K column by column, what others make of it often row by row.
+        const bool isByRow = K[6] == 0 && K[7] == 0;
         PinholeCamera camera = pinholeOf(
             pixelsIn(*json, "w", path),
             pixelsIn(*json, "h", path),
             K[0].get<double>(),
-            K[6].get<double>(),
-            K[7].get<double>());
+            K[isByRow ? 2 : 6].get<double>(),
+            K[isByRow ? 5 : 7].get<double>());
         camera.fy = K[4].get<double>();
         out.name = "Record3D";
+        out.calibration = path.string();
         out.camera = colourCamera(camera);
         if (json->contains("fps"))
         {

@@ -7,8 +7,7 @@
 #include <pointplane/mrpt_io/camera_ini.h>
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/ini_file.h>
-
-#include <mrpt/img/TCamera.h>
+#include <pointplane/mrpt_io/mrpt_camera.h>
 
 #include <algorithm>
 #include <array>
@@ -141,15 +140,8 @@ const std::array<Preset, 3> kPresets{{
 {
     const auto file = openIniFile(path);
     const mrpt::config::CConfigFile& ini = *file;
-    const mrpt::img::TCamera from = cameraInIni(ini, path, cameraSection(ini, path));
     TumCamera out;
-    out.camera.width = static_cast<int>(from.ncols);
-    out.camera.height = static_cast<int>(from.nrows);
-    out.camera.fx = from.fx();
-    out.camera.fy = from.fy();
-    out.camera.cx = from.cx();
-    out.camera.cy = from.cy();
-    std::copy_n(from.dist.begin(), 5, out.camera.distortion.begin());
+    out.camera = fromMrpt(cameraInIni(ini, path, cameraSection(ini, path)));
     return out;
 }
 

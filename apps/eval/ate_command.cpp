@@ -12,6 +12,7 @@
 #include "number_checks.h"
 #include "result_output.h"
 #include "trajectory_report.h"
+#include "word_check.h"
 
 namespace pointplane
 {
@@ -58,12 +59,13 @@ void AteCommand::addTo(CLI::App& command)
     const std::map<std::string, Alignment> alignments{
         {"se3", Alignment::Se3}, {"first", Alignment::FirstPose}, {"none", Alignment::None}};
     command
-        .add_option(
+        .add_option_function<std::string>(
             "--align",
-            options.alignment,
-            "How trajectories are aligned: se3 (as the script, default), first or none")
-        ->transform(CLI::CheckedTransformer(alignments).description(""))
-        ->type_name("NAME")
+            [this, alignments](const std::string& word)
+            { options.alignment = alignments.at(word); },
+            "How trajectories are aligned: se3 (as the script), first or none")
+        ->check(isOneOf({"se3", "first", "none"}))
+        ->default_str("se3")
         ->group(group);
     command.add_option("--max-rmse", maxRmse, "Exit with 1 if the RMSE exceeds this [m]")
         ->check(isNotNegative())
@@ -124,6 +126,8 @@ void AteCommand::run(CommandContext& context) const
     run.ate = options;
     run.nees.T_truth_body = input.T_truth_body();
     run.intervals = {{1, DeltaUnit::Frames}, {1, DeltaUnit::Seconds}};
+    run.hint = hintAtBodies(input, run.groundTruth, run.estimate);
+    context.hint(run.hint);
     const Trajectory measured = withoutLost(run.estimate);
     const AteResult result = absoluteTrajectoryError(
         withBody(run.groundTruth, run.nees.T_truth_body), measured, options);

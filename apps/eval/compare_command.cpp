@@ -76,6 +76,10 @@ void CompareCommand::run(CommandContext& context)
         checkOrder(truth, loaded.back(), context);
     }
     const Comparison comparison = compareRuns(truth, loaded, resolved, ate, bootstrap);
+    for (std::size_t k = 0; k < loaded.size(); ++k)
+    {
+        context.hint(hintAtAxes(input, truth, loaded[k], comparison.runs[k].rpe, resolved));
+    }
     const std::string protocol = describe(resolved, comparison.runs.front().rpe) +
                                  format(
                                      " (of the first), bootstrap of %zu, seed %ju",

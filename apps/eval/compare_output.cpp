@@ -139,11 +139,9 @@ void printTable(const Comparison& c, const std::string& protocol, std::ostream& 
     for (std::size_t k = 0; k < c.runs.size(); ++k)
     {
         const ComparedRun& r = c.runs[k];
-        const std::string name =
-            r.name.size() <= 30 ? r.name : "..." + r.name.substr(r.name.size() - 27);
         out << format(
             "%-32s%9.3f%s %-27s%9.4f%s %-27s%9.3f%s%7zu%6.1f%%\n",
-            name.c_str(),
+            shownName(r.name, 30).c_str(),
             1000 * r.translation.value,
             isBest(c, k, c.bestTranslation) ? "*" : " ",
             behindText(c, r.translationBehindBest, isBest(c, k, c.bestTranslation), 1000).c_str(),

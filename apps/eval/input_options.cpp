@@ -79,17 +79,37 @@ Eigen::Isometry3d InputOptions::T_truth_body() const
                                  : poseFromOption(bodyFromTruth).inverse();
 }
 
+std::string hintAtBodies(
+    const InputOptions& input, const Trajectory& truth, const Trajectory& estimate)
+{
+    const bool areTold = truth.body != Body::Unknown && estimate.body != Body::Unknown;
+    if (!input.bodyFromTruth.empty() || !areTold || truth.body == estimate.body)
+    {
+        return "";
+    }
+    const bool isCamera = truth.body == Body::Camera;
+    return format(
+        "the poses of '%s' are of the %s, those of '%s' of the %s; give --body-from-gt %s if "
+        "sensorPose is 0, else the pose of the one on the other",
+        truth.name.c_str(),
+        isCamera ? "camera" : "robot",
+        estimate.name.c_str(),
+        isCamera ? "robot" : "camera",
+        isCamera ? "optical" : "0,0,0,0,-90,90");
+}
+
 std::string hintAtAxes(
     const InputOptions& input,
+    const Trajectory& truth,
     const Trajectory& estimate,
     double score,
     double share,
     const std::string& name,
     const std::function<double(const Eigen::Isometry3d& T_truth_body)>& scoreWith)
 {
-    if (!input.bodyFromTruth.empty() || estimate.covs.empty())  // not out of MRPT's files
+    if (!input.bodyFromTruth.empty() || truth.body != Body::Unknown || estimate.body != Body::Robot)
     {
-        return "";
+        return hintAtBodies(input, truth, estimate);
     }
     const double optical = scoreWith(poseFromOption("optical").inverse());
     return optical < share * score
@@ -101,6 +121,26 @@ std::string hintAtAxes(
                      score,
                      estimate.name.c_str())
                : "";
+}
+
+std::string hintAtAxes(
+    const InputOptions& input,
+    const Trajectory& truth,
+    const Trajectory& estimate,
+    const RpeResult& result,
+    const RpeOptions& options)
+{
+    return hintAtAxes(
+        input,
+        truth,
+        estimate,
+        result.translation.rmse,
+        0.5,
+        "translation RMSE in m",
+        [&](const Eigen::Isometry3d& T_truth_body) {
+            return relativePoseError(withBody(truth, T_truth_body), estimate, options)
+                .translation.rmse;
+        });
 }
 
 void checkOrder(const Trajectory& truth, const Trajectory& estimate, CommandContext& context)

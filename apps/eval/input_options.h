@@ -2,6 +2,7 @@
 #pragma once
 
 #include <pointplane/evaluation/Trajectory.h>
+#include <pointplane/evaluation/rpe.h>
 
 #include <Eigen/Geometry>
 
@@ -38,17 +39,31 @@ struct InputOptions
  * the estimate is not: they may be in the wrong order. */
 void checkOrder(const Trajectory& truth, const Trajectory& estimate, CommandContext& context);
 
-/** Poses of a rawlog are usually in MRPT's axes and TUM ground truth in optical ones; forgetting
- * --body-from-gt then gives errors that look like a bad odometry.
+/** \return a hint for the user if the files tell that their poses are of different bodies, which
+ * --body-from-gt does not bring together: errors then look like those of a bad odometry */
+[[nodiscard]] std::string hintAtBodies(
+    const InputOptions& input, const Trajectory& truth, const Trajectory& estimate);
+
+/** hintAtBodies(). If the truth does not tell: poses of MRPT's files are of the robot, and TUM
+ * ground truth is usually of the camera.
  * \param scoreWith the score (the less the better) with another body of the ground truth
- * \return a hint for the user if the optical one makes the score less than `share` of what it is */
+ * \return also a hint if the optical one makes the score less than `share` of what it is */
 [[nodiscard]] std::string hintAtAxes(
     const InputOptions& input,
+    const Trajectory& truth,
     const Trajectory& estimate,
     double score,
     double share,
     const std::string& name,
     const std::function<double(const Eigen::Isometry3d& T_truth_body)>& scoreWith);
+
+/** The same by the RPE's translation. */
+[[nodiscard]] std::string hintAtAxes(
+    const InputOptions& input,
+    const Trajectory& truth,
+    const Trajectory& estimate,
+    const RpeResult& result,
+    const RpeOptions& options);
 
 /** Numbers from "a,b,c"; none when the text is anything else. */
 [[nodiscard]] std::vector<double> numbersFromOption(const std::string& text);

@@ -95,6 +95,14 @@ bool isOfOdometry(const std::string& label)
            label.compare(label.size() - kPoseEnding.size(), kPoseEnding.size(), kPoseEnding) == 0;
 }
 
+/** MRPT's poses are of the robot. */
+Trajectory ofRobot(const std::string& path, std::vector<StampedPose> poses)
+{
+    Trajectory out = makeTrajectory(path, std::move(poses));
+    out.body = Body::Robot;
+    return out;
+}
+
 /** Collects poses from the objects of a rawlog. */
 class PoseCollector
 {
@@ -207,7 +215,7 @@ Trajectory PoseCollector::result(const std::string& path, const std::string& lab
                 "'" + path +
                 "' holds no poses: neither CObservationRobotPose nor CActionRobotMovement3D");
         }
-        return makeTrajectory(path, composed_);
+        return ofRobot(path, composed_);
     }
     if (label.empty() && byLabel_.size() > 1)
     {
@@ -221,7 +229,7 @@ Trajectory PoseCollector::result(const std::string& path, const std::string& lab
         throw InputError(
             "'" + path + "' holds no poses with sensor label '" + label + "', only " + labels);
     }
-    Trajectory trajectory = makeTrajectory(path, found->second);
+    Trajectory trajectory = ofRobot(path, found->second);
     trajectory.marksFrames = isOfOdometry(found->first);
     return trajectory;
 }
@@ -271,6 +279,6 @@ Trajectory readSimplemapTrajectory(const std::string& path)
     {
         throw InputError("'" + path + "' holds no key frames");
     }
-    return makeTrajectory(path, std::move(poses));
+    return ofRobot(path, std::move(poses));
 }
 }  // namespace pointplane

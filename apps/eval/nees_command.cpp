@@ -29,6 +29,7 @@ struct NeesCommand
 {
     std::vector<std::string> files;
     std::vector<std::string> intervals{"1f", "10f", "1s"};
+    bool areChosen{false};  //!< the intervals, by the user
     InputOptions input;
     NeesOptions options;
     std::string sigmaRotationDeg{"0"};  //!< s or x,y,z
@@ -81,6 +82,7 @@ void NeesCommand::addTo(CLI::App& command)
     command.add_option("--interval", intervals, "Lengths of the increments: frames or seconds")
         ->delimiter(',')
         ->capture_default_str()
+        ->each([this](const std::string&) { areChosen = true; })
         ->group("Protocol");
     command
         .add_option(
@@ -145,6 +147,30 @@ void poolRun(std::vector<Pool>& pools, const NeesRun& run)
     }
 }
 
+/** Of those with enough increments. Others are errors if the user chose them, or if none has. */
+std::vector<NeesResult> scoresOf(
+    const std::vector<Pool>& pools, bool areChosen, CommandContext& context)
+{
+    const auto problem = [](const Pool& pool) { return problemOf(pool.increments, pool.interval); };
+    const bool isRequired =
+        areChosen ||
+        std::none_of(
+            pools.begin(), pools.end(), [&](const Pool& pool) { return problem(pool).empty(); });
+    std::vector<NeesResult> out;
+    for (const Pool& pool : pools)
+    {
+        if (isRequired || problem(pool).empty())
+        {
+            out.push_back(consistencyOf(pool.increments, pool.independent, pool.interval));
+        }
+        else
+        {
+            context.err << context.program << ": note: left out: " << problem(pool) << "\n";
+        }
+    }
+    return out;
+}
+
 double jointNees(const NeesRun::Tested& tested)
 {
     return consistencyOf(tested.increments, countIndependent(tested.increments), tested.interval)
@@ -159,16 +185,22 @@ std::string hintAtBody(
     const NeesRun& run,
     NeesOptions options)
 {
+    const NeesRun::Tested& first = run.tested.front();
+    if (!problemOf(first.increments, first.interval).empty())
+    {
+        return hintAtBodies(input, truth, estimate);
+    }
     return hintAtAxes(
         input,
+        truth,
         estimate,
-        jointNees(run.tested.front()),
+        jointNees(first),
         0.25,
         "NEES per degree of freedom",
         [&](const Eigen::Isometry3d& T_truth_body)
         {
             options.T_truth_body = T_truth_body;
-            const auto other = neesRun(truth, estimate, {run.tested.front().interval}, options);
+            const auto other = neesRun(truth, estimate, {first.interval}, options);
             return jointNees(other.tested.front());
         });
 }
@@ -263,13 +295,15 @@ void NeesCommand::run(CommandContext& context) const
         lengths.push_back(neesIntervalFromName(name));
     }
     std::vector<Pool> pools;
+    ReportedRun reported;
+    ReportInputs inputs;
     std::string untold;
     for (std::size_t k = 0; k < files.size(); k += 2)
     {
         const Trajectory truth = input.loadTruth(files[k], context);
         const Trajectory estimate = input.loadEstimate(files[k + 1], context);
         checkOrder(truth, estimate, context);
-        const ReportInputs inputs = html.read(estimate);
+        inputs = html.read(estimate);
         const NeesRun run = neesRun(truth, estimate, lengths, report.options);
         poolRun(pools, run);
         untold = run.untold.empty() ? untold : run.note;
@@ -283,16 +317,13 @@ void NeesCommand::run(CommandContext& context) const
         context.hint(hint);
         if (!html.directory.empty())
         {
-            ReportedRun reported{truth, estimate, {}, {}, report.options, lengths, hint};
+            reported = {truth, estimate, {}, {}, report.options, lengths, hint};
             reported.rpe.fixedDelta = true;
             reported.rpe.offset = reported.ate.offset = report.options.offset;
-            writeTrajectoryReport(reported, html, inputs, context);
         }
     }
-    for (const Pool& pool : pools)
-    {
-        report.results.push_back(consistencyOf(pool.increments, pool.independent, pool.interval));
-    }
+    report.results = scoresOf(pools, areChosen, context);
+    writeTrajectoryReport(reported, html, inputs, context);
     writeReport(report, output, context.out);
     checkRange(report.results, untold, context);
     for (std::size_t k = 0; k < report.coverages.size(); ++k)

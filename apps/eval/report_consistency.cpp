@@ -45,6 +45,11 @@ void addConsistency(HtmlReport& report, const ReportedRun& run)
     const NeesRun tested = neesRun(run.groundTruth, run.estimate, run.intervals, run.nees);
     for (const auto& [interval, increments] : tested.tested)
     {
+        if (const std::string problem = problemOf(increments, interval); !problem.empty())
+        {
+            report.addParagraph("Note: left out: " + problem + ".");
+            continue;
+        }
         const auto result = consistencyOf(increments, countIndependent(increments), interval);
         rows.push_back(consistencyCells(
             interval.sinceStart ? "poses since the first" : nameOf(interval), result));

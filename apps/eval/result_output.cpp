@@ -100,6 +100,12 @@ std::string format(const char* text, ...)
     return out;
 }
 
+std::string shownName(const std::string& name, std::size_t most)
+{
+    const std::string dots = "...";
+    return name.size() <= most ? name : dots + name.substr(name.size() - (most - dots.size()));
+}
+
 std::string csvField(const std::string& text)
 {
     if (text.find_first_of(",\"\n") == std::string::npos)

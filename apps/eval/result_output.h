@@ -78,6 +78,9 @@ void writeText(const std::string& text, const std::string& path, std::ostream& o
 [[nodiscard]] nlohmann::ordered_json toJson(const Coverage& coverage);
 
 /** Field of a CSV file, quoted where needed. */
+/** At most so many characters: of long ones the end, in which names of files differ. */
+[[nodiscard]] std::string shownName(const std::string& name, std::size_t most);
+
 [[nodiscard]] std::string csvField(const std::string& text);
 
 /** printf to a string. */

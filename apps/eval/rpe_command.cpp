@@ -12,6 +12,7 @@
 #include "result_output.h"
 #include "rpe_options.h"
 #include "trajectory_report.h"
+#include "word_check.h"
 
 namespace pointplane
 {
@@ -139,17 +140,9 @@ void RpeCommand::run(CommandContext& context) const
     run.nees.T_truth_body = input.T_truth_body();
     run.intervals = {{1, DeltaUnit::Frames}, {1, DeltaUnit::Seconds}};
     const Trajectory measured = withoutLost(run.estimate);
-    const auto scoreWith = [&](const Eigen::Isometry3d& T_truth_body)
-    { return relativePoseError(withBody(run.groundTruth, T_truth_body), measured, rpe); };
-    const RpeResult result = scoreWith(run.nees.T_truth_body);
-
-    run.hint = hintAtAxes(
-        input,
-        measured,
-        result.translation.rmse,
-        0.5,
-        "translation RMSE in m",
-        [&](const auto& T_truth_body) { return scoreWith(T_truth_body).translation.rmse; });
+    const RpeResult result =
+        relativePoseError(withBody(run.groundTruth, run.nees.T_truth_body), measured, rpe);
+    run.hint = hintAtAxes(input, run.groundTruth, measured, result, rpe);
     context.hint(run.hint);
     if (!files.save.empty() && result.pairs.empty())
     {
@@ -179,9 +172,7 @@ void RpeCommandOptions::addTo(CLI::App& command, bool choosesPairs)
     delta->capture_default_str()->check(isPositive())->group(group);
     CLI::Option* deltaUnit =
         command.add_option("--delta-unit", unit, "s, m, rad, deg or f (frames)");
-    deltaUnit->capture_default_str()
-        ->check(CLI::IsMember({"s", "m", "rad", "deg", "f"}))
-        ->group(group);
+    deltaUnit->capture_default_str()->check(isOneOf({"s", "m", "rad", "deg", "f"}))->group(group);
     fixedDelta->group(choosesPairs ? group : "");
     if (choosesPairs)
     {

@@ -16,6 +16,7 @@
 #include "number_checks.h"
 #include "run_program.h"
 #include "standard_streams.h"
+#include "word_check.h"
 #include <CLI/CLI.hpp>
 
 namespace pointplane
@@ -57,7 +58,7 @@ void addCameraOptions(CLI::App& app, GrabberOptions& o, Words& words)
            "--registration",
            words.registration,
            "Let the camera register depth to colour: auto, on or off")
-        ->check(CLI::IsMember({"auto", "on", "off"}))
+        ->check(isOneOf({"auto", "on", "off"}))
         ->capture_default_str()
         ->group(group);
     app.add_flag("!--no-sync", o.camera.frameSync, "Do not synchronise depth and colour")
@@ -117,7 +118,7 @@ void addRecordingOptions(CLI::App& app, GrabberOptions& o, Words& words)
            "--images",
            words.images,
            "Where images go: embedded, or external (files beside the rawlog)")
-        ->check(CLI::IsMember({"embedded", "external"}))
+        ->check(isOneOf({"embedded", "external"}))
         ->capture_default_str()
         ->group(group);
     app.add_option(
@@ -160,8 +161,9 @@ void addOtherOptions(CLI::App& app, GrabberOptions& o, Words& words)
     app.add_option(
            "--live-mask",
            o.liveOdometry.mask,
-           "With --live: image that is black where the camera sees the robot itself; that is left "
-           "out")
+           "With --live: image that is black (darker than half of its brightest) where the camera "
+           "sees "
+           "the robot itself: that is left out")
         ->group("Live odometry");
     app.add_option(
            "--live-output",

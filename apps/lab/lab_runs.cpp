@@ -53,8 +53,9 @@ LabScore scoreOf(
 /** A file name out of a run's name. */
 std::string fileName(std::size_t index, const std::string& name)
 {
+    constexpr std::size_t kLongest = 200;
     std::string out = format("%03zu_", index);
-    for (const char c : name)
+    for (const char c : name.substr(name.size() - std::min(name.size(), kLongest)))
     {
         out += std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '.' || c == '=' ? c : '_';
     }

@@ -21,6 +21,7 @@
 #include "result_output.h"
 #include "rpe_options.h"
 #include "run_processes.h"
+#include "word_check.h"
 
 namespace pointplane
 {
@@ -73,7 +74,7 @@ void ReproduceCommand::addTo(CLI::App& command)
             "(Fig. 3), corner (Fig. 5), paper (ablations of its configuration), detectors "
             "(default: all)")
         ->delimiter(',')
-        ->check(CLI::IsMember(parts))
+        ->check(isOneOf(parts))
         ->group("Runs");
     command
         .add_option(

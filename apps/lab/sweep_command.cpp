@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <ostream>
+#include <set>
 
 #include "LabApp.h"
 #include "OutputGuard.h"
@@ -34,6 +35,18 @@ struct SweepCommand
     [[nodiscard]] std::vector<std::string> valuesToTry() const;
     [[nodiscard]] std::vector<LabRun> runs(const std::vector<std::string>& tried) const;
 };
+
+/** Without folders and endings, where these names differ. */
+std::vector<std::string> namesOf(const std::vector<std::string>& rawlogs)
+{
+    std::vector<std::string> stems;
+    for (const std::string& rawlog : rawlogs)
+    {
+        stems.push_back(std::filesystem::path(rawlog).stem().string());
+    }
+    const std::set<std::string> different(stems.begin(), stems.end());
+    return different.size() == stems.size() ? stems : rawlogs;
+}
 
 void SweepCommand::addTo(CLI::App& command)
 {
@@ -105,6 +118,7 @@ std::vector<LabRun> SweepCommand::runs(const std::vector<std::string>& tried) co
     {
         throw std::invalid_argument("--gt needs one ground truth for each rawlog");
     }
+    const std::vector<std::string> names = namesOf(rawlogs);
     std::vector<LabRun> out;
     for (std::size_t s = 0; s < rawlogs.size(); ++s)
     {
@@ -120,8 +134,7 @@ std::vector<LabRun> SweepCommand::runs(const std::vector<std::string>& tried) co
         for (const std::string& value : tried)
         {
             LabRun run;
-            run.name =
-                std::filesystem::path(rawlogs[s]).stem().string() + " " + parameter + "=" + value;
+            run.name = names[s] + " " + parameter + "=" + value;
             run.rawlog = rawlogs[s];
             run.groundTruth = truth;
             run.config = config;
@@ -152,10 +165,7 @@ void SweepCommand::run(CommandContext& context)
     SweepResult sweep;
     sweep.parameter = parameter;
     sweep.values = valuesToTry();
-    for (const std::string& rawlog : rawlogs)
-    {
-        sweep.sequences.push_back(std::filesystem::path(rawlog).stem().string());
-    }
+    sweep.sequences = namesOf(rawlogs);
     rpe.rpe.fixedDelta = true;
     const RpeOptions resolved = rpe.resolved();
     const std::vector<LabRun> planned = runs(sweep.values);

@@ -154,7 +154,7 @@ SourceItem FrameSource::item(const mrpt::obs::CObservation::Ptr& observation)
     {
         try
         {
-            converter_.readComment(*comment);
+            out.tellsOf = converter_.readComment(*comment);
         }
         catch (const InputError& e)
         {
@@ -189,14 +189,35 @@ SourceItem FrameSource::item(const mrpt::obs::CObservation::Ptr& observation)
     return out;
 }
 
+bool FrameSource::hasAllFrames() const
+{
+    return numFrames_ >= options_.first && numFrames_ - options_.first >= options_.count;
+}
+
+void FrameSource::skip(SourceItem item)
+{
+    if (!item.tellsOf.empty())
+    {
+        const std::string camera = item.tellsOf;
+        skippedComments_[camera] = std::move(item);
+    }
+    start_ = std::chrono::steady_clock::now();
+}
+
+void FrameSource::deliver(SourceItem item)
+{
+    for (auto& [camera, comment] : skippedComments_)
+    {
+        ready_.push_back(std::move(comment));
+    }
+    skippedComments_.clear();
+    ready_.push_back(std::move(item));
+}
+
 std::optional<SourceItem> FrameSource::next()
 {
-    while (refill())
+    while (ready_.empty() && refill() && !hasAllFrames())
     {
-        if (numFrames_ >= options_.first && numFrames_ - options_.first >= options_.count)
-        {
-            return {};
-        }
         const auto observation = pending_.front();
         pending_.pop_front();
         if (isMark(*observation))
@@ -209,12 +230,15 @@ std::optional<SourceItem> FrameSource::next()
             continue;
         }
         SourceItem out = item(observation);
-        if (numFrames_ > options_.first || options_.first == 0)
-        {
-            return out;
-        }
-        start_ = std::chrono::steady_clock::now();
+        const bool isWanted = numFrames_ > options_.first || options_.first == 0;
+        isWanted ? deliver(std::move(out)) : skip(std::move(out));
     }
-    return {};
+    if (ready_.empty())
+    {
+        return {};
+    }
+    SourceItem out = std::move(ready_.front());
+    ready_.pop_front();
+    return out;
 }
 }  // namespace pointplane

@@ -27,13 +27,15 @@ struct SourceItem
     std::shared_ptr<RawlogRecord>
         record;  //!< the observation as it is in the file, if it may stay so
     std::optional<ConvertedFrame> converted;
+    std::string tellsOf;        //!< a comment about this camera
     std::size_t frameIndex{0};  //!< in the input, counted over RGB-D frames of the camera
     double progress{0};         //!< fraction of the input read, 0 to 1
 };
 
 /** Observation after observation of the input rawlogs, formats 1 and 2, as one sequence; those of
- * the camera are converted. Observations before the first frame wanted are left out, and what an
- * earlier run has written about this camera. */
+ * the camera are converted. Observations before the first frame wanted are left out, except the
+ * comments about cameras that hold for it, and what an earlier run has written about this camera.
+ */
 class FrameSource
 {
  public:
@@ -63,6 +65,9 @@ class FrameSource
     [[nodiscard]] static bool isMark(const mrpt::obs::CObservation& observation);
     [[nodiscard]] bool isOfEarlierRun(const mrpt::obs::CObservation& observation) const;
     [[nodiscard]] SourceItem item(const mrpt::obs::CObservation::Ptr& observation);
+    [[nodiscard]] bool hasAllFrames() const;
+    void skip(SourceItem item);
+    void deliver(SourceItem item);
 
     const OdometryOptions& options_;
     const OutputGuard& guard_;
@@ -71,6 +76,8 @@ class FrameSource
     ObservationConverter converter_;
     std::deque<mrpt::obs::CObservation::Ptr> pending_;
     bool pendingIsObject_{false};  //!< not out of a sensory frame
+    std::deque<SourceItem> ready_;
+    std::map<std::string, SourceItem> skippedComments_;  //!< the latest about each camera
     std::string label_;
     std::map<std::string, std::size_t> framesOf_;
     bool isNominal_{false};       //!< the recording says so of its camera

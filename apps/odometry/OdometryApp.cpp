@@ -13,6 +13,7 @@
 #include "number_checks.h"
 #include "run_program.h"
 #include "standard_streams.h"
+#include "word_check.h"
 #include <CLI/CLI.hpp>
 
 namespace pointplane
@@ -24,7 +25,7 @@ void addOptions(CLI::App& app, OdometryOptions& o, bool& dumpConfig, bool& dumpK
     app.add_option("rawlogs", o.inputs, "Input rawlogs, taken as one sequence");
     app.add_option(
         "-c,--config", o.config, "Read the configuration from this file (default: built in)");
-    app.add_option("--set", o.settings, "Override one key: Section.key=value; repeatable")
+    app.add_option("--set", o.settings, "Override one key: Section.key=value; once for each key")
         ->type_size(1)
         ->allow_extra_args(false);
     app.add_option(
@@ -34,7 +35,8 @@ void addOptions(CLI::App& app, OdometryOptions& o, bool& dumpConfig, bool& dumpK
     app.add_option(
         "--mask",
         o.mask,
-        "Image that is black where the camera sees the robot itself: that is left out");
+        "Image that is black (darker than half of its brightest) where the camera sees the robot "
+        "itself: that is left out");
     app.add_flag("--dump-config", dumpConfig, "Print all keys with the values in effect, and exit");
     app.add_flag("--dump-keys", dumpKeys, "The same as Markdown tables, for docs/config.md")
         ->group("");
@@ -81,7 +83,7 @@ void addOutputOptions(CLI::App& app, OdometryOptions& o)
     auto* trajectory = app.add_option("--trajectory", o.trajectory, "Write the poses as TUM text");
     app.add_option(
            "--trajectory-frame", o.trajectoryFrame, "Whose poses: optical (the camera's) or robot")
-        ->check(CLI::IsMember({"optical", "robot"}))
+        ->check(isOneOf({"optical", "robot"}))
         ->capture_default_str()
         ->needs(trajectory);
     app.add_option("--diagnostics", o.diagnostics, "Write a table with a line per frame (CSV)");

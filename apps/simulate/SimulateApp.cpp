@@ -19,6 +19,7 @@
 #include "label_check.h"
 #include "run_program.h"
 #include "standard_streams.h"
+#include "word_check.h"
 #include <CLI/CLI.hpp>
 
 namespace pointplane
@@ -78,13 +79,13 @@ void addOptions(CLI::App& app, Arguments& args)
            args.camera,
            "kinect, d435 (active stereo), azure (time of flight) or phone (LiDAR); each has its "
            "resolution, field of view, depth noise and shutters")
-        ->check(CLI::IsMember({"kinect", "d435", "azure", "phone"}))
+        ->check(isOneOf({"kinect", "d435", "azure", "phone"}))
         ->capture_default_str();
     app.add_flag("--ideal", args.ideal, "Without noise, gaps, blur and shutter effects");
     app.add_option(
            "--set",
            args.settings,
-           "Set a property of the camera, key=value; repeatable (--list-settings)")
+           "Set a property of the camera, key=value; once for each key (--list-settings)")
         ->expected(1)
         ->take_all();
     app.add_option("--label", args.output.label, "Label of the camera in the rawlog")
@@ -101,14 +102,24 @@ void addOptions(CLI::App& app, Arguments& args)
            "--truth-frame",
            args.output.truthFrame,
            "Whose poses the ground truth holds: optical (the camera's) or robot")
-        ->check(CLI::IsMember({"optical", "robot"}))
+        ->check(isOneOf({"optical", "robot"}))
         ->capture_default_str();
     app.add_flag("--quiet", args.output.quiet, "Show no progress");
     app.set_version_flag("--version", POINTPLANE_VERSION);
 }
 
-/** What applySetting() would say of sections, which --set does not have here. */
-void requireKnown(const std::string& setting, const ParameterTable& table)
+/** The option that sets this key, too, if it is given. */
+std::string optionFor(const std::string& key, const Arguments& args)
+{
+    const bool isSize = key == "width" || key == "height";
+    return key == "duration" && args.duration ? "--duration"
+           : key == "fps" && args.fps         ? "--fps"
+           : isSize && !args.size.empty()     ? "--size"
+                                              : "";
+}
+
+/** What applySettings() would say of sections, which --set does not have here. */
+void requireKnown(const std::string& setting, const Arguments& args, const ParameterTable& table)
 {
     const std::size_t equals = setting.find('=');
     if (equals == std::string::npos)
@@ -120,6 +131,10 @@ void requireKnown(const std::string& setting, const ParameterTable& table)
             table.begin(), table.end(), [&](const ParameterRef& p) { return p.key == key; }))
     {
         throw InputError("--set " + setting + ": unknown key '" + key + "' (see --list-settings)");
+    }
+    if (const std::string option = optionFor(key, args); !option.empty())
+    {
+        throw InputError("--set " + setting + ": " + option + " sets it, too");
     }
 }
 
@@ -140,11 +155,13 @@ SimulationParams paramsOf(const Arguments& args)
         }
     }
     const ParameterTable table = parametersOf(kSection, params);
+    std::vector<std::string> settings;
     for (const std::string& setting : args.settings)
     {
-        requireKnown(setting, table);
-        applySetting(std::string(kSection) + "." + setting, table);
+        requireKnown(setting, args, table);
+        settings.push_back(std::string(kSection) + "." + setting);
     }
+    applySettings(settings, table);
     params.check();
     return params;
 }

@@ -259,6 +259,19 @@ TEST_F(ConvertApp, cameraFiles)
     EXPECT_THROW((void)loadTumCamera(dir_ / "bad.txt", in_), InputError);
     writeBytes(dir_ / "zero.txt", "0 0 0 0 0 0 0 0 0 32 24 5000\n");
     EXPECT_THROW((void)loadTumCamera(dir_ / "zero.txt", in_), InputError);
+    writeBytes(dir_ / "camera.txt", "26 26 15.5 24 0 0 0 0 0 32 24 5000\n");
+    try
+    {
+        (void)loadTumCamera(dir_ / "camera.txt", in_);
+        ADD_FAILURE() << "a principal point below the image";
+    }
+    catch (const InputError& e)
+    {
+        EXPECT_EQ(
+            std::string(e.what()),
+            (dir_ / "camera.txt") +
+                ": principal point is outside of the image (cx=15.5 cy=24, image 32x24)");
+    }
     EXPECT_THROW((void)loadTumCamera("fr7", in_), InputError);
     writeBytes(dir_ / "formula.ini", "[CAMERA_PARAMS]\nfx = 26\nfy = $eval{27\n");
     try

@@ -202,6 +202,13 @@ TEST_F(ConvertFolder, record3dHasSmallDepthImages)
     expectFrames(60);
     EXPECT_DOUBLE_EQ(scans()[0]->cameraParams.fx(), 15);
     EXPECT_DOUBLE_EQ(scans()[0]->cameraParamsIntensity.fy(), 61);
+    EXPECT_DOUBLE_EQ(scans()[0]->cameraParamsIntensity.cx(), 31.5);
+    write(
+        "in/metadata.json",
+        R"({"w": 64, "h": 48, "K": [60, 0, 30.5, 0, 61, 22.5, 0, 0, 1], "fps": 60})");
+    ASSERT_EQ(run({"folder", in_}), kExitOk) << text_;  // row by row
+    EXPECT_DOUBLE_EQ(scans()[0]->cameraParamsIntensity.cx(), 30.5);
+    EXPECT_DOUBLE_EQ(scans()[0]->cameraParamsIntensity.cy(), 22.5);
     write("in/metadata.json", R"({"w": 64, "h": 48, "K": [60, 0], "fps": 60})");
     EXPECT_EQ(run({"folder", in_}), kExitBadInput);
     EXPECT_THAT(text_, HasSubstr("metadata.json"));
@@ -514,12 +521,14 @@ TEST_F(ConvertFolder, impossibleCalibrationsRatesAndTimesAreRefused)
     expect("is not a time stamp");
     metadata("64", R"(, "frameTimestamps": [1, 2, 1e300])");
     expect("is not a time stamp");
+    metadata("30", "");
+    expect("in/metadata.json: calibration of the colour camera: principal point is outside");
     metadata("1e20", "");
     expect("metadata.json: 'w' is not a number of pixels");
     std::filesystem::remove(dir_ / "in/metadata.json");
 
     write("in/camera_matrix.csv", "0, 0, 31.5\n0, 60, 23.5\n0, 0, 1\n");
-    expect("calibration of the colour camera: focal length is zero");
+    expect("camera_matrix.csv: calibration of the colour camera: focal length is zero");
     write("in/camera_matrix.csv", "60, 0, 0\n0, 60, 0\n31.5, 23.5, 1\n");
     expect("camera_matrix.csv: the third row of a camera's matrix is 0 0 1");
     std::filesystem::remove(dir_ / "in/camera_matrix.csv");

@@ -650,6 +650,71 @@ TEST_F(OdometryApp, firstAndCount)
     EXPECT_EQ(none.code, kExitBadInput);
 }
 
+/** Comments about cameras as `tells` has them, then the scans from `from` on. */
+void writeTold(const std::string& path, const std::vector<std::string>& tells, int from, int to)
+{
+    RawlogWriter writer(path);
+    for (const std::string& text : tells)
+    {
+        CObservationComment comment;
+        comment.timestamp = sampleScan(from)->timestamp;
+        comment.text = text;
+        writer.write(comment);
+    }
+    for (int i = from; i < to; ++i)
+    {
+        writer.write(*sampleScan(i, 64, 48));
+    }
+    writer.close();
+}
+
+/** Of a rawlog of either format. */
+[[nodiscard]] std::vector<mrpt::obs::CObservation::Ptr> observationsIn(const std::string& path)
+{
+    std::vector<mrpt::obs::CObservation::Ptr> out;
+    for (const auto& object : test::readAll(path).objects)
+    {
+        if (const auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(object))
+        {
+            out.insert(out.end(), frame->begin(), frame->end());
+        }
+        else if (const auto o = std::dynamic_pointer_cast<mrpt::obs::CObservation>(object))
+        {
+            out.push_back(o);
+        }
+    }
+    return out;
+}
+
+TEST_F(OdometryApp, commentsThatHoldAreWrittenThoughTheyStandBeforeTheFirstFrame)
+{
+    const std::string other = cameraComment("OTHER", {}, true);
+    const std::string replaced = cameraComment("RGBD", {0.01, 0.01, 0}, false);
+    const std::string holds = cameraComment("RGBD", {0.02, 0.03, 0.004}, true);
+    const std::string all = dir_ / "all.rawlog", a = dir_ / "a.rawlog", b = dir_ / "b.rawlog";
+    writeTold(all, {other, "of the skipped part", replaced, holds}, 0, 6);
+    writeTold(a, {other, replaced, holds}, 0, 3);
+    writeTold(b, {}, 3, 6);
+    for (const std::vector<std::string>& inputs : {std::vector{all}, std::vector{a, b}})
+    {
+        for (const char* format : {"--format1", "--profile"})
+        {
+            std::vector<std::string> args{"--first", "3", "-o", out_, format};
+            args.insert(args.begin(), inputs.begin(), inputs.end());
+            ASSERT_EQ(run(args).code, kExitOk);
+            std::vector<std::string> found;
+            for (const auto& observation : observationsIn(out_))
+            {
+                const auto* comment = dynamic_cast<const CObservationComment*>(observation.get());
+                found.push_back(comment != nullptr ? comment->text : observation->sensorLabel);
+            }
+            ASSERT_GE(found.size(), 3U);
+            found.resize(3);
+            EXPECT_THAT(found, testing::ElementsAre(other, holds, "RGBD")) << format;
+        }
+    }
+}
+
 TEST_F(OdometryApp, readsFormat1AsFormat2)
 {
     test::writeObservations(in_, 5);

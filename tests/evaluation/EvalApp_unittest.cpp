@@ -65,6 +65,68 @@ TEST_F(EvalApp, verboseIsTheScriptsOutput)
                             "absolute_translational_error.rmse 0.073598 m\n"));
 }
 
+TEST_F(EvalApp, aWordThatAnOptionDoesNotKnowIsToldWithThoseItKnows)
+{
+    for (const std::string word : {"horn", "1", "Se3"})
+    {
+        const test::AppRun r = run({"ate", truth, estimate, "--align", word});
+        EXPECT_EQ(r.code, 2);
+        EXPECT_EQ(
+            r.err,
+            "pointplane-eval: --align: '" + word +
+                "' is not one of se3, first, none (see --help)\n");
+    }
+    EXPECT_THAT(
+        run({"rpe", truth, estimate, "--fixed-delta", "--delta-unit", "min"}).err,
+        HasSubstr("--delta-unit: 'min' is not one of s, m, rad, deg, f (see"));
+    EXPECT_EQ(run({"ate", truth, estimate, "--align", "first"}).code, 0);
+}
+
+/** Where files tell whose poses they hold, those of different bodies are never compared in silence.
+ */
+TEST_F(EvalApp, posesOfDifferentBodiesAreTold)
+{
+    const std::string ofCamera = writeFile(
+        files,
+        "camera.txt",
+        "# stamp tx ty tz qx qy qz qw; poses of the camera, x right, y down, z forward\n" +
+            straightLine(1));
+    const std::string ofRobot = writeFile(
+        files,
+        "robot.txt",
+        "# poses of the robot, axes x forward, y left, z up; sensorPose = identity\n" +
+            straightLine(1));
+    for (const char* command : {"rpe", "ate", "compare"})
+    {
+        const std::vector<std::string> delta = std::string(command) == "rpe"
+                                                   ? std::vector<std::string>{"--fixed-delta"}
+                                                   : std::vector<std::string>{};
+        const auto errOf = [&](const std::string& a, const std::string& b, const char* body)
+        {
+            std::vector<std::string> args{command, a, b};
+            args.insert(args.end(), delta.begin(), delta.end());
+            if (body != nullptr)
+            {
+                args.insert(args.end(), {"--body-from-gt", body});
+            }
+            return run(args).err;
+        };
+        EXPECT_THAT(
+            errOf(ofCamera, ofRobot, nullptr),
+            testing::AllOf(
+                HasSubstr("hint: the poses of '" + ofCamera + "' are of the camera"),
+                HasSubstr("those of '" + ofRobot + "' of the robot; give --body-from-gt optical")));
+        EXPECT_THAT(
+            errOf(ofRobot, ofCamera, nullptr), HasSubstr("give --body-from-gt 0,0,0,0,-90,90 if"));
+        for (const std::string& other : {ofRobot, ofCamera, truth})
+        {
+            EXPECT_EQ(errOf(other, other, nullptr), "") << command;
+            EXPECT_EQ(errOf(truth, other, nullptr), "") << command;
+        }
+        EXPECT_EQ(errOf(ofCamera, ofRobot, "optical"), "");
+    }
+}
+
 TEST_F(EvalApp, gateSetsTheExitCode)
 {
     const std::vector<std::string> base{"rpe", truth, estimate, "--fixed-delta"};

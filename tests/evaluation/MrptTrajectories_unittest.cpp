@@ -498,6 +498,42 @@ TEST(MrptTrajectories, neesEndToEnd)
     EXPECT_EQ(evaluate({"nees", truthFile, dir / "a.rawlog", "--interval", "3m"}).code, 2);
 }
 
+TEST(MrptTrajectories, neesOfAShortRecordingLeavesOutWhatItIsTooShortFor)
+{
+    test::TempDir dir;
+    const std::string truthFile = writeTruth(dir);
+    const auto write = [&](std::size_t count)
+    {
+        RawlogWriter writer(dir / "short.rawlog");
+        for (std::size_t k = 0; k < count; ++k)
+        {
+            writer.write(observationOf(k, "RGBD_pose"));
+        }
+        writer.close();
+    };
+    std::vector<std::string> args{"nees", truthFile, dir / "short.rawlog", "--report", dir / "r"};
+    const std::string problem = "only 1 increment(s) of 10f have ground truth at both ends";
+    write(11);  // 1 s
+    const test::AppRun r = run(args);
+    EXPECT_EQ(r.code, 0) << r.err;
+    EXPECT_THAT(r.err, HasSubstr("note: left out: " + problem));
+    EXPECT_THAT(r.out, HasSubstr("increments of 1f: 10,"));
+    EXPECT_THAT(r.out, testing::Not(HasSubstr("of 10f")));
+    const std::string page = test::readBytes(dir / "r/index.html");
+    EXPECT_THAT(page, HasSubstr("left out: " + problem));
+    EXPECT_THAT(page, testing::Not(HasSubstr("No NEES")));
+
+    args.insert(args.end(), {"--interval", "10f,1f"});
+    const test::AppRun chosen = run(args);
+    EXPECT_EQ(chosen.code, 2);
+    EXPECT_THAT(chosen.err, HasSubstr("pointplane-eval: " + problem));
+    args.resize(5);
+    write(2);
+    const test::AppRun none = run(args);
+    EXPECT_EQ(none.code, 2);
+    EXPECT_THAT(none.err, HasSubstr("pointplane-eval: only 1 increment(s) of 1f"));
+}
+
 TEST(MrptTrajectories, neesStatesTheNoiseOfTheGroundTruth)
 {
     test::TempDir dir;

@@ -181,7 +181,8 @@ TEST_F(CalibrationFile, errorsNameFileSectionAndKey)
     expectRejected("fx = 572.9", "fz = 1", "[OPENNI2_LEFT] has no key 'fx'");
     expectRejected("[OPENNI2_RIGHT]", "[OTHER_RIGHT]", "[OPENNI2_RIGHT] has no key 'resolution'");
     expectRejected("fx = 521.2", "fx = abc", "[OPENNI2_RIGHT]: fx = 'abc': 'abc' is not a number");
-    expectRejected("fx = 521.2", "fx = -5", "[OPENNI2_RIGHT]: fx, fy, cx and cy must be positive");
+    expectRejected("fx = 521.2", "fx = -5", "[OPENNI2_RIGHT]: focal length is negative");
+    expectRejected("cx = 322.5", "cx = 0", "[OPENNI2_RIGHT]: principal point is outside");
     expectRejected(
         "fx = 572.9", "fx = 572.9\nfx = 5", ":14: key 'fx' appears twice in [OPENNI2_LEFT]");
     expectRejected("-0.001462 1 0 0 0]", "-0.001462 1 0 0]", "is not 7 numbers");

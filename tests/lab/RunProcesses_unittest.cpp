@@ -137,6 +137,30 @@ TEST_F(FakePrograms, linksInTheFoldersOfASweepAreNotFollowed)
     EXPECT_THAT(test::readBytes(keep + "/index.html"), HasSubstr("<html"));
 }
 
+TEST_F(FakePrograms, rawlogsOfOneNameAreToldApart)
+{
+    std::vector<std::string> args{"sweep", "PoseSolver.alpha"};
+    for (const std::string folder : {"one", "other"})
+    {
+        std::filesystem::create_directory(dir / folder);
+        args.push_back(writeFile(dir, folder + "/s.rawlog", ""));
+        ASSERT_EQ(
+            std::system(
+                (straightLine("1") + " > " + std::string(dir / folder) + "/s.groundtruth.txt")
+                    .c_str()),
+            0);
+    }
+    args.insert(args.end(), {"--values", "1.1", "--odometry", odometry, "--csv", dir / "out.csv"});
+    const test::AppRun r = run(args);
+    EXPECT_EQ(r.code, 0) << r.err;
+    for (const char* name : {"one/s.rawlog", "other/s.rawlog"})
+    {
+        EXPECT_THAT(r.out, HasSubstr(name));
+        EXPECT_THAT(
+            test::readBytes(dir / "out.csv"), HasSubstr(std::string(dir / name) + ",PoseSolver"));
+    }
+}
+
 TEST_F(FakePrograms, aFailedRunIsSaidAndTheOthersAreKept)
 {
     const std::string rawlog = writeFile(dir, "a.rawlog", "");

@@ -273,13 +273,13 @@ TEST(ObservationConverter, unregisteredDepthWithAnyIntrinsics)
 {
     for (const double focal_px : {4.0, 1e8, 1e300})
     {
-        for (const double centre_px : {0.0, 1e30, -1e300})
+        for (const double centre_px : {1.0, 0.0, 1e30, -1e300})
         {
             const auto scan = sampleScan(0, 320, 240);
             scan->cameraParams.setIntrinsicParamsFromValues(focal_px, focal_px, 16, 12);
             scan->cameraParamsIntensity.setIntrinsicParamsFromValues(260, 260, centre_px, 120);
             const ConvertedFrame converted = ObservationConverter().convert(*scan);
-            if (centre_px == 0)
+            if (centre_px == 1)
             {
                 ASSERT_EQ(converted.problem, "");
                 EXPECT_EQ(converted.frame.depth.size(), cv::Size(320, 240));
@@ -383,11 +383,22 @@ TEST(ObservationConverter, everyBadFrameHasItsText)
         "relativePoseIntensityWRTDepth has no rotation matrix");
 }
 
+TEST(ObservationConverter, aNewLineInAPathDoesNotEndTheProblem)
+{
+    const auto scan = sampleScan(0);
+    scan->intensityImage.setExternalStorage("rgb.png");
+    ObservationConverter converter;
+    converter.setExternalsDirectory("/no\nsuch");
+    EXPECT_EQ(converter.convert(*scan).problem, "cannot open /no?such: no such folder");
+}
+
 TEST(ObservationConverter, tinyAndHugeImages)
 {
     for (const auto& [width, height] : {std::pair{1, 1}, {2, 1}, {4096, 3072}})
     {
         const auto scan = sampleScan(0, width, height);
+        scan->cameraParams.setIntrinsicParamsFromValues(width, width, width / 2.0, height / 2.0);
+        scan->cameraParamsIntensity = scan->cameraParams;
         EXPECT_EQ(problemOf(*scan), "");
         scan->relativePoseIntensityWRTDepth.x(0.02);  // rendered
         EXPECT_EQ(problemOf(*scan), "");

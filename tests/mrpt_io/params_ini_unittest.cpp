@@ -145,13 +145,29 @@ TEST(ParamsIni, writtenTextReadsBackTheSame)
 TEST(ParamsIni, settingsOverrideOneKey)
 {
     Params params;
-    applySetting("Alpha.gain=7", parametersOf(params));
-    applySetting("Beta.name = akaze", parametersOf(params));
+    applySettings({"Alpha.gain=7", "Beta.name = akaze"}, parametersOf(params));
     EXPECT_EQ(params.alpha.gain, 7.0);
     EXPECT_EQ(params.beta.name, "akaze");
-    EXPECT_THROW(applySetting("Alpha.gain", parametersOf(params)), InputError);
-    EXPECT_THROW(applySetting("gain=7", parametersOf(params)), InputError);
-    EXPECT_THROW(applySetting("Alpha.gian=7", parametersOf(params)), InputError);
+    for (const char* wrong : {"Alpha.gain", "gain=7", "Alpha.gian=7"})
+    {
+        EXPECT_THROW(applySettings({wrong}, parametersOf(params)), InputError) << wrong;
+    }
+}
+
+TEST(ParamsIni, aKeyThatIsSetTwiceIsAnError)
+{
+    Params params;
+    try
+    {
+        applySettings({"Alpha.gain=7", "Beta.name=orb", "Alpha.gain = 7"}, parametersOf(params));
+        ADD_FAILURE() << "taken";
+    }
+    catch (const InputError& e)
+    {
+        EXPECT_STREQ(e.what(), "setting 'Alpha.gain = 7': [Alpha] gain is set twice");
+    }
+    EXPECT_THROW(
+        (void)loadOdometryParams("", {"PoseSolver.alpha=2", "PoseSolver.alpha=3"}), InputError);
 }
 
 TEST(ParamsIni, missingFileIsAnError)
@@ -218,9 +234,7 @@ TEST(OdometryParamsIni, whereAValueOutOfRangeComesFromIsTold)
     };
     const std::string wrong = ": [PoseSolver] alpha = -3 is not in [0, 1000]";
     EXPECT_EQ(problemOf(path, {}), path + ":4" + wrong);
-    EXPECT_EQ(
-        problemOf(path, {"PoseSolver.alpha=2", "PoseSolver.alpha=-3"}),
-        "setting 'PoseSolver.alpha=-3'" + wrong);
+    EXPECT_EQ(problemOf(path, {"PoseSolver.alpha=-3"}), "setting 'PoseSolver.alpha=-3'" + wrong);
     EXPECT_EQ(problemOf("", {"PoseSolver.alpha=-3"}), "setting 'PoseSolver.alpha=-3'" + wrong);
     EXPECT_EQ(problemOf(path, {"PoseSolver.alpha=3"}), "");
 }

@@ -163,7 +163,7 @@ TEST(Mask, aFrozenImageIsStillToldFromANewOne)
 TEST(Mask, framesOfAnotherSizeAreLost)
 {
     Odometry odometry{OdometryParams()};
-    odometry.setMask(cv::Mat(120, 160, CV_8UC1, cv::Scalar(255)));
+    odometry.setMask(cv::Mat(cv::Mat::eye(120, 160, CV_8UC1)));
     const OdometryResult result = odometry.process(recording()[0]);
     EXPECT_EQ(result.status, TrackingStatus::Lost);
     EXPECT_EQ(result.reason, "the mask (160x120) is not of the images' size (320x240)");
@@ -171,9 +171,29 @@ TEST(Mask, framesOfAnotherSizeAreLost)
     EXPECT_EQ(odometry.process(recording()[1]).status, TrackingStatus::First);
 }
 
-TEST(Mask, otherTypesAreRefused)
+TEST(Mask, darkerThanHalfOfTheBrightestIsTheRobot)
+{
+    for (const auto& [dark, bright] : {std::pair{0, 255}, {127, 255}, {0, 1}, {0, 2}, {4, 9}})
+    {
+        const cv::Mat mask(1, 2, CV_8UC1, cv::Scalar(bright));
+        mask.col(0).setTo(dark);
+        Odometry odometry{OdometryParams()};
+        odometry.setMask(mask);
+        EXPECT_EQ(odometry.mask().at<uchar>(0), 0) << dark << " of " << bright;
+        EXPECT_EQ(odometry.mask().at<uchar>(1), 255) << dark << " of " << bright;
+    }
+}
+
+TEST(Mask, whatIsNoMaskIsRefused)
 {
     Odometry odometry{OdometryParams()};
     EXPECT_THROW(odometry.setMask(cv::Mat(kHeight, kWidth, CV_8UC3)), std::invalid_argument);
+    for (const int all : {0, 1, 255})
+    {
+        const cv::Mat mask(kHeight, kWidth, CV_8UC1, cv::Scalar(all));
+        EXPECT_THROW(odometry.setMask(mask), std::invalid_argument) << all;
+    }
+    const cv::Mat nearlyWhite = robotMask() / 2 + 128;
+    EXPECT_THROW(odometry.setMask(nearlyWhite), std::invalid_argument);
 }
 }  // namespace pointplane

@@ -581,8 +581,8 @@ TEST(OdometryFailures, imagesOfAnySize)
             frame.camera.width = size.width;
             frame.camera.height = size.height;
             frame.camera.fx = frame.camera.fy = 0.8 * size.width;
-            frame.camera.cx = 0.5 * (size.width - 1);
-            frame.camera.cy = 0.5 * (size.height - 1);
+            frame.camera.cx = 0.5 * size.width;
+            frame.camera.cy = 0.5 * size.height;
             frame.depth = cv::Mat(size, CV_32FC1, cv::Scalar(2));
             frame.gray = cv::Mat(size, CV_8UC1, cv::Scalar(100));
             for (int i = 0; i < 3; ++i)

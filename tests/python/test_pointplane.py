@@ -4,6 +4,7 @@ import gc
 import gzip
 import os
 import pathlib
+import pickle
 import re
 import struct
 import sys
@@ -123,6 +124,16 @@ class Odometry(unittest.TestCase):
         self.assertEqual(result.status, "lost")
         self.assertIn("10x10", result.reason)
 
+    def test_a_motion_that_is_measured_in_part_is_tracked_with_a_reason(self):
+        camera = pointplane.Camera(260, 260, 159.5, 119.5, 320, 240)
+        wall = np.full((240, 320), 2, np.float32)
+        odometry = pointplane.VisualOdometry()
+        for i in range(3):
+            result = odometry.process(wall - 0.001 * np.float32(i), None, camera, 1 + i / 30)
+        self.assertEqual(result.status, "tracked")
+        self.assertIn("3 of 6 directions are measured", result.reason)
+        self.assertIn("what limits a tracked one", pointplane.Result.reason.__doc__)
+
     def test_a_mask_leaves_out_a_part_of_the_images(self):
         odometry = pointplane.VisualOdometry()
         frames = list(pointplane.read_rawlog(RAWLOG))
@@ -138,8 +149,21 @@ class Odometry(unittest.TestCase):
         self.assertIn("the mask", odometry.process(frames[0]).reason)
         with self.assertRaises(TypeError):
             odometry.set_mask(mask.astype(np.float32))
-        with self.assertRaisesRegex(ValueError, "^mask: is 0 everywhere; it must be 0 where"):
-            odometry.set_mask(np.zeros_like(mask))
+        for value, word in ((0, "black"), (1, "white"), (255, "white")):
+            with self.assertRaisesRegex(ValueError, f"^the mask is {word} everywhere; it must be"):
+                odometry.set_mask(np.full_like(mask, value))
+
+    def test_a_mask_means_the_same_whatever_its_largest_value(self):
+        frames = list(pointplane.read_rawlog(RAWLOG))
+        poses = []
+        for dark, bright in ((0, 255), (20, 255), (0, 1)):
+            mask = np.full(frames[0].gray.shape, bright, np.uint8)
+            mask[: mask.shape[0] // 2] = dark
+            odometry = pointplane.VisualOdometry()
+            odometry.set_mask(mask)
+            poses.append([odometry.process(frame).pose for frame in frames][-1])
+        np.testing.assert_array_equal(poses[0], poses[1])
+        np.testing.assert_array_equal(poses[0], poses[2])
 
     def test_wrong_types_and_shapes_are_refused(self):
         frame = next(iter(pointplane.read_rawlog(RAWLOG)))
@@ -159,6 +183,38 @@ class Odometry(unittest.TestCase):
             odometry.process(frame.depth, np.zeros((1, 2, 4), np.uint8), frame.camera, 1.0)
         with self.assertRaisesRegex(ValueError, "focal"):
             pointplane.Camera(0, 500, 320, 240, 640, 480)
+        for cx, cy in ((0, 0), (-1, 240), (5000, 240), (320, 480)):
+            with self.assertRaisesRegex(ValueError, "principal point is outside of the image"):
+                pointplane.Camera(500, 500, cx, cy, 640, 480)
+
+    def test_arrays_of_another_process_are_taken(self):
+        frame = next(iter(pointplane.read_rawlog(RAWLOG)))
+        millimetres = np.nan_to_num(frame.depth * 1000).astype(np.uint16)
+        for depth in (frame.depth, millimetres):
+            for change in (
+                lambda array: pickle.loads(pickle.dumps(array)),
+                lambda array: array.astype(np.dtype(array.dtype, metadata={"unit": "m"})),
+            ):
+                odometry = pointplane.VisualOdometry()
+                odometry.set_mask(change((frame.gray > 99).astype(np.uint8)))
+                result = odometry.process(change(depth), change(frame.gray), frame.camera, 1.0)
+                self.assertEqual(result.status, "first")
+        with self.assertRaisesRegex(TypeError, "^depth: expected float32"):
+            odometry.process(frame.depth.astype(">f4"), None, frame.camera, 1.0)
+
+    def test_masked_arrays_are_refused_because_their_mask_would_be_lost(self):
+        frame = next(iter(pointplane.read_rawlog(RAWLOG)))
+        odometry = pointplane.VisualOdometry()
+        far = np.ma.masked_greater(frame.depth, 2)
+        dark = np.ma.masked_less(frame.gray, 9)
+        with self.assertRaisesRegex(TypeError, r"^depth: is a masked.*depth.filled\(numpy.nan\)"):
+            odometry.process(far, frame.gray, frame.camera, 1.0)
+        with self.assertRaisesRegex(TypeError, r"^colour: is a masked.*give colour.filled\(0\)$"):
+            odometry.process(frame.depth, dark, frame.camera, 1.0)
+        with self.assertRaisesRegex(TypeError, "^mask: is a masked array"):
+            odometry.set_mask(dark)
+        result = odometry.process(far.filled(np.nan), dark.filled(0), frame.camera, 1.0)
+        self.assertEqual(result.status, "first")
 
     def test_units_of_depth_that_no_camera_has_are_refused(self):
         frame = next(iter(pointplane.read_rawlog(RAWLOG)))

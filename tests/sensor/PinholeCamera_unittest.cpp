@@ -187,7 +187,21 @@ TEST(PinholeCamera, problemNamesWhatIsWrong)
     camera = {};
     camera.height = 0;
     EXPECT_THAT(camera.problem(), HasSubstr("640x0"));
-    camera = {};
-    camera.cx = -1e9;
-    EXPECT_THAT(camera.problem(), HasSubstr("principal point is far outside the image"));
+    for (const auto& [cx, cy] :
+         {std::pair{0.0, 240.0},
+          {320.0, 0.0},
+          {640.0, 240.0},
+          {5000.0, 1.0},
+          {320.0, 480.0},
+          {320.0, -1e9}})
+    {
+        camera = {};
+        camera.cx = cx;
+        camera.cy = cy;
+        EXPECT_THAT(camera.problem(), HasSubstr("principal point is outside of the image (cx="));
+        EXPECT_THAT(camera.problem(), HasSubstr("image 640x480)"));
+    }
+    camera.cx = 1;  // of an image that has been cropped
+    camera.cy = 479;
+    EXPECT_EQ(camera.problem(), "");
 }

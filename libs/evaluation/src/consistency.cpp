@@ -55,17 +55,25 @@ std::size_t countIndependent(const std::vector<NeesIncrement>& increments)
     return count;
 }
 
+std::string problemOf(const std::vector<NeesIncrement>& increments, const NeesInterval& interval)
+{
+    constexpr std::size_t kLeast = 2;
+    return increments.size() >= kLeast
+               ? ""
+               : "only " + std::to_string(increments.size()) + " increment(s) of " +
+                     nameOf(interval) +
+                     " have ground truth at both ends; at least two are needed (--interval "
+                     "chooses other lengths)";
+}
+
 NeesResult consistencyOf(
     const std::vector<NeesIncrement>& increments,
     std::size_t independent,
     const NeesInterval& interval)
 {
-    if (increments.size() < 2)
+    if (const std::string problem = problemOf(increments, interval); !problem.empty())
     {
-        throw std::runtime_error(
-            "only " + std::to_string(increments.size()) + " increment(s) of " + nameOf(interval) +
-            " have ground truth at both ends; at least two are needed (--interval "
-            "chooses other lengths)");
+        throw std::runtime_error(problem);
     }
     const double n = static_cast<double>(increments.size());
     double joint = 0;

@@ -174,6 +174,14 @@ struct NotedLines
     }
 };
 
+/** What a comment like those of pointplane-odometry and pointplane-simulate says of the axes. */
+Body bodyOf(const std::string& comment)
+{
+    return comment.find("x right, y down") != std::string::npos     ? Body::Camera
+           : comment.find("x forward, y left") != std::string::npos ? Body::Robot
+                                                                    : Body::Unknown;
+}
+
 /** Which other format has so many columns: read as TUM's, its lines would give a score. */
 std::string otherFormat(std::size_t columns)
 {
@@ -296,6 +304,7 @@ Trajectory readTrajectoryText(const std::string& path)
     skipByteOrderMark(file);
     PoseLines poses(path);
     FrameMarks marks;
+    Body body = Body::Unknown;
     std::size_t line = 0;
     for (std::string text; std::getline(file, text);)
     {
@@ -303,6 +312,7 @@ Trajectory readTrajectoryText(const std::string& path)
         if (!text.empty() && (text[0] == '#' || text[0] == '%'))
         {
             marks.read(text, path, line, poses.latestStamp());
+            body = body == Body::Unknown ? bodyOf(text) : body;
         }
         else
         {
@@ -310,6 +320,8 @@ Trajectory readTrajectoryText(const std::string& path)
         }
     }
     requireRead(file, path);
-    return poses.result(std::move(marks), line);
+    Trajectory out = poses.result(std::move(marks), line);
+    out.body = body;
+    return out;
 }
 }  // namespace pointplane

@@ -3,6 +3,7 @@
 #include <pointplane/mrpt_io/camera_ini.h>
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/ini_file.h>
+#include <pointplane/mrpt_io/mrpt_camera.h>
 
 #include <mrpt/containers/yaml.h>
 #include <mrpt/core/bits_math.h>
@@ -47,12 +48,9 @@ void makeRegistered(RgbdCalibration& calibration)
 /** Checks a camera and brings it to the resolution in use. */
 void fitToMode(mrpt::img::TCamera& camera, const VideoMode& mode, const std::string& where)
 {
-    for (const double value : {camera.fx(), camera.fy(), camera.cx(), camera.cy()})
+    if (const std::string problem = fromMrpt(camera).problem(); !problem.empty())
     {
-        if (!std::isfinite(value) || value <= 0.0)
-        {
-            throw InputError(where + ": fx, fy, cx and cy must be positive numbers");
-        }
+        throw InputError(where + ": " + problem);
     }
     const auto width = static_cast<unsigned>(mode.width);
     const auto height = static_cast<unsigned>(mode.height);

@@ -3,6 +3,7 @@
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/external_range.h>
 #include <pointplane/mrpt_io/image_file.h>
+#include <pointplane/mrpt_io/mrpt_camera.h>
 #include <pointplane/mrpt_io/mrpt_poses.h>
 
 #include <mrpt/img/CImage.h>
@@ -48,20 +49,11 @@ void requireUsable(bool condition, const std::string& problem)
 
 [[nodiscard]] PinholeCamera cameraOf(const mrpt::img::TCamera& from, const std::string& name)
 {
-    PinholeCamera camera;
-    camera.width = static_cast<int>(std::min(from.ncols, 1U << 20U));
-    camera.height = static_cast<int>(std::min(from.nrows, 1U << 20U));
-    camera.fx = from.fx();
-    camera.fy = from.fy();
-    camera.cx = from.cx();
-    camera.cy = from.cy();
-    if (from.distortion == mrpt::img::DistortionModel::plumb_bob)
-    {
-        std::copy_n(from.dist.begin(), camera.distortion.size(), camera.distortion.begin());
-        const bool rational =
-            std::any_of(from.dist.begin() + 5, from.dist.end(), [](double k) { return k != 0; });
-        requireUsable(!rational, name + ": distortion k4 to k6 is not supported");
-    }
+    const PinholeCamera camera = fromMrpt(from);
+    const bool isRational =
+        from.distortion == mrpt::img::DistortionModel::plumb_bob &&
+        std::any_of(from.dist.begin() + 5, from.dist.end(), [](double k) { return k != 0; });
+    requireUsable(!isRational, name + ": distortion k4 to k6 is not supported");
     requireUsable(
         from.distortion != mrpt::img::DistortionModel::kannala_brandt,
         name + ": fisheye distortion is not supported");
@@ -283,12 +275,15 @@ void ObservationConverter::setExternalsDirectory(const std::string& directory)
     }
 }
 
-void ObservationConverter::readComment(const mrpt::obs::CObservationComment& comment)
+std::string ObservationConverter::readComment(const mrpt::obs::CObservationComment& comment)
 {
-    if (auto parsed = parseCameraComment(comment.text))
+    const auto parsed = parseCameraComment(comment.text);
+    if (!parsed)
     {
-        impl_->told[parsed->label] = *parsed;
+        return "";
     }
+    impl_->told[parsed->label] = *parsed;
+    return parsed->label;
 }
 
 ConvertedFrame ObservationConverter::convert(const CObservation3DRangeScan& scan) const

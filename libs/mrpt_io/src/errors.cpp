@@ -3,6 +3,7 @@
 
 #include <opencv2/core.hpp>
 
+#include <algorithm>
 #include <new>
 
 namespace pointplane
@@ -21,6 +22,7 @@ std::string oneLine(const std::exception& e)
         return "out of memory";
     }
     std::string text = e.what();
+    bool isOfMany = dynamic_cast<const cv::Exception*>(&e) != nullptr;
     // MRPT: a title, then "Message:  <text>\nLocation: ..." once per stack frame, the innermost
     // first, or the text alone.
     for (const std::string key : {"==== MRPT exception ====", "Message:"})
@@ -28,6 +30,7 @@ std::string oneLine(const std::exception& e)
         if (const auto at = text.find(key); at != std::string::npos)
         {
             text = text.substr(at + key.size());
+            isOfMany = true;
         }
     }
     const auto first = text.find_first_not_of(" \t\r\n");
@@ -36,7 +39,10 @@ std::string oneLine(const std::exception& e)
         return "unknown error";
     }
     text = text.substr(first);
-    text = text.substr(0, text.find_first_of("\r\n"));
-    return text.substr(0, text.find_last_not_of(" \t") + 1);
+    text = text.substr(0, isOfMany ? text.find_first_of("\r\n") : std::string::npos);
+    text = text.substr(0, text.find_last_not_of(" \t\r\n") + 1);
+    const auto isControl = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
+    std::replace_if(text.begin(), text.end(), isControl, '?');  // in the name of a file
+    return text;
 }
 }  // namespace pointplane

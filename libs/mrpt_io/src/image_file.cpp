@@ -2,6 +2,7 @@
 #include <pointplane/mrpt_io/OutputFile.h>
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/image_file.h>
+#include <pointplane/odometry/robot_mask.h>
 
 #include <opencv2/imgcodecs.hpp>
 
@@ -12,6 +13,7 @@
 #include <iterator>
 #include <memory>
 #include <new>
+#include <stdexcept>
 #include <vector>
 
 #include <turbojpeg.h>
@@ -193,17 +195,14 @@ void writeBytes(const std::string& path, const Bytes& bytes)
 
 cv::Mat readMask(const std::string& path)
 {
-    constexpr int kMiddle = 128;
-    cv::Mat mask = readImageFile(path, cv::IMREAD_GRAYSCALE) >= kMiddle;
-    const auto used = static_cast<std::size_t>(cv::countNonZero(mask));
-    if (used == 0 || used == mask.total())
+    try
     {
-        throw InputError(
-            path + ": the mask is " + (used == 0 ? "black" : "white") +
-            " everywhere; it must be black where the camera sees the robot itself, and white "
-            "elsewhere");
+        return withoutRobot(readImageFile(path, cv::IMREAD_GRAYSCALE));
     }
-    return mask;
+    catch (const std::invalid_argument& e)
+    {
+        throw InputError(path + ": " + e.what());
+    }
 }
 
 void requireMaskSize(

@@ -220,8 +220,8 @@ void parse(
     return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
-/** applySetting(), likewise. */
-void apply(const std::string& setting, const ParameterTable& table, Places& places)
+/** \return "[Section] key" */
+std::string apply(const std::string& setting, const ParameterTable& table)
 {
     const std::string where = "setting '" + setting + "'";
     const std::size_t equals = setting.find('=');
@@ -233,7 +233,22 @@ void apply(const std::string& setting, const ParameterTable& table, Places& plac
     const std::string section = trimmed(setting.substr(0, dot));
     const std::string key = trimmed(setting.substr(dot + 1, equals - dot - 1));
     assign(where, find(where, section, key, table), trimmed(setting.substr(equals + 1)));
-    places["[" + section + "] " + key] = where;
+    return "[" + section + "] " + key;
+}
+
+/** applySettings(), likewise. */
+void apply(const std::vector<std::string>& settings, const ParameterTable& table, Places& places)
+{
+    std::set<std::string> seen;
+    for (const std::string& setting : settings)
+    {
+        const std::string where = "setting '" + setting + "'", key = apply(setting, table);
+        if (!seen.insert(key).second)
+        {
+            throw InputError(where + ": " + key + " is set twice");
+        }
+        places[key] = where;
+    }
 }
 
 /** Of the key that a problem begins with: "[Section] key = 3 is not ...". Empty: a default. */
@@ -275,10 +290,10 @@ void loadIni(const std::string& path, const ParameterTable& table)
     parseIni(textOf(path), path, table);
 }
 
-void applySetting(const std::string& setting, const ParameterTable& table)
+void applySettings(const std::vector<std::string>& settings, const ParameterTable& table)
 {
     Places places;
-    apply(setting, table, places);
+    apply(settings, table, places);
 }
 
 std::string iniText(const ParameterTable& table, const std::string& firstExpert)
@@ -335,10 +350,7 @@ OdometryParams loadOdometryParams(const std::string& path, const std::vector<std
     {
         parse(textOf(path), path, table, places);
     }
-    for (const std::string& setting : settings)
-    {
-        apply(setting, table, places);
-    }
+    apply(settings, table, places);
     try
     {
         params.check();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LatestImages.h"
 
+#include <pointplane/odometry/robot_mask.h>
+
 #include <cstddef>
 #include <cstring>
 #include <limits>
@@ -60,7 +62,7 @@ LatestImages::LatestImages(double minDepth, double maxDepth)
 
 void LatestImages::setMask(const cv::Mat& mask)
 {
-    leftOut_ = mask.empty() ? cv::Mat() : cv::Mat(mask == 0);
+    leftOut_ = mask.empty() ? cv::Mat() : cv::Mat(withoutRobot(mask) == 0);
 }
 
 cv::Mat LatestImages::mask() const { return leftOut_.empty() ? cv::Mat() : cv::Mat(leftOut_ == 0); }

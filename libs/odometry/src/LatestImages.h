@@ -13,7 +13,8 @@ class LatestImages
     /** \param minDepth, maxDepth readings outside of these [m] are none */
     LatestImages(double minDepth, double maxDepth);
 
-    /** Depth where the mask is 0 is no reading. \param mask CV_8UC1; empty: none */
+    /** Depth where the mask has the robot is no reading. \param mask withoutRobot()'s; empty: none
+     */
     void setMask(const cv::Mat& mask);
     [[nodiscard]] cv::Mat mask() const;
     [[nodiscard]] cv::Size maskSize() const { return leftOut_.size(); }

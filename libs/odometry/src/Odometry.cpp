@@ -347,11 +347,7 @@ const FrameFeatures& Odometry::features() const { return impl_->shown; }
 const OdometryParams& Odometry::params() const { return impl_->params; }
 cv::Mat Odometry::mask() const { return impl_->images.mask(); }
 
-void Odometry::setMask(const cv::Mat& mask)
-{
-    POINTPLANE_CHECK(mask.empty() || mask.type() == CV_8UC1, "a mask has one byte for a pixel");
-    impl_->images.setMask(mask);
-}
+void Odometry::setMask(const cv::Mat& mask) { impl_->images.setMask(mask); }
 
 void Odometry::reset()
 {

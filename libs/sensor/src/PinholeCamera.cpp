@@ -12,9 +12,6 @@ namespace pointplane
 {
 namespace
 {
-/** In image sizes: no lens looks that far aside, not even one whose image has been cropped. */
-constexpr double kFarPrincipalPoint = 10;
-
 /** Size of the image over the focal length: a pinhole camera does not see 178 degrees. */
 constexpr double kWidestView = 100;
 
@@ -80,10 +77,9 @@ std::string PinholeCamera::problem() const
     {
         out << "image is empty (" << width << "x" << height << ")";
     }
-    else if (
-        std::abs(cx) > kFarPrincipalPoint * width || std::abs(cy) > kFarPrincipalPoint * height)
+    else if (!(cx > 0 && cx < width && cy > 0 && cy < height))
     {
-        out << "principal point is far outside the image (cx=" << cx << " cy=" << cy << ", image "
+        out << "principal point is outside of the image (cx=" << cx << " cy=" << cy << ", image "
             << width << "x" << height << ")";
     }
     return out.str();

@@ -17,6 +17,14 @@ enum class FrameStatus
     Lost        //!< the frame could not be used
 };
 
+/** Whose poses they are: two trajectories must be of the same body. */
+enum class Body
+{
+    Unknown,  //!< the file does not tell
+    Camera,   //!< axes x right, y down, z forward
+    Robot     //!< axes x forward, y left, z up
+};
+
 /** One pose of a trajectory, as a file gives it. */
 struct StampedPose
 {
@@ -31,6 +39,7 @@ struct StampedPose
 struct Trajectory
 {
     std::string name;                      //!< the file it came from, for messages
+    Body body{Body::Unknown};              //!< as the file tells
     std::vector<double> stamps;            //!< [s] since the Unix epoch
     std::vector<Eigen::Isometry3d> poses;  //!< T_world_body [m]
     /** Empty, or one 6x6 covariance per pose: left perturbation (expressed in the world frame),

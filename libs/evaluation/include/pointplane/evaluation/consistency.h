@@ -46,8 +46,12 @@ struct NeesResult
     Vector6d mostOptimistic{Vector6d::Zero()};
 };
 
+/** Why these increments cannot be tested: there are fewer than two. Empty if they can. */
+[[nodiscard]] std::string problemOf(
+    const std::vector<NeesIncrement>& increments, const NeesInterval& interval);
+
 /** Pools the increments of one or more runs. \param independent see NeesResult
- * \throws std::runtime_error if there are fewer than two */
+ * \throws std::runtime_error if they have a problem */
 [[nodiscard]] NeesResult consistencyOf(
     const std::vector<NeesIncrement>& increments,
     std::size_t independent,

@@ -46,8 +46,9 @@ class ObservationConverter
     /** Reads the shutter model of a comment of the form
      *     pointplane-camera label=L readoutColour=0.02 readoutDepth=0.02 depthDelay=-0.01
      * (seconds; see ShutterModel; absent = not known; a blank in the label is %20). Other comments
-     * are ignored. \throws InputError naming the key if such a comment cannot be understood */
-    void readComment(const mrpt::obs::CObservationComment& comment);
+     * are ignored. \return whose it is, L; empty: it is another comment
+     * \throws InputError naming the key if such a comment cannot be understood */
+    std::string readComment(const mrpt::obs::CObservationComment& comment);
 
     /** \param scan not changed; external data that were read are not kept in it
      * \return the frame or, whatever is wrong with the observation, the problem; never throws for

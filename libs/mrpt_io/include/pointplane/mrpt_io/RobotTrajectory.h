@@ -16,9 +16,9 @@ namespace pointplane
 struct RobotMotion
 {
     TrackingStatus status{TrackingStatus::Lost};
-    std::string reason;                                  //!< why not tracked, or empty
-    mrpt::poses::CPose3DPDFGaussian increment;           //!< since the previous frame
-    mrpt::poses::CPose3DPDFGaussian pose;                //!< since the first frame
+    std::string reason;                         //!< why not tracked, or not in full; or empty
+    mrpt::poses::CPose3DPDFGaussian increment;  //!< since the previous frame
+    mrpt::poses::CPose3DPDFGaussian pose;       //!< since the first frame
     std::vector<mrpt::poses::CPose3DPDFGaussian> since;  //!< since 1, 2, ... frames ago
     PoseGaussian cameraPose;  //!< T_first_cam of the camera, optical axes
     FrameDiagnostics diagnostics;

@@ -30,7 +30,8 @@ constexpr int kExitBadInput = 2;
 constexpr int kExitEnvironment = 3;
 /** @} */
 
-/** The first sentence of an exception; MRPT's carry a stack trace of many lines. */
+/** The message of an exception; of MRPT's and OpenCV's, which have many lines, the first sentence.
+ * Names of files may hold control characters: they become '?'. */
 [[nodiscard]] std::string oneLine(const std::exception& e);
 
 /** Whether it is about the machine, not about what was read: std::bad_alloc, and OpenCV's own. */

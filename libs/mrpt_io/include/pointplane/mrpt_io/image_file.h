@@ -13,9 +13,8 @@ namespace pointplane
  * \throws InputError naming the file, or the folder that is missing */
 [[nodiscard]] cv::Mat readImageFile(const std::string& path, int flags);
 
-/** Reads a mask for Odometry::setMask(): what is darker than middle grey is left out.
- * \return CV_8UC1, 0 or 255 \throws InputError naming the file, also if it would leave out
- * everything or nothing */
+/** Reads a mask for Odometry::setMask(). \return withoutRobot() of it
+ * \throws InputError naming the file, also for what withoutRobot() refuses */
 [[nodiscard]] cv::Mat readMask(const std::string& path);
 
 /** \param path of the mask \param images their size \param label of their camera

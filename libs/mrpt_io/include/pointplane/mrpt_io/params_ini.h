@@ -68,8 +68,9 @@ void loadIni(const std::string& path, const ParameterTable& table);
 /** As loadIni() from text; `name` stands for the file in messages. \throws InputError */
 void parseIni(const std::string& text, const std::string& name, const ParameterTable& table);
 
-/** Applies "Section.key=value". \throws InputError */
-void applySetting(const std::string& setting, const ParameterTable& table);
+/** Applies settings of the form "Section.key=value". \throws InputError, also for a key that is
+ * set twice */
+void applySettings(const std::vector<std::string>& settings, const ParameterTable& table);
 
 /** An ini file of all keys, with units and help.
  * \param firstExpert section before which a line says that the rest is for experts; empty = none */

@@ -34,8 +34,8 @@ class Odometry
 
     /** From the next frame on, leaves out what the camera sees of the robot that carries it: it
      * moves along and would tell that nothing moves.
-     * \param mask CV_8UC1 of the images' size, 0 where the robot is; empty: nothing is left out. A
-     * frame of another size is Lost. \throws std::invalid_argument if it is of another type */
+     * \param mask of the images' size, see withoutRobot(); empty: nothing is left out. A frame of
+     * another size is Lost. \throws std::invalid_argument as withoutRobot() */
     void setMask(const cv::Mat& mask);
     [[nodiscard]] cv::Mat mask() const;  //!< 0 or 255
 
