@@ -102,20 +102,20 @@ TEST(PointLifter, mixtureByHand)
     EXPECT_NEAR(point->p_cam.cov(2, 2), within + 0.25, 1e-6);
 }
 
-/** Where depth has holes, the readings that are there count as they are. */
+/** Where depth has holes, the pixel's own reading is enough. */
 TEST(PointLifter, mixtureOfWhatThereIs)
 {
     RgbdFrame frame = wall(kNan);
     EXPECT_FALSE(edgeKeepingLifter().lift(frame, {320, 240}));
-    frame.depth.at<float>(239, 319) = 2;
+    frame.depth.at<float>(240, 320) = 2;
     const auto one = edgeKeepingLifter().lift(frame, {320, 240});
     ASSERT_TRUE(one);
     EXPECT_NEAR(one->p_cam.mean.z(), 2, 1e-7);
     EXPECT_NEAR(one->p_cam.cov(2, 2), std::pow(DepthNoise{}.sigmaZ(2), 2), 1e-9);
-    frame.depth.at<float>(240, 321) = 2.3F;  // beside the pixel: twice the weight
+    frame.depth.at<float>(240, 321) = 2.3F;  // beside the pixel: half of its weight
     const auto two = edgeKeepingLifter().lift(frame, {320, 240});
     ASSERT_TRUE(two);
-    EXPECT_NEAR(two->p_cam.mean.z(), 2.2, 1e-6);
+    EXPECT_NEAR(two->p_cam.mean.z(), 2.1, 1e-6);
 }
 
 TEST(PointLifter, mixtureVarianceMatchesMonteCarlo)
@@ -160,7 +160,10 @@ TEST(PointLifter, missingDepth)
     EXPECT_FALSE(PointLifter(nearest(), DepthNoise{}).lift(frame, {100, 100}));
     frame.depth(cv::Rect(100, 100, 3, 3)).setTo(kNan);
     EXPECT_FALSE(PointLifter(DepthNoise{}).lift(frame, {101, 101})) << "none remains";
-    EXPECT_TRUE(PointLifter(DepthNoise{}).lift(frame, {101, 100})) << "3 of 9 remain";
+    EXPECT_FALSE(PointLifter(DepthNoise{}).lift(frame, {101, 100})) << "3 of 9 remain";
+    EXPECT_TRUE(PointLifter(DepthNoise{}).lift(frame, {100, 100})) << "5 of 9 remain";
+    frame.depth.at<float>(101, 101) = 2;
+    EXPECT_TRUE(PointLifter(DepthNoise{}).lift(frame, {101, 101})) << "its own alone";
 }
 
 TEST(PointLifter, rangeAndBordersAndNonsense)

@@ -99,9 +99,9 @@ TEST(Disagreement, pointsAndPlanesOfOneReferenceAreCompared)
     EXPECT_GT(e.pointDisagreement.expected, 0);
     EXPECT_GT(e.planeDisagreement.expected, 0);
 }
-/** With a quarter of the points of each reference, a turn is told with four times the variance;
+/** With a quarter of the points, a turn is told with four times the variance;
  * what the solver was told of their noise does not matter, nor do planes. */
-TEST(TurnVariance, isThatOfTheNoiseOfOneReference)
+TEST(TurnVariance, isThatOfTheNoiseOfPoints)
 {
     const auto variance = [](int numPoints, double noise, int numPlanes)
     {
@@ -121,7 +121,7 @@ TEST(TurnVariance, isThatOfTheNoiseOfOneReference)
     EXPECT_EQ(variance(0, 1, 6), 0);
 }
 
-/** Of a single reference: three axes over what is known of all. */
+/** Three axes over what is known of all. */
 TEST(TurnVariance, isTheHarmonicMeanOverAxes)
 {
     test::PairWorld w = test::moved(76, 60, 0);

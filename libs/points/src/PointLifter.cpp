@@ -19,12 +19,18 @@ struct DepthReading
     double z{0}, sigma{0};
 };
 
+/** Of the eight neighbours of a pixel without a reading, so many have to have one: where depth
+ * ends, it is of another surface. */
+constexpr int kMostNeighbours = 5;
+
 /** Mixture of the Gaussians of the 3x3 readings around a pixel, weights 4 / 2 / 1; the window is
  * cut off at the border of the image. */
 DepthReading mixture(
     const cv::Mat& depth, int u, int v, const PointLifter::TParams& params, const DepthNoise& noise)
 {
     double sumW = 0, sumZ = 0, sumZZ = 0;
+    int numNeighbours = 0;
+    bool hasOwn = false;
     DepthReading out;
     for (int dv = -1; dv <= 1; ++dv)
     {
@@ -44,9 +50,12 @@ DepthReading mixture(
             sumW += w;
             sumZ += w * z;
             sumZZ += w * (sigma * sigma + z * z);
+            const bool isOwn = du == 0 && dv == 0;
+            hasOwn = hasOwn || isOwn;
+            numNeighbours += isOwn ? 0 : 1;
         }
     }
-    if (sumW > 0)
+    if (hasOwn || numNeighbours >= kMostNeighbours)
     {
         out.z = sumZ / sumW;
         out.sigma = std::sqrt(sumZZ / sumW - out.z * out.z);

@@ -51,7 +51,7 @@ double turnVarianceOf(const Solution& at)
     {
         information += at.problem.noise.points * sum.H.block<3, 3>(3, 3).trace();
     }
-    return information > 0 ? 3 * static_cast<double>(at.points.size()) / information : 0;
+    return information > 0 ? 3 / information : 0;
 }
 
 double scatterOf(const Solution& at, const Sensitivity& of)

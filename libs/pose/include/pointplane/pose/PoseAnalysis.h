@@ -80,8 +80,8 @@ struct PoseAnalysis
     PlaneResiduals planeResiduals;
     Disagreement pointDisagreement;  //!< of the references' points, with all other features
     Disagreement planeDisagreement;  //!< of their planes, likewise
-    /** Of a turn about an axis, as the points of one reference tell it: harmonic mean over axes and
-     * references, by the propagated noise alone [rad^2]; 0 = no points. */
+    /** Of a turn about an axis, as points tell it: harmonic mean over axes, by the propagated noise
+     * alone [rad^2]; 0 = no points. */
     double turnVariance{0};
     /** How far the parts of the image pull the pose apart: mean square of their pulls, over what
      * the propagated noise explains; 0 = too few parts to compare. A part is a cell of the view

@@ -30,7 +30,7 @@ class JointCovariance
     {
         std::string model{"joint"};
         double noise{0.22};
-        double viewNoise{18};
+        double viewNoise{34};
         double vignetting{0.15};
         double principalPoint{0.3};
         double focalLength{0.0006};
