@@ -11,7 +11,8 @@ namespace pointplane
 namespace
 {
 /** A way and a turn over which errors become those of another view. About half and twice of
- * them change little: docs/experiments_archive.md, Errors by the view and how many points there are. */
+ * them change little: docs/experiments_archive.md, Errors by the view and how many points there
+ * are. */
 constexpr double kDistance = 0.6;  // [m]
 constexpr double kAngle = 1;       // [rad]
 
