@@ -33,12 +33,14 @@ PinholeCamera nominal()
     return out;
 }
 
+/** Known so well that it is known which row is the first. */
 CameraCalibrator::TShutter shutter()
 {
     CameraCalibrator::TShutter out;
     out.readoutColour = 0.021;
     out.readoutDepth = 0.022;
     out.depthDelay = -0.003;
+    out.sigmaPrior = 0.005;
     return out;
 }
 
@@ -243,25 +245,66 @@ TEST(CameraCalibrator, learnsALensByHand)
 TEST(CameraCalibrator, learnsAShutterByHand)
 {
     CameraCalibrator::TShutter p = shutter();
-    p.sigmaPrior = 0.01;
     p.varianceFactor = 10;
     CameraCalibrator calibrator = calibratorOf({}, p);
     CameraInformation said;
     said.information.setIdentity();
-    said.information *= 1e5;
-    said.gradient.tail<3>() << -400, 0, 200;  // 4 ms more readout, 2 ms less delay
+    said.information *= 4e5;
+    said.gradient.tail<3>() << -1600, 0, 800;  // 4 ms more readout, 2 ms less delay
     const CameraCalibrator::Change change = calibrator.update(frameOf(said));
     const ShutterModel learnt = calibrator.complete({});
     EXPECT_NEAR(learnt.readoutColour, 0.021 + 0.002, 1e-12);
     EXPECT_NEAR(learnt.readoutDepth, 0.022, 1e-12);
     EXPECT_NEAR(learnt.depthDelay, -0.003 - 0.001, 1e-12);
     EXPECT_NEAR(change.gain(kReadoutColour, kReadoutColour), 0.5, 1e-12);
-    EXPECT_NEAR(change.noise(kDepthDelay, kDepthDelay), 0.25e-4, 1e-15);
+    EXPECT_NEAR(change.noise(kDepthDelay, kDepthDelay), 0.25 * 0.005 * 0.005, 1e-15);
 
     p.selfCalibrate = false;
     CameraCalibrator fixed = calibratorOf({}, p);
     EXPECT_EQ(fixed.update(frameOf(said)).gain(kReadoutColour, kReadoutColour), 1);
     EXPECT_EQ(fixed.complete({}).readoutColour, 0.021);
+}
+
+/** Images may be turned: the first row or the last one may be exposed first. */
+TEST(CameraCalibrator, doesNotKnowAtFirstWhichRowIsTheFirst)
+{
+    CameraCalibrator::TShutter p;
+    p.readoutColour = 0.02;
+    p.readoutDepth = 0.03;
+    p.sigmaPrior = 0.01;
+    p.varianceFactor = 1;
+    const CameraCalibrator start = calibratorOf({}, p);
+    EXPECT_EQ(start.complete({}).readoutColour, 0);
+    EXPECT_EQ(start.complete({}).readoutDepth, 0);
+    EXPECT_NEAR(start.cov()(kReadoutColour, kReadoutColour), 5e-4, 1e-15);
+    EXPECT_NEAR(start.cov()(kReadoutDepth, kReadoutDepth), 1e-3, 1e-15);
+
+    // A frame that knows nothing before says `readout`, known to 2 ms.
+    const auto after = [&](double readout)
+    {
+        CameraInformation said;
+        said.information(kReadoutColour, kReadoutColour) = 1 / (0.002 * 0.002);
+        said.gradient[kReadoutColour] = -readout / (0.002 * 0.002);
+        std::pair<CameraCalibrator, CameraCalibrator::Change> out(start, {});
+        out.second = out.first.update(frameOf(said));
+        return out;
+    };
+    EXPECT_LT(after(0.004).first.complete({}).readoutColour, 0.004) << "two standard deviations";
+    for (const double direction : {1, -1})
+    {
+        const auto [learnt, change] = after(direction * 0.01);
+        EXPECT_NEAR(learnt.complete({}).readoutColour, direction * 0.02, 1e-15);
+        EXPECT_NEAR(learnt.complete({}).readoutDepth, direction * 0.03, 1e-15);
+        const Eigen::Vector3d variances = Eigen::Vector3d::Constant(1e-4);
+        EXPECT_TRUE(learnt.cov().diagonal().tail<3>().isApprox(variances)) << "learnt from here on";
+        EXPECT_TRUE(change.gain.bottomRows<3>().isZero(0)) << "its error is a new one";
+        EXPECT_TRUE(change.noise.diagonal().tail<3>().isApprox(variances));
+    }
+    p.sigmaPrior = 0.005;
+    p.readoutColour = -0.02;
+    EXPECT_EQ(calibratorOf({}, p).complete({}).readoutColour, -0.02) << "known before";
+    p.readoutColour = p.readoutDepth = 0;
+    EXPECT_NEAR(calibratorOf({}, p).cov()(kReadoutColour, kReadoutColour), 25e-6, 1e-15);
 }
 
 /** Of the shutter the references speak together: with a motion of its own for each, the motion is

@@ -76,17 +76,30 @@ TEST_F(ErrorModelTest, noiseByHand)
  * prior, by which both are as large as propagated. */
 TEST_F(ErrorModelTest, planesErrByTheirView)
 {
+    const double angle = 2 * std::atan(std::sqrt(640.0 * 480) / 500 / 2);  // of the view
+    camera.fy = 500;
     estimate.motion.mean.T_prev_cur.linear() =
-        Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitY()).toRotationMatrix();
+        Eigen::AngleAxisd(angle / 3, Eigen::Vector3d::UnitY()).toRotationMatrix();
     analysis.sensitivity.planes(3, 3) = 8;
     const JointCovariance::Measurement out = learn();
-    EXPECT_NEAR(out.views.ofPlanes(0, 1), std::exp(-2), 1e-6) << "0.6 m and 0.3 rad";
-    EXPECT_NEAR(out.views.correlation(0, 1), std::exp(-1.3), 1e-6) << "of points";
+    EXPECT_NEAR(out.views.ofPlanes(0, 1), std::exp(-2), 1e-6) << "0.6 m and a third of the view";
+    EXPECT_NEAR(out.views.correlation(0, 1), std::exp(-4.0 / 3), 1e-6) << "of points";
     EXPECT_NEAR(out.planeViewRoot(0, 0), std::sqrt(2), 1e-9);
     EXPECT_NEAR(out.planeViewRoot(3, 3), std::sqrt(8), 1e-9);
     EXPECT_NEAR(out.planeViewRoot(0, 3), 0, 1e-9);
     analysis.sensitivity.planes.setZero();
     EXPECT_TRUE(learn().planeViewRoot.isZero(1e-12));
+}
+
+/** Where the camera has turned by the angle of its view, which is that of both sides' mean. */
+TEST_F(ErrorModelTest, viewsAreAsWideAsTheCamera)
+{
+    camera.width = 4000;
+    camera.height = 1000;
+    camera.fy = -camera.fx;
+    estimate.motion.mean.T_prev_cur = Eigen::AngleAxisd(M_PI_2, Eigen::Vector3d::UnitY());
+    const double angle = 2 * std::atan(2);  // 2000 pixels in the mean, at 500 pixels
+    EXPECT_NEAR(learn().views.correlation(0, 1), std::exp(-M_PI_2 / angle), 1e-6);
 }
 
 TEST_F(ErrorModelTest, aFrameErrsByItsView)

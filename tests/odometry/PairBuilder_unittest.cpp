@@ -36,7 +36,7 @@ class PairBuilderTest : public testing::Test
         reference.points.points.push_back(point);
         PlaneFeature plane;
         plane.plane_cam = {{0.1, 0.2, -0.5}, 1e-4 * Eigen::Matrix3d::Identity()};
-        plane.rowLever = 0.1 * Eigen::Matrix3d::Identity();
+        plane.readoutLever = 0.1 * Eigen::Matrix3d::Identity();
         reference.planes.planes.push_back(plane);
         current.planes.planes.push_back(plane);
         PointTrack track;
@@ -66,7 +66,7 @@ TEST_F(PairBuilderTest, movesTheReferenceByItsVelocity)
     velocity << 0.4, -0.3, 0.25, 0.6, 0.8, -0.5;
     reference.velocity = velocity;
     build();
-    const ShutterCorrection shutter(reference.shutter, 480);
+    const ShutterCorrection shutter(reference.shutter, {640, 480});
     const PointFeature& point = reference.points.points.front();
     const PlaneFeature& plane = reference.planes.planes.front();
     EXPECT_THAT(points.front().dRef_dV, test::IsMatrixNear(shutter.pointJacobian(point), 1e-12));

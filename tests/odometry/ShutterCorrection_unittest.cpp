@@ -17,6 +17,7 @@ namespace pointplane
 namespace
 {
 constexpr int kWidth = 320, kHeight = 240;
+const cv::Size kSize(kWidth, kHeight);
 
 /** A Kinect in a moving hand. */
 ShutterModel kinect() { return {0.027, 0.024, -0.010}; }
@@ -129,7 +130,7 @@ TEST(ShutterCorrection, pointByHand)
     ShutterModel shutter{0.02, 0.02, 0};
     Vector6d V = Vector6d::Zero();
     V[2] = 1;
-    const ShutterCorrection correction(shutter, kHeight);
+    const ShutterCorrection correction(shutter, kSize);
     EXPECT_THAT(
         correctedPoint(correction, pointOn({0.1, 0.4, 1.99}, {0, 0, -1 / 1.99}, kHeight), V),
         test::IsMatrixNear(Eigen::Vector3d(0.1, 0.4, 2), 1e-12));
@@ -142,7 +143,7 @@ TEST(ShutterCorrection, depthOfASlopeByHand)
 {
     // Depth 10 ms before colour, turning at 10 rad/s: the ray has moved by 0.1 rad since, along a
     // wall at 45 deg, Z = 2 + X, whose depth grows by 2 m per rad there.
-    const ShutterCorrection correction({0, 0, -0.010}, kHeight);
+    const ShutterCorrection correction({0, 0, -0.010}, kSize);
     Vector6d V = Vector6d::Zero();
     V[4] = 10;
     const Eigen::Vector3d P(0, 0, 2);
@@ -153,7 +154,7 @@ TEST(ShutterCorrection, depthOfASlopeByHand)
 
 TEST(ShutterCorrection, pointOfAStaticWorld)
 {
-    const ShutterCorrection correction(kinect(), kHeight);
+    const ShutterCorrection correction(kinect(), kSize);
     const Vector6d V = handVelocity();
     for (const Eigen::Vector3d& direction :
          {Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0.6, 0, 1), Eigen::Vector3d(0.1, -0.8, 1)})
@@ -176,7 +177,7 @@ TEST(ShutterCorrection, pointOfAStaticWorld)
 
 TEST(ShutterCorrection, pointErrorIsOfSecondOrder)
 {
-    const ShutterCorrection correction(kinect(), kHeight);
+    const ShutterCorrection correction(kinect(), kSize);
     const Eigen::Vector3d P(0.6, 0.7, 2.2);
     const auto remaining = [&](double scale)
     {
@@ -190,7 +191,7 @@ TEST(ShutterCorrection, pointErrorIsOfSecondOrder)
 TEST(ShutterCorrection, planeOfAStaticWorld)
 {
     const Vector6d V = handVelocity();
-    const ShutterCorrection correction(kinect(), kHeight);
+    const ShutterCorrection correction(kinect(), kSize);
     PlaneExtractor extractor({}, {});
     for (const Eigen::Vector3d& theta :
          {Eigen::Vector3d(0, 0, -0.5),
@@ -220,7 +221,7 @@ TEST(ShutterCorrection, planeSeenByAPartOfTheImage)
     const PlaneSet set = PlaneExtractor({}, {}).extract(depth, camera());
     ASSERT_EQ(set.planes.size(), 1U);
     const double before = (set.planes[0].plane_cam.theta_m - theta).norm();
-    const ShutterCorrection correction(kinect(), kHeight);
+    const ShutterCorrection correction(kinect(), kSize);
     const Eigen::Vector3d corrected = correctedPlane(correction, set.planes[0], V);
     EXPECT_LT((corrected - theta).norm(), 0.05 * before);
 }
@@ -231,15 +232,15 @@ TEST(ShutterCorrection, nothingToCorrect)
     const PointFeature point = pointOn(P, through(P, {0.5, 0.2, 1}), 17);
     PlaneFeature plane;
     plane.plane_cam.theta_m << 0.1, 0.2, -0.4;
-    plane.rowLever = 0.1 * Eigen::Matrix3d::Ones();
+    plane.readoutLever = 0.1 * Eigen::Matrix3d::Ones();
     const Eigen::Vector3d& theta = plane.plane_cam.theta_m;
     // A still camera, a global shutter, an unknown one.
-    const ShutterCorrection still(kinect(), kHeight);
+    const ShutterCorrection still(kinect(), kSize);
     EXPECT_THAT(correctedPoint(still, point, Vector6d::Zero()), test::IsMatrixNear(P, 1e-15));
     EXPECT_EQ(correctedPlane(still, plane, Vector6d::Zero()), theta);
     for (const ShutterModel& shutter : {ShutterModel{0, 0, 0}, ShutterModel{}})
     {
-        const ShutterCorrection none(shutter, kHeight);
+        const ShutterCorrection none(shutter, kSize);
         EXPECT_THAT(correctedPoint(none, point, handVelocity()), test::IsMatrixNear(P, 1e-15));
         EXPECT_THAT(correctedPlane(none, plane, handVelocity()), test::IsMatrixNear(theta, 1e-15));
     }
@@ -251,13 +252,13 @@ TEST(ShutterCorrection, changesWithTheShutter)
     PointFeature point = pointOn({0.4, -0.3, 1.7}, {0.1, -0.2, -0.5}, 31);
     PlaneFeature plane;
     plane.plane_cam.theta_m << 0.2, -0.4, 0.6;
-    plane.rowLever << 0.1, -0.2, 0.05, 0.3, 0.1, 0, -0.1, 0.2, 0.15;
+    plane.readoutLever << 0.1, -0.2, 0.05, 0.3, 0.1, 0, -0.1, 0.2, 0.15;
     const Vector6d V = handVelocity();
     const auto at = [&](int k, double by)
     {
         ShutterModel shutter = kinect();
         (k == 0 ? shutter.readoutColour : k == 1 ? shutter.readoutDepth : shutter.depthDelay) += by;
-        return ShutterCorrection(shutter, kHeight);
+        return ShutterCorrection(shutter, kSize);
     };
     constexpr double kStep = 1e-3;
     Eigen::Matrix3d ofPoint, ofPlane;
@@ -269,7 +270,7 @@ TEST(ShutterCorrection, changesWithTheShutter)
         ofPlane.col(k) =
             (after.planeJacobian(plane) - before.planeJacobian(plane)) * V / (2 * kStep);
     }
-    const ShutterCorrection correction(kinect(), kHeight);
+    const ShutterCorrection correction(kinect(), kSize);
     EXPECT_THAT(correction.pointByShutter(point, V), test::IsMatrixNear(ofPoint, 1e-9));
     EXPECT_THAT(correction.planeByShutter(plane, V), test::IsMatrixNear(ofPlane, 1e-9));
     EXPECT_GT(ofPoint.col(0).norm(), 0.1);

@@ -21,18 +21,19 @@ Eigen::Isometry3d view(double x, double angle)
 
 TEST(viewCorrelation, byHand)
 {
-    EXPECT_EQ(viewCorrelation(view(0, 0)), 1);
-    EXPECT_NEAR(viewCorrelation(view(0.6, 0)), std::exp(-1), 1e-12);
-    EXPECT_NEAR(viewCorrelation(view(-0.6, 0)), std::exp(-1), 1e-12);
-    EXPECT_NEAR(viewCorrelation(view(0, -1)), std::exp(-1), 1e-12);
-    EXPECT_NEAR(viewCorrelation(view(0.3, 0.5)), std::exp(-1), 1e-12);
+    EXPECT_EQ(viewCorrelation(view(0, 0), 1), 1);
+    EXPECT_NEAR(viewCorrelation(view(0.6, 0), 1), std::exp(-1), 1e-12);
+    EXPECT_NEAR(viewCorrelation(view(-0.6, 0), 1), std::exp(-1), 1e-12);
+    EXPECT_NEAR(viewCorrelation(view(0, -1), 1), std::exp(-1), 1e-12);
+    EXPECT_NEAR(viewCorrelation(view(0.3, 0.5), 1), std::exp(-1), 1e-12);
+    EXPECT_NEAR(viewCorrelation(view(0, 1), 2), std::exp(-0.5), 1e-12) << "half of a wide view";
 }
 
 TEST(planeViewCorrelation, byHand)
 {
-    EXPECT_EQ(planeViewCorrelation(view(0, 0)), 1);
-    EXPECT_NEAR(planeViewCorrelation(view(0.6, 0)), std::exp(-1), 1e-12);
-    EXPECT_NEAR(planeViewCorrelation(view(0.3, 0.15)), std::exp(-1), 1e-12);
+    EXPECT_EQ(planeViewCorrelation(view(0, 0), 1), 1);
+    EXPECT_NEAR(planeViewCorrelation(view(0.6, 0), 1), std::exp(-1), 1e-12);
+    EXPECT_NEAR(planeViewCorrelation(view(0.3, 0.15), 0.9), std::exp(-1), 1e-12);
 }
 
 /** Of any places, in any order: else it would be no correlation. */
@@ -47,7 +48,8 @@ TEST(viewCorrelation, isPositiveDefinite)
         for (Eigen::Index k = 0; k < n; ++k)
         {
             const auto &a = views[static_cast<size_t>(i)], &b = views[static_cast<size_t>(k)];
-            C(i, k) = viewCorrelation(view(a.first, a.second).inverse() * view(b.first, b.second));
+            C(i, k) =
+                viewCorrelation(view(a.first, a.second).inverse() * view(b.first, b.second), 1);
         }
     }
     EXPECT_GT(test::symmetricEigen(C).values.minCoeff(), 0.01);
@@ -57,16 +59,25 @@ TEST(viewSigma, byHand)
 {
     Matrix6d information = Matrix6d::Identity();
     information.bottomRightCorner<3, 3>() *= 8;  // as of features 2 m away
-    const Vector12d sigma = viewSigma(0.01, information, 0.03);
+    const Vector12d sigma = viewSigma(0.01, information, {0.03, 0, 0});
     EXPECT_NEAR(sigma[0], 0.02, 1e-12);
     EXPECT_NEAR(sigma[2], 0.02, 1e-12);
     EXPECT_NEAR(sigma[5], 0.01, 1e-12);
     // Rows are exposed within 30 ms: 8.66 ms of standard deviation.
     EXPECT_NEAR(sigma[6], 0.02 / 0.00866025, 1e-5);
     EXPECT_NEAR(sigma[11], 0.01 / 0.00866025, 1e-5);
-    EXPECT_TRUE(viewSigma(0.01, information, -0.03).isApprox(sigma)) << "from below";
-    EXPECT_TRUE(viewSigma(0.01, information, 0).isApprox(viewSigma(0.01, information, 1e-3)))
-        << "all at once";
-    EXPECT_NEAR(viewSigma(0.01, Matrix6d::Zero(), 0)[0], 0.01, 1e-12) << "of nothing, 1 m";
+    EXPECT_TRUE(viewSigma(0.01, information, {-0.03, 0, 0}).isApprox(sigma)) << "from below";
+    EXPECT_NEAR(viewSigma(0.01, Matrix6d::Zero(), {})[0], 0.01, 1e-12) << "of nothing, 1 m";
+}
+
+/** A camera that exposes all rows at once, and depth later, errs by no more than its pose between
+ * the two: the velocity times the delay. */
+TEST(viewSigma, ofImagesThatAreExposedOneAfterTheOther)
+{
+    const Matrix6d information = Matrix6d::Identity();
+    const Vector12d sigma = viewSigma(0.01, information, {0, 0, -0.02});
+    EXPECT_NEAR(sigma[11] * 0.02, 2 * sigma[5], 1e-12) << "half before, half after their mean";
+    EXPECT_LT(viewSigma(0.01, information, {0.03, 0, -0.02})[11], sigma[11]);
+    EXPECT_TRUE(viewSigma(0.01, information, {0, 0, 0}).tail<6>().isZero(0)) << "all at once";
 }
 }  // namespace pointplane

@@ -60,7 +60,7 @@ void expectWellFormed(const PlaneSet& set, const cv::Mat& depth)
         EXPECT_TRUE(isPositiveDefinite(set.planes[i].plane_cam.cov_m));
         EXPECT_GT(set.planes[i].numPixels, 0);
         EXPECT_GT(cv::countNonZero(set.labels == static_cast<double>(i + 1)), 0);
-        EXPECT_TRUE(set.planes[i].rowLever.allFinite());
+        EXPECT_TRUE(set.planes[i].readoutLever.allFinite());
     }
 }
 

@@ -20,6 +20,8 @@ namespace
 /** Corners of several references that are found in the same cell of this side count as one. */
 constexpr double kSameCorner = 6;  // [px]
 
+cv::Size sizeOf(const PinholeCamera& camera) { return {camera.width, camera.height}; }
+
 /** Number of the cell of the image that the pixel is in. */
 int cellOf(const Eigen::Vector2d& uv_px)
 {
@@ -153,13 +155,13 @@ void PairBuilder::build(
     planes.clear();
     const PinholeCamera& camera = current_.frame.camera;
     const CurrentView current{
-        current_, {learnt_.complete(current_.frame.shutter), camera.height}, learnt_};
+        current_, {learnt_.complete(current_.frame.shutter), sizeOf(camera)}, learnt_};
     for (const Association& association : associations)
     {
         const Reference& reference = *association.reference;
         const ReferenceView past{
             reference,
-            {learnt_.complete(reference.shutter), camera.height},
+            {learnt_.complete(reference.shutter), sizeOf(camera)},
             previous_.T_world_cam.inverse() * reference.T_world_cam};
         for (const PlaneMatch& match : association.planes)
         {
@@ -179,14 +181,14 @@ void PairBuilder::addCameraErrors(
     std::vector<PlanePair>& planes) const
 {
     const PinholeCamera& camera = current_.frame.camera;
-    const ShutterCorrection current(learnt_.complete(current_.frame.shutter), camera.height);
+    const ShutterCorrection current(learnt_.complete(current_.frame.shutter), sizeOf(camera));
     const Eigen::Matrix3d ofCurrent = learnt_.estimated(current_.frame.shutter).asDiagonal();
     auto point = points.begin();
     auto plane = planes.begin();
     for (const Association& association : associations)
     {
         const Reference& reference = *association.reference;
-        const ShutterCorrection past(learnt_.complete(reference.shutter), camera.height);
+        const ShutterCorrection past(learnt_.complete(reference.shutter), sizeOf(camera));
         const Eigen::Matrix3d ofReference = learnt_.estimated(reference.shutter).asDiagonal();
         const Eigen::Isometry3d T_prev_ref =
             previous_.T_world_cam.inverse() * reference.T_world_cam;

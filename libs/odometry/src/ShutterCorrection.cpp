@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/core/se3.h>
 #include <pointplane/odometry/ShutterCorrection.h>
+#include <pointplane/sensor/readout.h>
 
 #include <cmath>
 
@@ -27,15 +28,15 @@ Matrix36d planeVelocity(const Eigen::Vector3d& theta)
 double known(double seconds) { return std::isfinite(seconds) ? seconds : 0; }
 }  // namespace
 
-ShutterCorrection::ShutterCorrection(const ShutterModel& shutter, int imageHeight)
+ShutterCorrection::ShutterCorrection(const ShutterModel& shutter, const cv::Size& image)
     : shutter_{known(shutter.readoutColour), known(shutter.readoutDepth), known(shutter.depthDelay)},
-      height_(imageHeight)
+      image_(image)
 {
 }
 
 Matrix36d ShutterCorrection::pointJacobian(const PointFeature& point) const
 {
-    const double f = point.uv_px.y() / height_ - 0.5;
+    const double f = readoutFraction(point.uv_px, image_);
     const double sColour = f * shutter_.readoutColour;
     const double sDepth = shutter_.depthDelay + f * shutter_.readoutDepth;
     const Eigen::Vector3d& P = point.p_cam.mean;
@@ -46,13 +47,13 @@ Matrix36d ShutterCorrection::pointJacobian(const PointFeature& point) const
 Matrix36d ShutterCorrection::planeJacobian(const PlaneFeature& plane) const
 {
     const Matrix36d g = planeVelocity(plane.plane_cam.theta_m);
-    return -(shutter_.depthDelay * g + shutter_.readoutDepth * (plane.rowLever * g));
+    return -(shutter_.depthDelay * g + shutter_.readoutDepth * (plane.readoutLever * g));
 }
 
 Eigen::Matrix3d ShutterCorrection::pointByShutter(
     const PointFeature& point, const Vector6d& velocity) const
 {
-    const double f = point.uv_px.y() / height_ - 0.5;
+    const double f = readoutFraction(point.uv_px, image_);
     const Eigen::Vector3d& P = point.p_cam.mean;
     const Eigen::Vector3d moved = pointVelocity(P) * velocity;
     const Eigen::Vector3d nearer = P * point.theta_m.dot(moved);
@@ -66,7 +67,7 @@ Eigen::Matrix3d ShutterCorrection::planeByShutter(
 {
     const Eigen::Vector3d g = planeVelocity(plane.plane_cam.theta_m) * velocity;
     Eigen::Matrix3d out;
-    out << Eigen::Vector3d::Zero(), -plane.rowLever * g, -g;
+    out << Eigen::Vector3d::Zero(), -plane.readoutLever * g, -g;
     return out;
 }
 }  // namespace pointplane

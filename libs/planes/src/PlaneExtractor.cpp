@@ -4,6 +4,7 @@
 #include <pointplane/planes/PlaneClustering.h>
 #include <pointplane/planes/PlaneExtractor.h>
 #include <pointplane/planes/PlaneFitter.h>
+#include <pointplane/sensor/readout.h>
 
 #include <Eigen/LU>
 #include <opencv2/core.hpp>
@@ -30,13 +31,16 @@ constexpr std::uint32_t kRansacSeed = 1;
 /** Part of the image over which what bends surfaces is one error. */
 constexpr double kBentPart = 1.0 / 16;
 
-Eigen::Matrix3d rowLever(const CellCluster& cluster, const CellGrid& grid, int height)
+/** PlaneFeature::readoutLever */
+Eigen::Matrix3d leverOf(const CellCluster& cluster, const CellGrid& grid, const cv::Size& image)
 {
     Eigen::Matrix3d weighted = Eigen::Matrix3d::Zero();
     for (const int cell : cluster.cells)
     {
-        const double centre = (cell / grid.cols + 0.5) * grid.cellSizePx;
-        weighted += (centre / height - 0.5) * grid.moments[static_cast<size_t>(cell)].rayMatrix();
+        const Eigen::Vector2d centre_px =
+            grid.cellSizePx * Eigen::Vector2d(cell % grid.cols + 0.5, cell / grid.cols + 0.5);
+        weighted +=
+            readoutFraction(centre_px, image) * grid.moments[static_cast<size_t>(cell)].rayMatrix();
     }
     return cluster.moments.rayMatrix().inverse() * weighted;
 }
@@ -105,7 +109,7 @@ PlaneSet PlaneExtractor::fitToCells(
     {
         const CellCluster core = erosion.eroded(cluster);
         const auto plane = feature(
-            fitInverseDepth(core.moments, noise_), core, core.moments.numPixels, depth.rows);
+            fitInverseDepth(core.moments, noise_), core, core.moments.numPixels, depth.size());
         if (plane)
         {
             out.planes.push_back(*plane);
@@ -140,7 +144,7 @@ PlaneSet PlaneExtractor::fitToPixels(
         }
         const auto numInliers = static_cast<double>(inliers.size());
         const auto plane =
-            feature(fit(segment.points, inliers), clusters[k], numInliers, depth.rows);
+            feature(fit(segment.points, inliers), clusters[k], numInliers, depth.size());
         if (plane)
         {
             out.planes.push_back(*plane);
@@ -189,13 +193,13 @@ std::optional<PlaneFeature> PlaneExtractor::feature(
     std::optional<PlaneGaussian> plane,
     const CellCluster& cells,
     double numPixels,
-    int imageHeight) const
+    const cv::Size& image) const
 {
     if (!plane || !(plane->theta_m.norm() > 1e-3) || !plane->cov_m.allFinite())
     {
         return std::nullopt;
     }
     plane->cov_m *= pixelsThatErrAsOne(*plane, cells, numPixels);
-    return PlaneFeature{*plane, static_cast<int>(numPixels), rowLever(cells, grid_, imageHeight)};
+    return PlaneFeature{*plane, static_cast<int>(numPixels), leverOf(cells, grid_, image)};
 }
 }  // namespace pointplane

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/check.h>
 #include <pointplane/core/choice.h>
 #include <pointplane/core/range.h>
 #include <pointplane/simulation/Random.h>
@@ -140,6 +141,11 @@ void SimulationParams::check() const
     checkRange("maxIncidenceDeg", maxIncidenceDeg, 10, 90);
     checkRange("minDepth", minDepth, 0, 100);
     checkRange("maxDepth", maxDepth, minDepth, 1000);
+    POINTPLANE_CHECK(
+        height <= width || (readoutColour == 0 && readoutDepth == 0),
+        "height = " << height << " is more than width = " << width
+                    << ": upright images have columns for lines, which are not simulated; set "
+                       "readoutColour and readoutDepth to 0");
 }
 
 PinholeCamera SimulationParams::camera() const

@@ -17,6 +17,9 @@ namespace
 {
 constexpr double kMaxTime = 0.05;  //!< no camera is slower [s]
 
+/** So many standard deviations tell the sign of a readout. */
+constexpr double kSure = 3;
+
 /** Who knows the readouts knows when images are exposed. Otherwise the delay comes from time
  * stamps, which tell when they arrived. */
 bool tellsExposure(const ShutterModel& source)
@@ -69,9 +72,22 @@ CameraCalibrator::CameraCalibrator(const TShutter& shutter, const TLens& lens)
 void CameraCalibrator::start(const PinholeCamera& camera)
 {
     camera_ = camera;
+    knowsDirection_ = areReadoutsTold();
     prior_ = priorVariances(0);
     cov_ = prior_.asDiagonal();
     errors_.setZero();
+    if (!knowsDirection_)
+    {
+        errors_.segment<2>(kReadoutColour) = -timesOf(shutter_).head<2>();
+    }
+}
+
+/** Or not to be learnt. */
+bool CameraCalibrator::areReadoutsTold() const
+{
+    const Eigen::Vector2d readouts = timesOf(shutter_).head<2>().cwiseAbs();
+    return !shutter_.correct || !shutter_.selfCalibrate || readouts.isZero(0) ||
+           readouts.minCoeff() > kSure * sigmaPrior();
 }
 
 /** Of what is to be learnt. What is exact, or only considered, has no variance and stays as it is.
@@ -86,6 +102,10 @@ CameraVector CameraCalibrator::priorVariances(double bend) const
     if (shutter_.correct && shutter_.selfCalibrate)
     {
         out.tail<3>().setConstant(sigmaPrior() * sigmaPrior());
+        if (!knowsDirection_)
+        {
+            out.segment<2>(kReadoutColour) += timesOf(shutter_).head<2>().cwiseAbs2();
+        }
     }
     return out;
 }
@@ -120,7 +140,45 @@ CameraCalibrator::Change CameraCalibrator::update(
     auto ofShutter = errors_.tail<3>();
     ofShutter = (told + ofShutter).cwiseMax(-kMaxTime).cwiseMin(kMaxTime) - told;
     out.noise = propagate(cov_, learnt.information) + out.gain * widening * out.gain.transpose();
+    if (const double direction = directionOfReadout(); !knowsDirection_ && direction != 0)
+    {
+        believe(direction, out);
+    }
     return out;
+}
+
+/** \return 1 if the first row is exposed first, -1 if the last is, 0 if it cannot be told */
+double CameraCalibrator::directionOfReadout() const
+{
+    const Eigen::Vector2d readouts =
+        timesOf(shutter_).head<2>() + errors_.segment<2>(kReadoutColour);
+    const Eigen::Vector2d sigmas = cov_.diagonal().segment<2>(kReadoutColour).cwiseSqrt();
+    for (const int image : {0, 1})
+    {
+        if (std::abs(readouts[image]) > kSure * sigmas[image])
+        {
+            return std::copysign(1.0, readouts[image]);
+        }
+    }
+    return 0;
+}
+
+/** Learns the times anew, with a prior that knows the direction: what was learnt without it tells
+ * the sign, but makes readouts too short (docs/theory.md, Learning the camera). */
+void CameraCalibrator::believe(double direction, Change& change)
+{
+    const Eigen::Vector2d told = timesOf(shutter_).head<2>();
+    knowsDirection_ = true;
+    errors_.tail<3>() << direction * told.cwiseAbs() - told, 0;
+    const Eigen::Vector3d variances = priorVariances(0).tail<3>();
+    prior_.tail<3>() = variances;
+    change.gain.bottomRows<3>().setZero();
+    for (CameraMatrix* cov : {&cov_, &change.noise})
+    {
+        cov->bottomRows<3>().setZero();
+        cov->rightCols<3>().setZero();
+        cov->diagonal().tail<3>() = variances;
+    }
 }
 
 LearntLens CameraCalibrator::lens() const

@@ -17,7 +17,7 @@ namespace pointplane
 namespace
 {
 /** How alike the views of the references and of the frame are. */
-JointCovariance::Views viewsOf(const ErrorModel::Measured& frame)
+JointCovariance::Views viewsOf(const ErrorModel::Measured& frame, double viewAngle)
 {
     JointCovariance::Views out;
     std::vector<Eigen::Isometry3d> poses;
@@ -35,11 +35,20 @@ JointCovariance::Views viewsOf(const ErrorModel::Measured& frame)
         {
             const auto row = static_cast<Eigen::Index>(i), column = static_cast<Eigen::Index>(k);
             const Eigen::Isometry3d motion = poses[i].inverse() * poses[k];
-            out.correlation(row, column) = out.correlation(column, row) = viewCorrelation(motion);
-            out.ofPlanes(row, column) = out.ofPlanes(column, row) = planeViewCorrelation(motion);
+            out.correlation(row, column) = out.correlation(column, row) =
+                viewCorrelation(motion, viewAngle);
+            out.ofPlanes(row, column) = out.ofPlanes(column, row) =
+                planeViewCorrelation(motion, viewAngle);
         }
     }
     return out;
+}
+
+/** Of both sides of the image, the mean [rad]. */
+double viewAngle(const PinholeCamera& camera)
+{
+    const double size = camera.width / camera.fx * (camera.height / camera.fy);
+    return 2 * std::atan(std::sqrt(std::abs(size)) / 2);
 }
 
 /** The symmetric R with R R^T = S. */
@@ -68,13 +77,14 @@ CameraMatrix ErrorModel::changeCamera(const PinholeCamera& camera)
     noise_ = NoiseScale(noiseParams_);
     planes_ = PlaneErrors(noiseParams_.timeConstant);
     camera_.start(camera);
+    viewAngle_ = viewAngle(camera);
     const CameraVector learnt = camera_.cov().diagonal();
     return calibrationVariances(params_, camera).cwiseMax(learnt).asDiagonal();
 }
 
 JointCovariance::Measurement ErrorModel::learn(const Measured& frame)
 {
-    const JointCovariance::Views views = viewsOf(frame);
+    const JointCovariance::Views views = viewsOf(frame, viewAngle_);
     std::map<int, double> correlation;  // of the planes, with the new frame
     for (size_t k = 0; k < views.frames.size(); ++k)
     {
@@ -127,9 +137,7 @@ JointCovariance::Measurement ErrorModel::errorsOf(const Measured& frame) const
     if (!of.points.isZero(0))
     {
         out.viewSigma = viewSigma(
-            commonAngle(),
-            frame.estimate.infoPoints + frame.estimate.infoPlanes,
-            frame.shutter.readoutColour);
+            commonAngle(), frame.estimate.infoPoints + frame.estimate.infoPlanes, frame.shutter);
     }
     out.planeViewRoot = rootOf(planes_.byView() * Matrix6d(of.planes.topLeftCorner<6, 6>()));
     return out;

@@ -92,5 +92,6 @@ class ErrorModel
     NoiseScale noise_;
     PlaneErrors planes_;
     CameraCalibrator camera_;
+    double viewAngle_{1};  //!< of the camera [rad]
 };
 }  // namespace pointplane

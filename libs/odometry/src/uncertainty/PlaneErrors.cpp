@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/odometry/uncertainty/NoiseScale.h>
 #include <pointplane/odometry/uncertainty/PlaneErrors.h>
 
 #include <algorithm>
@@ -10,9 +11,6 @@ namespace
 {
 /** What one frame says, over what is known: a wrong match must not count like many right ones. */
 constexpr double kMostChange = 10;
-
-/** Below this, errors new in each frame are too small to tell from none. */
-constexpr double kLeastVariance = 0.1;
 }  // namespace
 
 void PlaneErrors::update(
@@ -47,9 +45,9 @@ void PlaneErrors::fit()
     const double determinant = n * xx - x_ * x_;
     own_ = (y * xx - xy * x_) / determinant;
     byView_ = (n * xy - x_ * y) / determinant;
-    if (own_ < kLeastVariance)
+    if (const double least = NoiseScale::plausible(own_); own_ < least)
     {
-        own_ = kLeastVariance;
+        own_ = least;
         byView_ = (xy - own_ * x_) / xx;
     }
     if (byView_ < 0)

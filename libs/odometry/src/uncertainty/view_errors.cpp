@@ -3,24 +3,18 @@
 
 #include <Eigen/Geometry>
 
-#include <algorithm>
 #include <cmath>
 
 namespace pointplane
 {
 namespace
 {
-/** A way and a turn over which errors become those of another view. About half and twice of
- * them change little: docs/experiments_archive.md, Errors by the view and how many points there
- * are. */
+/** A way over which errors become those of another view. Half and twice of it change little:
+ * docs/experiments_archive.md, Errors by the view and how many points there are. */
 constexpr double kDistance = 0.6;  // [m]
-constexpr double kAngle = 1;       // [rad]
 
-/** A turn that moves planes to other parts of the image: a third of a Kinect's view. */
-constexpr double kPlaneAngle = 0.3;  // [rad]
-
-/** Faster rows [s] do not show how fast a camera is. */
-constexpr double kShortestReadout = 1e-3;
+/** Part of the view in which planes are cut out alike. */
+constexpr double kPlanePart = 1.0 / 3;
 
 /** How far away [m] the features are: where a rotation moves them as far as a translation of that
  * distance times the angle. */
@@ -31,27 +25,34 @@ double distanceOf(const Matrix6d& information)
     return ofTranslation > 0 ? std::sqrt(ofRotation / (2 * ofTranslation)) : 1;
 }
 
-double correlation(const Eigen::Isometry3d& motion, double angle)
+/** Standard deviation of when features are exposed [s]: in any row, of colour or of depth. */
+double spreadOf(const ShutterModel& shutter)
 {
-    const double turn = Eigen::AngleAxisd(motion.linear()).angle();
-    return std::exp(-motion.translation().norm() / kDistance - turn / angle);
+    return std::hypot(shutter.readoutColour / std::sqrt(12.0), shutter.depthDelay / 2);
 }
 }  // namespace
 
-double viewCorrelation(const Eigen::Isometry3d& motion) { return correlation(motion, kAngle); }
-
-double planeViewCorrelation(const Eigen::Isometry3d& motion)
+double viewCorrelation(const Eigen::Isometry3d& motion, double viewAngle)
 {
-    return correlation(motion, kPlaneAngle);
+    const double turn = Eigen::AngleAxisd(motion.linear()).angle();
+    return std::exp(-motion.translation().norm() / kDistance - turn / viewAngle);
 }
 
-Vector12d viewSigma(double sigma, const Matrix6d& information, double readout)
+double planeViewCorrelation(const Eigen::Isometry3d& motion, double viewAngle)
+{
+    return viewCorrelation(motion, kPlanePart * viewAngle);
+}
+
+Vector12d viewSigma(double sigma, const Matrix6d& information, const ShutterModel& shutter)
 {
     const Vector6d ofPose = perAxis(sigma * distanceOf(information), sigma);
-    // Standard deviation of when rows are exposed, all rows alike.
-    const double spread = std::max(std::abs(readout), kShortestReadout) / std::sqrt(12.0);
-    Vector12d out;
-    out << ofPose, ofPose / spread;
+    const double spread = spreadOf(shutter);
+    Vector12d out = Vector12d::Zero();
+    out.head<6>() = ofPose;
+    if (spread > 0)
+    {
+        out.tail<6>() = ofPose / spread;
+    }
     return out;
 }
 }  // namespace pointplane

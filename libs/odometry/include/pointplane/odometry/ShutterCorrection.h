@@ -11,13 +11,13 @@ namespace pointplane
 /** Moves what a rolling shutter saw to the instant of the pose, given the camera's velocity.
  *
  * The camera moves as T_world_cam(t) = T_world_cam(stamp) exp((t - stamp) V), V = [rho; omega] in
- * the camera frame [m/s, rad/s], constant over the readout. Row v of height h is exposed at s =
- * delay + f readout with f = v/h - 1/2 (sensor/RgbdFrame.h). */
+ * the camera frame [m/s, rad/s], constant over the readout. A pixel is exposed at s =
+ * delay + f readout with f = readoutFraction(), v/h - 1/2 in row v of height h. */
 class ShutterCorrection
 {
  public:
     /** Unknown times count as zero. */
-    ShutterCorrection(const ShutterModel& shutter, int imageHeight);
+    ShutterCorrection(const ShutterModel& shutter, const cv::Size& image);
 
     /** dP / dV [s, m s] of a point P as it was measured: at the frame's instant it is at
      * P + (dP / dV) V. Its pixel is from the colour image, exposed at s_c. Its depth is from the
@@ -27,7 +27,7 @@ class ShutterCorrection
 
     /** dtheta_m / dV of a plane as it was measured: at the frame's instant it is at
      * theta_m - (delay I + readout L) g with g = theta x omega - theta theta^T rho and L the
-     * plane's rowLever. Derivation: docs/theory.md, Rolling shutter. */
+     * plane's readoutLever. Derivation: docs/theory.md, Rolling shutter. */
     [[nodiscard]] Matrix36d planeJacobian(const PlaneFeature& plane) const;
 
     /** How the two corrections (Jacobian times V) change with readoutColour, readoutDepth and
@@ -39,6 +39,6 @@ class ShutterCorrection
 
  private:
     ShutterModel shutter_;
-    double height_;
+    cv::Size image_;
 };
 }  // namespace pointplane

@@ -107,7 +107,7 @@ class PlaneExtractor
         std::optional<PlaneGaussian> plane,
         const CellCluster& cells,
         double numPixels,
-        int imageHeight) const;
+        const cv::Size& image) const;
     [[nodiscard]] double pixelsThatErrAsOne(
         const PlaneGaussian& plane, const CellCluster& cells, double numPixels) const;
 

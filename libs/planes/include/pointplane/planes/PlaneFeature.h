@@ -14,10 +14,10 @@ struct PlaneFeature
 {
     PlaneGaussian plane_cam;  //!< camera frame, optical axes
     int numPixels{0};         //!< inliers that the fit used [px]
-    /** How an error of the inverse depth that grows linearly with the row enters theta_m, as with a
-     * rolling shutter: A^-1 sum_i f_i r_i r_i^T with A = sum_i r_i r_i^T over the pixels' rays r
-     * and f = v / height - 1/2. */
-    Eigen::Matrix3d rowLever{Eigen::Matrix3d::Zero()};
+    /** How an error of the inverse depth that grows linearly with the line enters theta_m, as with
+     * a rolling shutter: A^-1 sum_i f_i r_i r_i^T with A = sum_i r_i r_i^T over the pixels' rays r
+     * and f = readoutFraction(). */
+    Eigen::Matrix3d readoutLever{Eigen::Matrix3d::Zero()};
 };
 
 /** All planes of a frame and which pixels they cover. */

@@ -15,7 +15,11 @@ namespace pointplane
  * Errors of the camera are constants with a Gaussian prior. The residuals at the estimated pose
  * depend on them. What they say of the errors, once the motion is eliminated (CameraInformation),
  * is summed over frames. Features are then corrected to first order; the images are not.
- * Derivation: docs/theory.md, Learning the camera. */
+ *
+ * Images may be turned, so either the first row or the last one may be exposed first. Until that
+ * is known, the readout is taken for zero, with an error of its own size. Motions that are
+ * corrected in the wrong direction would agree with that direction. Derivation: docs/theory.md,
+ * Learning the camera. */
 class CameraCalibrator
 {
  public:
@@ -41,7 +45,7 @@ class CameraCalibrator
               readoutColour,
               "s",
               "time from the first to the last row of the colour image, if the recording does "
-              "not say");
+              "not say (in upright images: column)");
             v("readoutDepth", readoutDepth, "s", "the same of the depth image");
             v("depthDelay",
               depthDelay,
@@ -51,7 +55,8 @@ class CameraCalibrator
             v("selfCalibrate",
               selfCalibrate,
               "-",
-              "learn from the camera's motion what the recording does not say");
+              "learn from the camera's motion what the recording does not say, also which row is "
+              "the first");
             v("sigmaPrior",
               sigmaPrior,
               "s",
@@ -129,11 +134,15 @@ class CameraCalibrator
 
  private:
     [[nodiscard]] CameraVector priorVariances(double bend) const;
+    [[nodiscard]] bool areReadoutsTold() const;
+    [[nodiscard]] double directionOfReadout() const;
+    void believe(double direction, Change& change);
 
     TShutter shutter_;
     TLens lens_;
     PinholeCamera camera_;
     CameraVector prior_{CameraVector::Zero()}, errors_{CameraVector::Zero()};
     CameraMatrix cov_{CameraMatrix::Zero()};
+    bool knowsDirection_{true};  //!< whether the first or the last row is exposed first
 };
 }  // namespace pointplane

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <pointplane/core/types.h>
+#include <pointplane/sensor/RgbdFrame.h>
 
 namespace pointplane
 {
@@ -12,21 +13,24 @@ namespace pointplane
  * nothing of it shows when they are compared; frames far apart err each for itself. This is a
  * stationary Gaussian field over views.
  * \param motion between the two frames
- * \return correlation of their errors: exp(-distance / 0.6 m - angle / 1 rad) */
-[[nodiscard]] double viewCorrelation(const Eigen::Isometry3d& motion);
+ * \param viewAngle of the camera [rad]: a turn by it shows nothing of what was in view before
+ * \return correlation of their errors: exp(-distance / 0.6 m - angle / viewAngle) */
+[[nodiscard]] double viewCorrelation(const Eigen::Isometry3d& motion, double viewAngle);
 
-/** The same of what the planes of the frames err by. A turn puts them into another part of the
- * image, where they are cut out differently. \return exp(-distance / 0.6 m - angle / 0.3 rad) */
-[[nodiscard]] double planeViewCorrelation(const Eigen::Isometry3d& motion);
+/** The same of what the planes of the frames err by. A turn by a part of the view puts them into
+ * another part of the image, where they are cut out differently.
+ * \return exp(-distance / 0.6 m - 3 angle / viewAngle) */
+[[nodiscard]] double planeViewCorrelation(const Eigen::Isometry3d& motion, double viewAngle);
 
 /** Standard deviation of that error, as one of the pose (left perturbation) [m, rad]: sigma D per
  * axis of the translation and sigma per axis of the rotation, which moves the features as far. D is
  * their distance, which `information` tells.
  *
- * From row to row, features err as differently as from frame to frame. Where rows are exposed one
- * after the other, this looks like a velocity: the last six components [m/s, rad/s].
+ * From row to row, and from colour to depth, features err as differently as from frame to frame.
+ * Where these are exposed one after the other, this looks like a velocity: the last six components
+ * [m/s, rad/s]. Zero if all is exposed at once.
  *
- * \param information of the pose by all features, J^T W J
- * \param readout from the first to the last row [s]; at least 1 ms counts */
-[[nodiscard]] Vector12d viewSigma(double sigma, const Matrix6d& information, double readout);
+ * \param information of the pose by all features, J^T W J */
+[[nodiscard]] Vector12d viewSigma(
+    double sigma, const Matrix6d& information, const ShutterModel& shutter);
 }  // namespace pointplane
