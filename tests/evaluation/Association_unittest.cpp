@@ -65,3 +65,17 @@ TEST(SampleTruth, interpolatesOnTheScrewsStraightParts)
     EXPECT_TRUE(s.poses[0].linear().isApprox(so3Exp({0, 0, 0.25}), 1e-12));
     EXPECT_TRUE(s.poses[1].isApprox(truth.poses[1], 0));
 }
+
+/** What the camera did there is not known: a straight line over the hole would be its fault. */
+TEST(SampleTruth, interpolatesOverNoHole)
+{
+    const Trajectory truth = withHole(randomTrajectory(41, 1), 10, 20);  // 100.9 .. 102.0
+    const SampledTruth s = sampleTruth(
+        truth,
+        {100.85, 100.9 + 1e-7, 100.95, 101.95, 102 - 1e-7, 102.05},
+        0,
+        TruthAt::Interpolated);
+    EXPECT_EQ(s.valid, (std::vector<char>{1, 1, 0, 0, 1, 1}));
+    EXPECT_TRUE(s.poses[1].isApprox(truth.poses[9], 0));  // a rounded stamp is no hole
+    EXPECT_TRUE(s.poses[4].isApprox(truth.poses[10], 0));
+}

@@ -85,6 +85,23 @@ TEST(Coverage, isOfTheRecordingNotOfGroundTruthThatRunsOn)
     EXPECT_THAT(describe(c), HasSubstr("of the ground truth's time, frames not marked"));
 }
 
+TEST(Coverage, holesOfTheGroundTruthAreNotScored)
+{
+    Trajectory estimate = estimateOf(std::vector<FrameStatus>(151));
+    const Trajectory truth = withHole(randomTrajectory(151, 1), 50, 99);  // 49 poses, 50 steps
+    EXPECT_NEAR(coverageOf(truth, estimate, 0).share, 100. / 150, 1e-9);
+    Trajectory begins = truth;  // a step that begins outside of the hole and ends in it
+    begins.stamps[49] += 0.05;
+    EXPECT_NEAR(coverageOf(begins, estimate, 0).share, 100.5 / 150, 1e-9);
+
+    // Where the recording is not known, the ground truth's time has no holes either.
+    estimate.marksFrames = false;
+    EXPECT_NEAR(coverageOf(truth, estimate, 0).share, 1, 1e-9);
+    Trajectory late = randomTrajectory(151, 1);
+    late.stamps.back() += 3e9;  // one wrong stamp
+    EXPECT_NEAR(coverageOf(late, estimate, 0).share, 1, 1e-9);
+}
+
 /** A wrong stamp says nothing about how many frames were tracked. */
 TEST(Coverage, oneStampFromTheFutureLeavesTheShareAsItIs)
 {

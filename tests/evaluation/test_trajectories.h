@@ -28,6 +28,20 @@ inline Trajectory randomTrajectory(std::size_t n, unsigned seed, double interval
     return makeTrajectory("random", poses);
 }
 
+/** The same trajectory without the poses from begin to end. */
+inline Trajectory withHole(Trajectory trajectory, std::size_t begin, std::size_t end)
+{
+    const auto cut = [&](auto& list)
+    {
+        const auto first = list.begin();
+        list.erase(
+            first + static_cast<std::ptrdiff_t>(begin), first + static_cast<std::ptrdiff_t>(end));
+    };
+    cut(trajectory.stamps);
+    cut(trajectory.poses);
+    return trajectory;
+}
+
 /** The same trajectory with every pose perturbed on the left by N(0, sigma^2). */
 inline Trajectory perturbed(Trajectory trajectory, double sigma, unsigned seed)
 {

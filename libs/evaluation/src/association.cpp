@@ -10,6 +10,8 @@ namespace pointplane
 {
 namespace
 {
+constexpr double kSameTime = 1e-6;  // [s] to which files are rounded
+
 Eigen::Isometry3d interpolated(
     const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, double fraction)
 {
@@ -108,6 +110,7 @@ SampledTruth sampleTruth(
     out.stamps.assign(stamps.size(), 0);
     out.maxTimeDifference = 2 * medianInterval(groundTruth.stamps);
     const std::vector<double>& truth = groundTruth.stamps;
+    const std::vector<bool> holes = holesBefore(groundTruth);
     for (std::size_t i = 0; i < stamps.size(); ++i)
     {
         const double stamp = stamps[i] + offset;
@@ -126,6 +129,11 @@ SampledTruth sampleTruth(
             continue;
         }
         const auto k = static_cast<std::size_t>(after - truth.begin());
+        if (holes[k])
+        {
+            out.valid[i] = std::abs(truth[nearest] - stamp) <= kSameTime ? 1 : 0;
+            continue;
+        }
         out.stamps[i] = stamp;
         out.poses[i] = interpolated(
             groundTruth.poses[k - 1],

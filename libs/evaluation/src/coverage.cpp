@@ -35,6 +35,48 @@ std::vector<Frame> framesOf(const Trajectory& estimate)
         [](const Frame& a, const Frame& b) { return a.stamp < b.stamp; });
     return frames;
 }
+
+/** The time of the ground truth, without its holes. */
+class KnownTime
+{
+ public:
+    explicit KnownTime(const Trajectory& truth) : stamps_(truth.stamps), isHole_(holesBefore(truth))
+    {
+        for (std::size_t k = 1; k < stamps_.size(); ++k)
+        {
+            const double interval = stamps_[k] - stamps_[k - 1];
+            holes_.push_back(holes_.back() + (isHole_[k] ? interval : 0));
+            whole_ += isHole_[k] ? 0 : interval;
+        }
+    }
+
+    /** \return seconds of it in an interval */
+    [[nodiscard]] double within(double from, double to) const
+    {
+        from = std::max(from, stamps_.front());
+        to = std::min(to, stamps_.back());
+        return std::max(0.0, to - from - (holesBy(to) - holesBy(from)));
+    }
+    [[nodiscard]] double whole() const { return whole_; }
+
+ private:
+    /** Seconds of holes up to a time. */
+    [[nodiscard]] double holesBy(double time) const
+    {
+        const auto next = std::upper_bound(stamps_.begin(), stamps_.end(), time);
+        const auto k = static_cast<std::size_t>(next - stamps_.begin());
+        if (k == 0 || k == stamps_.size())
+        {
+            return k == 0 ? 0 : holes_.back();
+        }
+        return holes_[k - 1] + (isHole_[k] ? time - stamps_[k - 1] : 0);
+    }
+
+    const std::vector<double>& stamps_;
+    std::vector<bool> isHole_;
+    std::vector<double> holes_{0};  //!< seconds of holes up to each pose
+    double whole_{0};
+};
 }  // namespace
 
 Coverage coverageOf(const Trajectory& groundTruth, const Trajectory& estimate, double offset)
@@ -47,6 +89,7 @@ Coverage coverageOf(const Trajectory& groundTruth, const Trajectory& estimate, d
         std::back_inserter(stamps),
         [](const Frame& frame) { return frame.stamp; });
     const double longest = 5 * medianInterval(stamps);
+    const KnownTime truth(groundTruth);
     double seconds = 0;
     double steps = 0;
     for (std::size_t i = 1; i < frames.size(); ++i)
@@ -54,10 +97,9 @@ Coverage coverageOf(const Trajectory& groundTruth, const Trajectory& estimate, d
         const double interval = stamps[i] - stamps[i - 1];
         if (frames[i].tracked && interval > 0 && interval <= longest)
         {
-            const double from = std::max(stamps[i - 1] + offset, groundTruth.stamps.front());
-            const double to = std::min(stamps[i] + offset, groundTruth.stamps.back());
-            seconds += std::max(0.0, to - from);
-            steps += std::max(0.0, to - from) / interval;
+            const double known = truth.within(stamps[i - 1] + offset, stamps[i] + offset);
+            seconds += known;
+            steps += known / interval;
         }
     }
     Coverage out;
@@ -66,7 +108,7 @@ Coverage coverageOf(const Trajectory& groundTruth, const Trajectory& estimate, d
     const double counted = out.ofRecording ? steps : seconds;
     const double whole = out.ofRecording
                              ? static_cast<double>(frames.size() + estimate.lostWithoutTime) - 1
-                             : groundTruth.duration();
+                             : truth.whole();
     out.share = whole > 0 ? std::min(1.0, counted / whole) : 0;
     const auto count = [&](FrameStatus status)
     {

@@ -39,7 +39,7 @@ struct SampledTruth
 
 /** Ground truth at stamps + offset. A stamp is valid when the nearest ground-truth stamp is not
  * farther than twice the median ground-truth interval (evaluate_rpe.py) and, for interpolation,
- * inside the ground truth's time range. */
+ * inside the ground truth's time range and in none of its holesBefore(). */
 [[nodiscard]] SampledTruth sampleTruth(
     const Trajectory& groundTruth,
     const std::vector<double>& stamps,

@@ -19,7 +19,8 @@ struct Coverage
 };
 
 /** A frame stands for the step from the frame before it. That counts if the frame was tracked and
- * if it is not longer than five times the median one, which is a gap.
+ * if it is not longer than five times the median one, which is a gap. Of the ground truth's time,
+ * its holesBefore() do not count.
  * \param offset added to the estimate's stamps [s] */
 [[nodiscard]] Coverage coverageOf(
     const Trajectory& groundTruth, const Trajectory& estimate, double offset);
