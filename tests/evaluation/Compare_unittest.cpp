@@ -264,3 +264,26 @@ TEST(Compare, onlyPairsThatBothRunsHaveCount)
     EXPECT_TRUE(c.isComparable());
     EXPECT_THROW((void)compareRuns(truth, runs, {}, {}, {}), std::invalid_argument);
 }
+
+/** Programs write stamps with four to nine digits. */
+TEST(CompareRuns, framesAreTheSameIfTheirStampsDifferByRoundingOnly)
+{
+    const Trajectory truth = randomTrajectory(300, 1, 1. / 30);
+    const Trajectory exact = perturbed(truth, 0.001, 2);
+    Trajectory rounded = perturbed(truth, 0.002, 3);
+    for (double& stamp : rounded.stamps)
+    {
+        stamp = std::round(1e4 * stamp) / 1e4;
+    }
+    const Comparison c = compareRuns(truth, {exact, rounded}, overOneSecond(), {}, {});
+    EXPECT_TRUE(c.sameFrames);
+    EXPECT_EQ(c.numCommonPairs, c.runs[0].rpe.pairs.size());
+    EXPECT_EQ(c.bestAte, 0u);
+    EXPECT_TRUE(c.runs[1].translationBehindBest->excludesZero());
+
+    for (double& stamp : rounded.stamps)
+    {
+        stamp += 0.01;  // frames between the others
+    }
+    EXPECT_EQ(compareRuns(truth, {exact, rounded}, overOneSecond(), {}, {}).numCommonPairs, 0u);
+}

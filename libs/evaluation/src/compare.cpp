@@ -46,6 +46,40 @@ std::size_t blockLengthOf(const RpeResult& result)
     return std::max<std::size_t>(1, static_cast<std::size_t>(median));
 }
 
+using Stamps = std::vector<double>;
+
+/** Stamps by which frames of different runs are told to be the same: for those that differ as
+ * rounding to four digits makes them, the earliest of them. One list per run. */
+std::vector<Stamps> frameStampsOf(const std::vector<Trajectory>& estimates)
+{
+    double tolerance = 1e-4;
+    Stamps all;
+    for (const Trajectory& estimate : estimates)
+    {
+        tolerance = std::min(tolerance, 0.1 * medianInterval(estimate.stamps));
+        all.insert(all.end(), estimate.stamps.begin(), estimate.stamps.end());
+    }
+    std::sort(all.begin(), all.end());
+    Stamps first;
+    for (const double stamp : all)
+    {
+        if (first.empty() || stamp - first.back() > tolerance)
+        {
+            first.push_back(stamp);
+        }
+    }
+    std::vector<Stamps> out;
+    for (const Trajectory& estimate : estimates)
+    {
+        out.emplace_back();
+        for (const double stamp : estimate.stamps)
+        {
+            out.back().push_back(*std::prev(std::upper_bound(first.begin(), first.end(), stamp)));
+        }
+    }
+    return out;
+}
+
 struct CommonErrors
 {
     std::vector<double> a, b;
@@ -53,21 +87,21 @@ struct CommonErrors
 
 /** Errors of the pairs of stamps that both runs have, in time order. */
 CommonErrors commonErrors(
-    const Trajectory& stampsA,
+    const Stamps& stampsA,
     const RpeResult& a,
-    const Trajectory& stampsB,
+    const Stamps& stampsB,
     const RpeResult& b,
     double RpePair::*error)
 {
     std::map<std::pair<double, double>, double> byStamps;
     for (const RpePair& pair : b.pairs)
     {
-        byStamps[{stampsB.stamps[pair.i], stampsB.stamps[pair.j]}] = pair.*error;
+        byStamps[{stampsB[pair.i], stampsB[pair.j]}] = pair.*error;
     }
     CommonErrors out;
     for (const RpePair& pair : a.pairs)
     {
-        const auto found = byStamps.find({stampsA.stamps[pair.i], stampsA.stamps[pair.j]});
+        const auto found = byStamps.find({stampsA[pair.i], stampsA[pair.j]});
         if (found != byStamps.end())
         {
             out.a.push_back(pair.*error);
@@ -79,24 +113,24 @@ CommonErrors commonErrors(
 
 using StampPair = std::pair<double, double>;
 
-std::set<StampPair> stampPairsOf(const Trajectory& estimate, const RpeResult& result)
+std::set<StampPair> stampPairsOf(const Stamps& stamps, const RpeResult& result)
 {
     std::set<StampPair> out;
     for (const RpePair& pair : result.pairs)
     {
-        out.emplace(estimate.stamps[pair.i], estimate.stamps[pair.j]);
+        out.emplace(stamps[pair.i], stamps[pair.j]);
     }
     return out;
 }
 
 /** Pairs of stamps that all runs have. */
 std::set<StampPair> commonPairs(
-    const std::vector<Trajectory>& estimates, const std::vector<ComparedRun>& runs)
+    const std::vector<Stamps>& stamps, const std::vector<ComparedRun>& runs)
 {
-    std::set<StampPair> out = stampPairsOf(estimates[0], runs[0].rpe);
+    std::set<StampPair> out = stampPairsOf(stamps[0], runs[0].rpe);
     for (std::size_t k = 1; k < runs.size(); ++k)
     {
-        const std::set<StampPair> own = stampPairsOf(estimates[k], runs[k].rpe);
+        const std::set<StampPair> own = stampPairsOf(stamps[k], runs[k].rpe);
         std::set<StampPair> both;
         std::set_intersection(
             out.begin(), out.end(), own.begin(), own.end(), std::inserter(both, both.end()));
@@ -106,10 +140,10 @@ std::set<StampPair> commonPairs(
 }
 
 /** The result without all other pairs. */
-RpeResult ofPairs(const std::set<StampPair>& pairs, const Trajectory& estimate, RpeResult result)
+RpeResult ofPairs(const std::set<StampPair>& pairs, const Stamps& stamps, RpeResult result)
 {
     const auto isOther = [&](const RpePair& pair) {
-        return pairs.count({estimate.stamps[pair.i], estimate.stamps[pair.j]}) == 0;
+        return pairs.count({stamps[pair.i], stamps[pair.j]}) == 0;
     };
     result.pairs.erase(
         std::remove_if(result.pairs.begin(), result.pairs.end(), isOther), result.pairs.end());
@@ -117,23 +151,22 @@ RpeResult ofPairs(const std::set<StampPair>& pairs, const Trajectory& estimate, 
 }
 
 /** Stamps of the poses whose error ATE is. */
-std::vector<double> ateStamps(const Trajectory& estimate, const AteResult& result)
+Stamps ateStamps(const Stamps& stamps, const AteResult& result)
 {
-    std::vector<double> out;
+    Stamps out;
     for (const AteError& error : result.errors)
     {
-        out.push_back(estimate.stamps[error.estimate]);
+        out.push_back(stamps[error.estimate]);
     }
     std::sort(out.begin(), out.end());
     return out;
 }
 
-bool haveSameAteFrames(
-    const std::vector<Trajectory>& estimates, const std::vector<ComparedRun>& runs)
+bool haveSameAteFrames(const std::vector<Stamps>& stamps, const std::vector<ComparedRun>& runs)
 {
     for (std::size_t k = 1; k < runs.size(); ++k)
     {
-        if (ateStamps(estimates[k], runs[k].ate) != ateStamps(estimates[0], runs[0].ate))
+        if (ateStamps(stamps[k], runs[k].ate) != ateStamps(stamps[0], runs[0].ate))
         {
             return false;
         }
@@ -170,21 +203,21 @@ Comparison compareRuns(
         run.ate = absoluteTrajectoryError(groundTruth, estimate, ate);
         out.runs.push_back(std::move(run));
     }
-    const std::set<StampPair> common = commonPairs(estimates, out.runs);
+    const std::vector<Stamps> stamps = frameStampsOf(estimates);
+    const std::set<StampPair> common = commonPairs(stamps, out.runs);
     out.numCommonPairs = common.size();
     for (std::size_t k = 0; k < estimates.size(); ++k)
     {
         ComparedRun& run = out.runs[k];
         out.sameFrames = out.sameFrames && run.rpe.pairs.size() == common.size();
-        const RpeResult scored =
-            common.size() >= 2 ? ofPairs(common, estimates[k], run.rpe) : run.rpe;
+        const RpeResult scored = common.size() >= 2 ? ofPairs(common, stamps[k], run.rpe) : run.rpe;
         options.blockLength = blockLengthOf(scored);
         run.translation = bootstrapRmse(errorsOf(scored, &RpePair::translation), options);
         run.rotation = bootstrapRmse(errorsOf(scored, &RpePair::rotation), options);
     }
     out.bestTranslation = smallest(out.runs, [](const auto& r) { return r.translation.value; });
     out.bestRotation = smallest(out.runs, [](const auto& r) { return r.rotation.value; });
-    if (estimates.size() > 1 && haveSameAteFrames(estimates, out.runs))
+    if (estimates.size() > 1 && haveSameAteFrames(stamps, out.runs))
     {
         out.bestAte = smallest(out.runs, [](const auto& r) { return r.ate.translation.rmse; });
     }
@@ -193,7 +226,7 @@ Comparison compareRuns(
     {
         ComparedRun& run = out.runs[k];
         const CommonErrors both =
-            commonErrors(estimates[k], run.rpe, estimates[best], out.runs[best].rpe, error);
+            commonErrors(stamps[k], run.rpe, stamps[best], out.runs[best].rpe, error);
         run.pairsInCommon = both.a.size();
         options.blockLength = blockLengthOf(run.rpe);
         return k == best || both.a.size() < 2 || !out.isComparable()
