@@ -514,7 +514,7 @@ TEST(MrptTrajectories, neesOfAShortRecordingLeavesOutWhatItIsTooShortFor)
     std::vector<std::string> args{"nees", truthFile, dir / "short.rawlog", "--report", dir / "r"};
     const std::string problem = "only 1 increment(s) of 10f have ground truth at both ends";
     write(11);  // 1 s
-    const test::AppRun r = run(args);
+    const test::AppRun r = evaluate(args);
     EXPECT_EQ(r.code, 0) << r.err;
     EXPECT_THAT(r.err, HasSubstr("note: left out: " + problem));
     EXPECT_THAT(r.out, HasSubstr("increments of 1f: 10,"));
@@ -524,12 +524,12 @@ TEST(MrptTrajectories, neesOfAShortRecordingLeavesOutWhatItIsTooShortFor)
     EXPECT_THAT(page, testing::Not(HasSubstr("No NEES")));
 
     args.insert(args.end(), {"--interval", "10f,1f"});
-    const test::AppRun chosen = run(args);
+    const test::AppRun chosen = evaluate(args);
     EXPECT_EQ(chosen.code, 2);
     EXPECT_THAT(chosen.err, HasSubstr("pointplane-eval: " + problem));
     args.resize(5);
     write(2);
-    const test::AppRun none = run(args);
+    const test::AppRun none = evaluate(args);
     EXPECT_EQ(none.code, 2);
     EXPECT_THAT(none.err, HasSubstr("pointplane-eval: only 1 increment(s) of 1f"));
 }
