@@ -74,6 +74,7 @@ void CompareCommand::run(CommandContext& context)
     {
         loaded.push_back(withoutLost(input.loadEstimate(path, context)));
         checkOrder(truth, loaded.back(), context);
+        checkTruthRate(truth, loaded.back(), context);
     }
     const Comparison comparison = compareRuns(truth, loaded, resolved, ate, bootstrap);
     for (std::size_t k = 0; k < loaded.size(); ++k)

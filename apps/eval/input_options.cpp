@@ -157,6 +157,24 @@ void checkOrder(const Trajectory& truth, const Trajectory& estimate, CommandCont
     }
 }
 
+void checkTruthRate(const Trajectory& truth, const Trajectory& estimate, CommandContext& context)
+{
+    const double ofTruth = medianInterval(truth.stamps);
+    const double ofEstimate = medianInterval(estimate.stamps);
+    if (ofTruth > 2.5 * ofEstimate && ofEstimate > 0)
+    {
+        context.err << context.program << ": warning: "
+                    << format(
+                           "'%s' has a pose every %.3g s, '%s' every %.3g s: how the camera moves "
+                           "between poses of the ground truth is not known, and counts as an "
+                           "error of the estimate\n",
+                           truth.name.c_str(),
+                           ofTruth,
+                           estimate.name.c_str(),
+                           ofEstimate);
+    }
+}
+
 Trajectory InputOptions::loadTruth(const std::string& path, CommandContext& context) const
 {
     return loadTrajectory(path, "", context);

@@ -39,6 +39,9 @@ struct InputOptions
  * the estimate is not: they may be in the wrong order. */
 void checkOrder(const Trajectory& truth, const Trajectory& estimate, CommandContext& context);
 
+/** Warns if the ground truth is too sparse to be taken at the estimate's stamps. */
+void checkTruthRate(const Trajectory& truth, const Trajectory& estimate, CommandContext& context);
+
 /** \return a hint for the user if the files tell that their poses are of different bodies, which
  * --body-from-gt does not bring together: errors then look like those of a bad odometry */
 [[nodiscard]] std::string hintAtBodies(

@@ -303,6 +303,7 @@ void NeesCommand::run(CommandContext& context) const
         const Trajectory truth = input.loadTruth(files[k], context);
         const Trajectory estimate = input.loadEstimate(files[k + 1], context);
         checkOrder(truth, estimate, context);
+        checkTruthRate(truth, estimate, context);
         inputs = html.read(estimate);
         const NeesRun run = neesRun(truth, estimate, lengths, report.options);
         poolRun(pools, run);

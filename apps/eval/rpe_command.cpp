@@ -132,6 +132,7 @@ void RpeCommand::run(CommandContext& context) const
     run.groundTruth = input.loadTruth(groundTruth, context);
     run.estimate = input.loadEstimate(estimate, context);
     checkOrder(run.groundTruth, run.estimate, context);
+    checkTruthRate(run.groundTruth, run.estimate, context);
     const ReportInputs inputs = report.read(run.estimate);
     run.rpe = rpe;
     run.ate.offset = rpe.offset;

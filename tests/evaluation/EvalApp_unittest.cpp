@@ -801,3 +801,25 @@ TEST_F(EvalApp, warningsOfTheReaderReachTheUser)
         writeFile(files, "nan.txt", straightLine(1) + "9 nan 0 0 0 0 0 1\n");
     EXPECT_THAT(run({"ate", truth, withNan}).err, HasSubstr("warning: "));
 }
+
+TEST_F(EvalApp, sparseGroundTruthIsToldOf)
+{
+    std::string sparse;
+    for (int i = 0; i <= 5; ++i)
+    {
+        sparse += std::to_string(i) + " " + std::to_string(i) + " 0 0 0 0 0 1\n";
+    }
+    const std::string seconds = writeFile(files, "seconds.txt", sparse);
+    const std::string warning = "has a pose every 1 s, '" + estimate + "' every 0.1 s";
+    const std::vector<std::vector<std::string>> commands{
+        {"rpe", seconds, estimate, "--fixed-delta"}, {"compare", seconds, estimate, estimate}};
+    for (const std::vector<std::string>& args : commands)
+    {
+        EXPECT_THAT(run(args).err, HasSubstr(warning));
+    }
+    // Its poses are compared with those of their own time only.
+    EXPECT_THAT(run({"ate", seconds, estimate}).err, testing::Not(HasSubstr("has a pose every")));
+    EXPECT_THAT(
+        run({"rpe", truth, estimate, "--fixed-delta"}).err,
+        testing::Not(HasSubstr("has a pose every")));
+}
