@@ -15,6 +15,7 @@
 #include <array>
 #include <cstdint>
 #include <deque>
+#include <filesystem>
 #include <limits>
 #include <map>
 #include <memory>
@@ -28,6 +29,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
 namespace py = pybind11;
 
@@ -373,9 +375,10 @@ void addOdometry(py::module_& m)
         "other.")
         .def(
             py::init(
-                [](const std::string& config, const py::object& settings) {
+                [](const std::filesystem::path& config, const py::object& settings)
+                {
                     return std::make_unique<SharedOdometry>(
-                        loadOdometryParams(config, settingsOf(settings)));
+                        loadOdometryParams(config.string(), settingsOf(settings)));
                 }),
             py::arg("config") = "",
             py::arg("settings") = py::tuple(),
@@ -442,8 +445,8 @@ void addRawlogs(py::module_& m)
         .def("__next__", &RawlogFrames::next);
     m.def(
         "read_rawlog",
-        [](const std::string& path, const std::string& label)
-        { return std::make_unique<RawlogFrames>(path, label); },
+        [](const std::filesystem::path& path, const std::string& label)
+        { return std::make_unique<RawlogFrames>(path.string(), label); },
         py::arg("path"),
         py::arg("sensor_label") = "",
         "The frames of one camera, by default the first one's, one after the other. Damage raises "

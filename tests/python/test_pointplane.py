@@ -45,6 +45,14 @@ class Rawlogs(unittest.TestCase):
         with self.assertRaisesRegex(pointplane.InputError, "none.rawlog"):
             pointplane.read_rawlog("none.rawlog")
 
+    def test_files_may_be_paths_of_pathlib(self):
+        frames = list(pointplane.read_rawlog(pathlib.Path(RAWLOG)))
+        self.assertEqual(len(frames), len(list(pointplane.read_rawlog(RAWLOG))))
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "config.ini"
+            path.write_text("[PoseSolver]\nalpha = 3\n")
+            self.assertEqual(pointplane.VisualOdometry(path).process(frames[0]).status, "first")
+
     def test_an_unknown_label_is_told_with_those_there_are(self):
         self.assertGreaterEqual(len(list(pointplane.read_rawlog(RAWLOG, "RGBD"))), 10)
         with self.assertRaisesRegex(
