@@ -48,11 +48,10 @@ class BagRecording : public Recording
  public:
     explicit BagRecording(const BagOptions& options) : options_(options)
     {
-        if (!std::filesystem::is_regular_file(options.file))
+        std::error_code error;
+        if (!std::filesystem::is_regular_file(options.file, error))
         {
-            throw InputError(
-                "cannot open " + options.file + ": " +
-                (std::filesystem::exists(options.file) ? "not a file" : "no such file"));
+            throw InputError("cannot open " + options.file + ": " + whyNoFile(options.file));
         }
         try
         {

@@ -17,6 +17,7 @@
 
 #include "even_stamps.h"
 #include "frame_images.h"
+#include "layout_files.h"
 #include "quantile.h"
 
 namespace pointplane
@@ -78,10 +79,7 @@ namespace fs = std::filesystem;
 
 TumRecording::TumRecording(const TumOptions& options) : options_(options)
 {
-    if (!fs::is_directory(options.folder))
-    {
-        throw InputError(options.folder + ": is not a folder");
-    }
+    requireFolder(options.folder);
     colour_ = readTumListing(options.folder, "rgb.txt");
     depth_ = readTumListing(options.folder, "depth.txt");
     if (options.evenStamps)

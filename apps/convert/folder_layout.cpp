@@ -67,10 +67,7 @@ namespace fs = std::filesystem;
 
 FolderLayout readFolderLayout(const std::string& folder)
 {
-    if (!fs::is_directory(folder))
-    {
-        throw InputError(folder + ": is not a folder");
-    }
+    requireFolder(folder);
     for (const auto reader : {scanNet, strayScanner, sevenScenes, replica, twoFolders})
     {
         if (auto layout = reader(folder))

@@ -5,6 +5,8 @@
 #include <pointplane/mrpt_io/errors.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <sstream>
@@ -12,18 +14,35 @@
 
 #include "folder_images.h"
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
 namespace pointplane
 {
 namespace fs = std::filesystem;
 
-std::vector<double> numbersInFile(const fs::path& path)
+void requireFolder(const std::string& path)
 {
-    std::ifstream file(path);
-    if (!file || fs::is_directory(path))
+    std::error_code error;
+    const fs::file_type type = fs::status(path, error).type();
+    if (type == fs::file_type::none ||
+        (type == fs::file_type::directory && ::access(path.c_str(), R_OK | X_OK) != 0))
     {
         throw InputError(
-            "cannot open " + path.string() + ": " + (file ? "not a file" : "no such file"));
+            "cannot open " + path + ": " + (error ? error.message() : std::strerror(errno)));
+    }
+    if (type != fs::file_type::directory)
+    {
+        throw InputError(path + ": is not a folder");
+    }
+}
+
+std::vector<double> numbersInFile(const fs::path& path)
+{
+    std::error_code error;
+    std::ifstream file(path);
+    if (!file || fs::is_directory(path, error))
+    {
+        throw InputError("cannot open " + path.string() + ": " + whyNoFile(path.string()));
     }
     std::string text((std::istreambuf_iterator<char>(file)), {});
     std::replace(text.begin(), text.end(), ',', ' ');

@@ -16,6 +16,9 @@ namespace pointplane
  * All throw InputError naming the file.
  * @{ */
 
+/** \throws InputError if it is none, or cannot be read */
+void requireFolder(const std::string& path);
+
 /** All numbers of a text file, separated by blanks or commas. */
 [[nodiscard]] std::vector<double> numbersInFile(const std::filesystem::path& path);
 

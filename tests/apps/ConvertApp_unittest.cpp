@@ -449,6 +449,19 @@ TEST_F(ConvertApp, mistakesAreNamed)
     EXPECT_THAT(err.str(), HasSubstr("none: is not a folder"));
 }
 
+/** A folder without permission fails likewise, but not for root, who may run this. */
+TEST_F(ConvertApp, aFolderThatCannotBeOpenedIsAMistakeOfTheUser)
+{
+    std::filesystem::create_symlink("loop", dir_ / "loop");
+    const std::string reason = "cannot open " + (dir_ / "loop") + ": Too many levels of symbolic";
+    for (const char* command : {"tum", "folder"})
+    {
+        std::ostringstream out, err;
+        EXPECT_EQ(runConvert({command, dir_ / "loop", "-o", out_}, out, err), kExitBadInput);
+        EXPECT_THAT(err.str(), HasSubstr(reason));
+    }
+}
+
 TEST_F(ConvertApp, aBadImageIsLeftOutAndNamed)
 {
     const std::string whole = test::readBytes(dir_ / "in/depth/0.png");

@@ -115,6 +115,11 @@ TEST_F(ImageFile, aMissingFolderIsNamedNotTheFile)
         message(dir_ / "in_Images/1.png"),
         "cannot open " + (dir_ / "in_Images") + ": no such folder");
     EXPECT_EQ(message(dir_ / "1.png"), "cannot open " + (dir_ / "1.png") + ": no such file");
+    std::filesystem::create_symlink("loop", dir_ / "loop");  // there, but not to be opened
+    for (const std::string& name : {dir_ / "loop", dir_ / "loop/1.png"})
+    {
+        EXPECT_EQ(message(name), "cannot open " + name + ": Too many levels of symbolic links");
+    }
     EXPECT_EQ(problem(""), (dir_ / "image") + ": is empty");
     EXPECT_EQ(problem("text"), (dir_ / "image") + ": is not an image, or damaged");
 }

@@ -4,6 +4,7 @@
 #include <opencv2/core.hpp>
 
 #include <algorithm>
+#include <filesystem>
 #include <new>
 
 namespace pointplane
@@ -13,6 +14,20 @@ bool isOutOfMemory(const std::exception& e)
     const auto* ofOpenCv = dynamic_cast<const cv::Exception*>(&e);
     return dynamic_cast<const std::bad_alloc*>(&e) != nullptr ||
            (ofOpenCv != nullptr && ofOpenCv->code == cv::Error::StsNoMem);
+}
+
+std::string whyNoFile(const std::string& path)
+{
+    std::error_code error;
+    switch (std::filesystem::status(path, error).type())
+    {
+        case std::filesystem::file_type::not_found:
+            return "no such file";
+        case std::filesystem::file_type::none:
+            return error.message();
+        default:
+            return "not a file";
+    }
 }
 
 std::string oneLine(const std::exception& e)

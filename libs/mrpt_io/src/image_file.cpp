@@ -102,15 +102,13 @@ constexpr const char* kCut = "stops before the end of the image";
 {
     std::error_code error;
     const fs::path folder = fs::path(path).parent_path();
-    if (!folder.empty() && !fs::exists(folder, error))
+    if (!folder.empty() && fs::status(folder, error).type() == fs::file_type::not_found)
     {
         throw InputError("cannot open " + folder.string() + ": no such folder");
     }
     if (!fs::is_regular_file(path, error))
     {
-        throw InputError(
-            "cannot open " + path + ": " +
-            (fs::exists(path, error) ? "not a file" : "no such file"));
+        throw InputError("cannot open " + path + ": " + whyNoFile(path));
     }
     std::ifstream file(path, std::ios::binary);
     Bytes bytes(std::istreambuf_iterator<char>(file), {});

@@ -64,7 +64,7 @@ std::unique_ptr<const mrpt::config::CConfigFile> openIniFile(const std::string& 
     std::error_code error;
     if (!std::filesystem::is_regular_file(path, error))
     {
-        throw InputError("cannot open " + path + ": no such file");
+        throw InputError("cannot open " + path + ": " + whyNoFile(path));
     }
     refuseRepeatedKeys(path);
     try

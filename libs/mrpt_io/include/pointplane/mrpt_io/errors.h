@@ -34,6 +34,9 @@ constexpr int kExitEnvironment = 3;
  * Names of files may hold control characters: they become '?'. */
 [[nodiscard]] std::string oneLine(const std::exception& e);
 
+/** Why there is no file to read: "no such file", "not a file", or what the system says. */
+[[nodiscard]] std::string whyNoFile(const std::string& path);
+
 /** Whether it is about the machine, not about what was read: std::bad_alloc, and OpenCV's own. */
 [[nodiscard]] bool isOutOfMemory(const std::exception& e);
 }  // namespace pointplane
