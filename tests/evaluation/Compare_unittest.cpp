@@ -186,7 +186,7 @@ TEST(Compare, findsTheBestAndHowSureThatIs)
         1e-12);
     EXPECT_FALSE(c.runs[best].translationBehindBest.has_value());
     EXPECT_FALSE(c.runs[equal].translationBehindBest->excludesZero());
-    EXPECT_EQ(c.runs[0].pairsInCommon, c.runs[0].rpe.pairs.size());
+    EXPECT_EQ(c.numCommonPairs, c.runs[0].rpe.pairs.size());
 }
 
 TEST(Compare, ofRunsThatAreTooShortItDoesNotTellHowSureItIs)
@@ -246,11 +246,19 @@ TEST(Compare, onlyPairsThatBothRunsHaveCount)
     half.poses.resize(100);
     const std::vector<Trajectory> runs{half, perturbed(truth, 0.01, 3)};
     const Comparison c = compareRuns(truth, runs, overOneSecond(), {}, {});
-    EXPECT_EQ(c.runs[0].pairsInCommon, c.runs[0].rpe.pairs.size());
-    EXPECT_LT(c.runs[0].pairsInCommon, c.runs[1].rpe.pairs.size());
-
+    EXPECT_EQ(c.numCommonPairs, c.runs[0].rpe.pairs.size());
+    EXPECT_LT(c.numCommonPairs, c.runs[1].rpe.pairs.size());
     EXPECT_FALSE(c.sameFrames);
-    EXPECT_EQ(c.numCommonPairs, c.runs[0].pairsInCommon);
+
+    // Among three, too: the distance to the best is that of the two errors beside it.
+    const Comparison three =
+        compareRuns(truth, {half, runs[1], perturbed(truth, 0.04, 4)}, overOneSecond(), {}, {});
+    ASSERT_EQ(three.bestTranslation, 1u);
+    EXPECT_EQ(three.numCommonPairs, c.numCommonPairs);
+    EXPECT_NEAR(
+        three.runs[2].translationBehindBest->value,
+        three.runs[2].translation.value - three.runs[1].translation.value,
+        1e-12);
 
     Trajectory shifted = perturbed(truth, 0.05, 2);
     for (double& stamp : shifted.stamps)
@@ -258,7 +266,7 @@ TEST(Compare, onlyPairsThatBothRunsHaveCount)
         stamp += 0.001;
     }
     const Comparison none = compareRuns(truth, {shifted, runs[1]}, overOneSecond(), {}, {});
-    EXPECT_EQ(none.runs[0].pairsInCommon, 0u);
+    EXPECT_EQ(none.numCommonPairs, 0u);
     EXPECT_FALSE(none.runs[0].translationBehindBest.has_value());
     EXPECT_FALSE(none.isComparable());
     EXPECT_TRUE(c.isComparable());

@@ -206,14 +206,15 @@ Comparison compareRuns(
     const std::vector<Stamps> stamps = frameStampsOf(estimates);
     const std::set<StampPair> common = commonPairs(stamps, out.runs);
     out.numCommonPairs = common.size();
+    std::vector<RpeResult> scored;
     for (std::size_t k = 0; k < estimates.size(); ++k)
     {
         ComparedRun& run = out.runs[k];
         out.sameFrames = out.sameFrames && run.rpe.pairs.size() == common.size();
-        const RpeResult scored = common.size() >= 2 ? ofPairs(common, stamps[k], run.rpe) : run.rpe;
-        options.blockLength = blockLengthOf(scored);
-        run.translation = bootstrapRmse(errorsOf(scored, &RpePair::translation), options);
-        run.rotation = bootstrapRmse(errorsOf(scored, &RpePair::rotation), options);
+        scored.push_back(common.size() >= 2 ? ofPairs(common, stamps[k], run.rpe) : run.rpe);
+        options.blockLength = blockLengthOf(scored[k]);
+        run.translation = bootstrapRmse(errorsOf(scored[k], &RpePair::translation), options);
+        run.rotation = bootstrapRmse(errorsOf(scored[k], &RpePair::rotation), options);
     }
     out.bestTranslation = smallest(out.runs, [](const auto& r) { return r.translation.value; });
     out.bestRotation = smallest(out.runs, [](const auto& r) { return r.rotation.value; });
@@ -222,16 +223,18 @@ Comparison compareRuns(
         out.bestAte = smallest(out.runs, [](const auto& r) { return r.ate.translation.rmse; });
     }
 
-    const auto behind = [&](std::size_t k, std::size_t best, double RpePair::*error)
+    const auto behind = [&](std::size_t k,
+                            std::size_t best,
+                            double RpePair::*error) -> std::optional<BootstrapInterval>
     {
-        ComparedRun& run = out.runs[k];
+        if (k == best || !out.isComparable())
+        {
+            return std::nullopt;
+        }
         const CommonErrors both =
-            commonErrors(stamps[k], run.rpe, stamps[best], out.runs[best].rpe, error);
-        run.pairsInCommon = both.a.size();
-        options.blockLength = blockLengthOf(run.rpe);
-        return k == best || both.a.size() < 2 || !out.isComparable()
-                   ? std::nullopt
-                   : std::optional(bootstrapRmseDifference(both.a, both.b, options));
+            commonErrors(stamps[k], scored[k], stamps[best], scored[best], error);
+        options.blockLength = blockLengthOf(scored[k]);
+        return bootstrapRmseDifference(both.a, both.b, options);
     };
     for (std::size_t k = 0; k < out.runs.size(); ++k)
     {

@@ -20,10 +20,9 @@ struct ComparedRun
     /** RPE RMSE [m], of the pairs of frames that all runs have, if these are at least two. */
     BootstrapInterval translation;
     BootstrapInterval rotation;  //!< RPE RMSE [rad], likewise
-    /** RPE RMSE minus that of the best run, over the pairs both have; none for the best itself and
-     * for runs with fewer than two pairs in common. Without an interval, if these are too short. */
+    /** RPE RMSE minus that of the best run, over the same pairs; none for the best itself and where
+     * these are fewer than two. Without an interval, if these are too short. */
     std::optional<BootstrapInterval> translationBehindBest, rotationBehindBest;
-    std::size_t pairsInCommon{0};  //!< with the run that is best in translation
 };
 
 struct Comparison
