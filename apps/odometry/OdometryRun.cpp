@@ -296,9 +296,13 @@ class Run
         {
             throw InputError(source_.damage());
         }
+        const std::size_t numMore = options_.inputs.size() - 1;
+        const std::string inputs =
+            options_.inputs.front() +
+            (numMore > 0 ? " and " + std::to_string(numMore) + " more: " : ": ");
         if (source_.framesOf().empty())
         {
-            throw InputError(options_.inputs.front() + ": no CObservation3DRangeScan in it");
+            throw InputError(inputs + "no CObservation3DRangeScan in it");
         }
         std::string cameras;
         for (const auto& [label, count] : source_.framesOf())
@@ -307,7 +311,7 @@ class Run
                        " frames of camera '" + label + "'";
         }
         throw InputError(
-            options_.inputs.front() + ": " +
+            inputs +
             (source_.framesOf().count(source_.label()) > 0
                  ? "--first " + std::to_string(options_.first) + " skips all of them"
                  : "no frames of camera '" + source_.label() + "'") +

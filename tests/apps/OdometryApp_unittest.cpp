@@ -537,6 +537,9 @@ TEST_F(OdometryApp, badInputIsNamedWithExitCode2)
     expect(
         {in_, "-o", out_, "--first", "2"},
         "--first 2 skips all of them; in it are 2 frames of camera 'RGBD'");
+    expect(
+        {in_, in_, "-o", out_, "--sensor-label", "LEFT"},
+        in_ + " and 1 more: no frames of camera 'LEFT'; in it are 4 frames of camera 'RGBD'");
     expect({in_, "-o", in_}, "is an input");
     writeBytes(dir_ / "typo.ini", "[DepthNoise]\nsigmaInverseDept = 1\n");
     expect({in_, "-o", out_, "-c", dir_ / "typo.ini"}, "did you mean 'sigmaInverseDepth'?");
