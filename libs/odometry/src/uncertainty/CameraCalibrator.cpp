@@ -72,7 +72,7 @@ CameraCalibrator::CameraCalibrator(const TShutter& shutter, const TLens& lens)
 void CameraCalibrator::start(const PinholeCamera& camera)
 {
     camera_ = camera;
-    knowsDirection_ = areReadoutsTold();
+    knowsDirection_ = isDirectionTold();
     prior_ = priorVariances(0);
     cov_ = prior_.asDiagonal();
     errors_.setZero();
@@ -82,12 +82,12 @@ void CameraCalibrator::start(const PinholeCamera& camera)
     }
 }
 
-/** Or not to be learnt. */
-bool CameraCalibrator::areReadoutsTold() const
+/** Or not to be learnt. Who turns images upright may turn them to either side. */
+bool CameraCalibrator::isDirectionTold() const
 {
-    const Eigen::Vector2d readouts = timesOf(shutter_).head<2>().cwiseAbs();
-    return !shutter_.correct || !shutter_.selfCalibrate || readouts.isZero(0) ||
-           readouts.minCoeff() > kSure * sigmaPrior();
+    const bool isTurned = shutter_.findDirection || camera_.height > camera_.width;
+    return !isTurned || !shutter_.correct || !shutter_.selfCalibrate ||
+           timesOf(shutter_).head<2>().isZero(0);
 }
 
 /** Of what is to be learnt. What is exact, or only considered, has no variance and stays as it is.

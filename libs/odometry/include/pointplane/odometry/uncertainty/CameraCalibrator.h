@@ -16,10 +16,11 @@ namespace pointplane
  * depend on them. What they say of the errors, once the motion is eliminated (CameraInformation),
  * is summed over frames. Features are then corrected to first order; the images are not.
  *
- * Images may be turned, so either the first row or the last one may be exposed first. Until that
- * is known, the readout is taken for zero, with an error of its own size. Motions that are
- * corrected in the wrong direction would agree with that direction. Derivation: docs/theory.md,
- * Learning the camera. */
+ * Of images that were turned, the last row may be exposed first. Until that is known, the readout
+ * is taken for zero, with an error of its own size: motions that are corrected in the wrong
+ * direction agree with that direction.
+ *
+ * Derivation: docs/theory.md, Learning the camera. */
 class CameraCalibrator
 {
  public:
@@ -30,6 +31,7 @@ class CameraCalibrator
         double readoutDepth{0.02};
         double depthDelay{0};
         bool selfCalibrate{true};
+        bool findDirection{false};
         double sigmaPrior{0.01};
         double varianceFactor{10.0};
 
@@ -55,8 +57,12 @@ class CameraCalibrator
             v("selfCalibrate",
               selfCalibrate,
               "-",
-              "learn from the camera's motion what the recording does not say, also which row is "
-              "the first");
+              "learn from the camera's motion what the recording does not say");
+            v("findDirection",
+              findDirection,
+              "-",
+              "true: the images were turned, so learn also whether the first or the last row is "
+              "exposed first; always so if they are upright");
             v("sigmaPrior",
               sigmaPrior,
               "s",
@@ -134,7 +140,7 @@ class CameraCalibrator
 
  private:
     [[nodiscard]] CameraVector priorVariances(double bend) const;
-    [[nodiscard]] bool areReadoutsTold() const;
+    [[nodiscard]] bool isDirectionTold() const;
     [[nodiscard]] double directionOfReadout() const;
     void believe(double direction, Change& change);
 
