@@ -68,7 +68,7 @@ std::string noteOnFrames(const Comparison& c)
     return c.isComparable()
                ? format(
                      "the runs have different frames: mm and deg are those of the %zu pairs that "
-                     "all of them have; pairs and cover are each run's own",
+                     "all of them have; the rest is each run's own",
                      c.numCommonPairs) +
                      ofAte
                : "the runs have different frames and fewer than two pairs in common: their errors "
