@@ -427,6 +427,19 @@ TEST(SimulateApp, groundTruthThatALinkLeadsToIsNotReplaced)
     EXPECT_EQ(test::readBytes(dir / "a.groundtruth.txt"), before);
 }
 
+/** The lines of its shutter would be columns. */
+TEST(SimulateApp, uprightImagesOfARollingShutterAreRefused)
+{
+    const test::TempDir dir;
+    std::vector<std::string> args = smallRun(dir / "a.rawlog");
+    args[4] = "240x320";
+    const Finished refused = run(args);
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_THAT(refused.err, HasSubstr("set readoutColour and readoutDepth to 0"));
+    args.insert(args.end(), {"--set", "readoutColour=0", "--set", "readoutDepth=0"});
+    EXPECT_EQ(run(args).code, 0);
+}
+
 /** Nobody named it, so it may be a user's. What this program wrote can be rendered again. */
 TEST(SimulateApp, aGroundTruthThatIsNotItsOwnIsNotReplaced)
 {

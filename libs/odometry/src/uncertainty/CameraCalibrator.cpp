@@ -140,7 +140,7 @@ CameraCalibrator::Change CameraCalibrator::update(
     auto ofShutter = errors_.tail<3>();
     ofShutter = (told + ofShutter).cwiseMax(-kMaxTime).cwiseMin(kMaxTime) - told;
     out.noise = propagate(cov_, learnt.information) + out.gain * widening * out.gain.transpose();
-    if (const double direction = directionOfReadout(); !knowsDirection_ && direction != 0)
+    if (const double direction = knowsDirection_ ? 0 : directionOfReadout(); direction != 0)
     {
         believe(direction, out);
     }

@@ -10,8 +10,8 @@
 
 namespace pointplane
 {
-/** When the rows of both images are exposed: row v at stamp + delay + (v / height - 1/2) * readout,
- * with delay = 0 for colour. NaN = not known. */
+/** When pixels of both images are exposed: at stamp + delay + readoutFraction() * readout, which is
+ * v / height - 1/2 in row v. delay = 0 for colour. NaN = not known. */
 struct ShutterModel
 {
     static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
