@@ -193,6 +193,10 @@ RecordedFrame BagRecording::frame(const Picture& colour, const Picture& depth) c
     {
         throw BadFrame("images are not of the size or kind that camera_info says");
     }
+    if (const std::string problem = ofDepth.problem(); !problem.empty())
+    {
+        throw BadFrame("camera_info, at the size of the depth image: " + problem);
+    }
     return out;
 }
 

@@ -35,6 +35,8 @@ void setCameras(RegisteredScan& scan, const FolderLayout& layout, const std::str
             std::int64_t{scan.colour.rows} * scan.camera.width)
     {
         scan.camera = scan.camera.scaled(static_cast<double>(scan.colour.cols) / scan.camera.width);
+        // A principal point at the border of one size can be outside of another.
+        checkCamera(scan.camera, layout.calibration, "colour");
     }
     if (scan.colour.cols != scan.camera.width || scan.colour.rows != scan.camera.height)
     {
@@ -62,6 +64,7 @@ void setCameras(RegisteredScan& scan, const FolderLayout& layout, const std::str
         scan.depthCamera = DepthCamera{scaled, Eigen::Isometry3d::Identity()};
         scan.depthCamera->camera.distortion = {};
         scan.depthCamera->camera.height = scan.depth.rows;
+        checkCamera(scan.depthCamera->camera, layout.calibration, "depth");
     }
 }
 }  // namespace pointplane

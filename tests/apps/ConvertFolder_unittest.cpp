@@ -536,6 +536,19 @@ TEST_F(ConvertFolder, impossibleCalibrationsRatesAndTimesAreRefused)
     expect("cannot open " + in_ + "/camera_matrix.csv: not a file");
 }
 
+/** A principal point at the border of the colour image is outside of one a quarter as large. */
+TEST_F(ConvertFolder, calibrationsAreCheckedAtTheSizeOfEachImage)
+{
+    writeFrames("in/rgb/%d.jpg", "in/depth/%d.png", 16);
+    write("in/camera.txt", "60 60 0.5 23.5 0 0 0 0 0 64 48 1000\n");
+    EXPECT_EQ(run({"folder", in_}), kExitBadInput);
+    EXPECT_THAT(text_, HasSubstr("camera.txt: calibration of the depth camera: principal point"));
+    write("in/camera.txt", "240 240 0.5 95.5 0 0 0 0 0 256 192 1000\n");
+    EXPECT_EQ(run({"folder", in_}), kExitBadInput);
+    EXPECT_THAT(text_, HasSubstr("camera.txt: calibration of the colour camera: principal point"));
+    EXPECT_FALSE(std::filesystem::exists(out_));
+}
+
 /** Their names are numbers, but their stamps are known: at 30 Hz every velocity would be wrong. */
 TEST_F(ConvertFolder, stampsInListsAreNotIgnored)
 {
