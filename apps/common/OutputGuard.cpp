@@ -72,10 +72,9 @@ void requireShortName(const std::string& option, const std::string& path, const 
     return file.is_open() && (isOwn || text.find(start) != std::string::npos);
 }
 
-/** Another rawlog that is there and has this name for its ground truth, or empty. */
-[[nodiscard]] std::string otherRawlogOf(const std::string& truth, const std::string& rawlog)
+/** Another rawlog that is there, of this name without extensions, or empty. */
+[[nodiscard]] std::string otherRawlogOf(const std::string& base, const std::string& rawlog)
 {
-    const std::string base = truth.substr(0, truth.size() - groundTruthOf("").size());
     std::error_code error;
     for (const char* extension : {"", ".rawlog", ".rawlog.gz"})
     {
@@ -343,7 +342,8 @@ void OutputGuard::addGroundTruth(const std::string& rawlog, const std::string& t
         return;
     }
     const std::string truth = groundTruthOf(rawlog);
-    const std::string other = otherRawlogOf(truth, rawlog);
+    const std::string base = truth.substr(0, truth.size() - groundTruthOf("").size());
+    const std::string other = otherRawlogOf(base, rawlog);
     std::error_code error;
     if (fs::exists(truth, error) && !other.empty())
     {
@@ -371,6 +371,15 @@ void OutputGuard::addFolderBeside(
             "a file");
     }
     requireShortName(option, rawlog, partialFolderOf(folder));
+    const std::string base = folder.substr(0, folder.rfind('_'));
+    const std::string other = otherRawlogOf(base, rawlog);
+    std::error_code error;
+    if (fs::exists(folder, error) && !other.empty() && fs::path(other).replace_extension() == base)
+    {
+        throw InputError(
+            option + " " + rawlog + ": would replace " + folder + ", which is that of " + other +
+            "; give another name");
+    }
     Output output = folderAt(option, folder, "");
     output.files.push_back(fileAt(partialFolderOf(folder)));
     add(output);

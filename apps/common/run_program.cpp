@@ -69,7 +69,8 @@ void runOnOwnStack(Call& call)
         [](const std::string& text) { return std::string(text.empty() ? "is empty" : ""); }, ""};
 }
 
-/** Help without the values that CLI11 puts behind the names of flags: --wait{1e9}. */
+/** Help without what CLI11 adds and nobody can use: the values of flags (--wait{1e9}), a type told
+ * twice (INT:INT in [1 - 9]), dots behind options that take one value at a time. */
 class HelpFormatter : public CLI::Formatter
 {
  public:
@@ -78,6 +79,22 @@ class HelpFormatter : public CLI::Formatter
     {
         const std::string name = CLI::Formatter::make_option_name(option, isPositional);
         return name.substr(0, name.find('{'));
+    }
+
+    [[nodiscard]] std::string make_option_opts(const CLI::Option* option) const override
+    {
+        std::string text = CLI::Formatter::make_option_opts(option);
+        const std::string again = ":INT in [", dots = " ...";
+        if (const auto at = text.find(again); at != std::string::npos)
+        {
+            text.replace(at, again.size(), " in [");
+        }
+        const auto at = text.find(dots);
+        if (at != std::string::npos && !option->get_positional() && !option->get_allow_extra_args())
+        {
+            text.erase(at, dots.size());
+        }
+        return text;
     }
 };
 

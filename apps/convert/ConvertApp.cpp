@@ -26,8 +26,11 @@ namespace
 {
 void addOutputOptions(CLI::App& command, RecordingOutput& output)
 {
-    command.add_option("-o,--output", output.path, "Rawlog to write")->required();
+    command.add_option("-o,--output", output.path, "Rawlog to write")
+        ->type_name("FILE")
+        ->required();
     command.add_option("--label", output.label, "Label of the camera in the rawlog")
+        ->type_name("LABEL")
         ->check(isLabel())
         ->capture_default_str();
     auto* external = command.add_flag(
@@ -52,12 +55,14 @@ void addTumCommand(CLI::App& app, TumOptions& options, RecordingOutput& output)
     CLI::App* tum =
         app.add_subcommand("tum", "A sequence of the TUM RGB-D benchmark, or a folder like one");
     tum->add_option("folder", options.folder, "Folder with rgb.txt, depth.txt and the images")
+        ->type_name("DIR")
         ->required();
     tum->add_option(
-        "--camera",
-        options.camera,
-        kPresetHelp + kCameraFile +
-            " (default: camera.txt in the folder, or by the folder's name)");
+           "--camera",
+           options.camera,
+           kPresetHelp + kCameraFile +
+               " (default: camera.txt in the folder, or by the folder's name)")
+        ->type_name("FILE");
     tum->add_option(
            "--depth-scale",
            options.depthScale,
@@ -79,11 +84,16 @@ CLI::App* addFolderCommand(CLI::App& app, FolderOptions& options, RecordingOutpu
         "folder",
         "Numbered or stamped images: ScanNet, 7-Scenes, Redwood, Replica, Bonn, Record3D, "
         "StrayScanner, or any two folders like rgb and depth");
-    folder->add_option("folder", options.folder, "Folder with the images")->required();
-    folder->add_option(
-        "--camera",
-        options.camera,
-        kFileHelp + kCameraFile + " (default: camera.txt in the folder, or what its layout tells)");
+    folder->add_option("folder", options.folder, "Folder with the images")
+        ->type_name("DIR")
+        ->required();
+    folder
+        ->add_option(
+            "--camera",
+            options.camera,
+            kFileHelp + kCameraFile +
+                " (default: camera.txt in the folder, or what its layout tells)")
+        ->type_name("FILE");
     folder
         ->add_option(
             "--depth-scale",
@@ -113,9 +123,10 @@ CLI::App* addFolderCommand(CLI::App& app, FolderOptions& options, RecordingOutpu
 CLI::App* addKlgCommand(CLI::App& app, KlgOptions& options, RecordingOutput& output)
 {
     CLI::App* klg = app.add_subcommand("klg", "A log of Kintinuous or ElasticFusion");
-    klg->add_option("file", options.file, "Log to read")->required();
+    klg->add_option("file", options.file, "Log to read")->type_name("FILE")->required();
     klg->add_option(
-        "--camera", options.camera, kFileHelp + kCameraFile + " (default: 528 px, 640x480)");
+           "--camera", options.camera, kFileHelp + kCameraFile + " (default: 528 px, 640x480)")
+        ->type_name("FILE");
     klg->add_option(
            "--depth-scale",
            options.depthScale,
@@ -129,17 +140,22 @@ CLI::App* addKlgCommand(CLI::App& app, KlgOptions& options, RecordingOutput& out
 CLI::App* addBagCommand(CLI::App& app, BagOptions& options, RecordingOutput& output)
 {
     CLI::App* bag = app.add_subcommand("bag", "A ROS 1 bag, also of RealSense's recorder");
-    bag->add_option("file", options.file, "Bag to read")->required();
+    bag->add_option("file", options.file, "Bag to read")->type_name("FILE")->required();
     bag->add_option(
-        "--colour-topic",
-        options.colourTopic,
-        "Topic of the colour images (default: the only ones)");
+           "--colour-topic",
+           options.colourTopic,
+           "Topic of the colour images (default: the only ones)")
+        ->type_name("TOPIC");
     bag->add_option(
-        "--depth-topic", options.depthTopic, "Topic of the depth images (default: the only ones)");
+           "--depth-topic",
+           options.depthTopic,
+           "Topic of the depth images (default: the only ones)")
+        ->type_name("TOPIC");
     bag->add_option(
-        "--camera",
-        options.camera,
-        kPresetHelp + kCameraFile + " (default: camera_info of the bag)");
+           "--camera",
+           options.camera,
+           kPresetHelp + kCameraFile + " (default: camera_info of the bag)")
+        ->type_name("FILE");
     bag->add_option(
            "--depth-scale",
            options.depthScale,

@@ -16,6 +16,7 @@
 #include <sstream>
 
 #include "ProgressBar.h"
+#include "frames_text.h"
 #include "stamp_check.h"
 
 namespace pointplane
@@ -166,7 +167,7 @@ int report(
     std::ostream& err)
 {
     std::ostream& out = isStandardOutput(output.path) ? err : standard;
-    out << output.path << ": " << summary.numFrames << " frames\n";
+    out << output.path << ": " << framesText(summary.numFrames) << "\n";
     for (const std::string& note : notes)
     {
         out << note << "\n";
@@ -187,7 +188,7 @@ int report(
     }
     else if (summary.numWithoutDepth > 0)
     {
-        out << "depth: no reading in " << summary.numWithoutDepth << " frames\n";
+        out << "depth: no reading in " << framesText(summary.numWithoutDepth) << "\n";
     }
     if (!summary.stamps.empty())
     {

@@ -38,8 +38,10 @@ struct AteCommand
 void AteCommand::addTo(CLI::App& command)
 {
     const std::string group = "Protocol";
-    command.add_option("groundtruth", groundTruth, "Ground-truth trajectory")->required();
-    command.add_option("estimate", estimate, "Estimated trajectory")->required();
+    command.add_option("groundtruth", groundTruth, "Ground-truth trajectory")
+        ->type_name("FILE")
+        ->required();
+    command.add_option("estimate", estimate, "Estimated trajectory")->type_name("FILE")->required();
     command.add_option("--offset", options.offset, "Add this to the estimate's stamps [s]")
         ->check(isFinite())
         ->capture_default_str()

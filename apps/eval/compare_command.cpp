@@ -34,8 +34,11 @@ struct CompareCommand
 
 void CompareCommand::addTo(CLI::App& command)
 {
-    command.add_option("groundtruth", groundTruth, "Ground-truth trajectory")->required();
+    command.add_option("groundtruth", groundTruth, "Ground-truth trajectory")
+        ->type_name("FILE")
+        ->required();
     command.add_option("estimates", estimates, "Estimated trajectories")
+        ->type_name("FILE")
         ->required()
         ->expected(1, -1);
     rpe.addTo(command);

@@ -27,12 +27,14 @@ void InputOptions::addTo(CLI::App& command)
             bodyFromTruth,
             "Pose of the ground truth's body in the estimate's: x,y,z,yaw,pitch,roll [m, deg], or "
             "'optical' for TUM's camera axes and an estimate in MRPT's")
+        ->type_name("POSE")
         ->group("Input");
     command
         .add_option(
             "--sensor-label",
             sensorLabel,
             "Which CObservationRobotPose of a rawlog (default: the only one)")
+        ->type_name("LABEL")
         ->group("Input");
 }
 

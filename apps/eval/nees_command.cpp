@@ -77,6 +77,7 @@ void NeesCommand::addTo(CLI::App& command)
             "trajectories",
             files,
             "Ground truth and estimate; of several runs: ground truth and estimate in turns")
+        ->type_name("FILE")
         ->required()
         ->expected(2, -1);
     command.add_option("--interval", intervals, "Lengths of the increments: frames or seconds")

@@ -28,14 +28,17 @@ namespace
 void OutputFiles::addTo(CLI::App& command, const std::string& single)
 {
     command.add_option("--json", json, "Write the result as JSON ('-': to the standard output)")
+        ->type_name("FILE")
         ->group("Output");
     command.add_option("--csv", csv, "Write the result as CSV ('-': to the standard output)")
+        ->type_name("FILE")
         ->group("Output");
     if (!single.empty())
     {
         command
             .add_option(
                 "--save", save, "Write a line per " + single + " as CSV ('-': standard output)")
+            ->type_name("FILE")
             ->group("Output");
     }
 }

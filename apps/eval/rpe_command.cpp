@@ -42,8 +42,10 @@ struct RpeCommand
 
 void RpeCommand::addTo(CLI::App& command)
 {
-    command.add_option("groundtruth", groundTruth, "Ground-truth trajectory")->required();
-    command.add_option("estimate", estimate, "Estimated trajectory")->required();
+    command.add_option("groundtruth", groundTruth, "Ground-truth trajectory")
+        ->type_name("FILE")
+        ->required();
+    command.add_option("estimate", estimate, "Estimated trajectory")->type_name("FILE")->required();
     options.addTo(command, true);
     command
         .add_option("--max-rmse", maxRmse, "Exit with 1 if the translation RMSE exceeds this [m]")

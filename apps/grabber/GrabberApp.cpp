@@ -50,8 +50,10 @@ void addCameraOptions(CLI::App& app, GrabberOptions& o, Words& words)
         ->group(group);
     app.add_option(
            "-d,--device", o.device, "Camera: URI, serial number, index in --list, or an .oni file")
+        ->type_name("CAMERA")
         ->group(group);
     app.add_option("--mode", words.mode, "Size and rate of both images")
+        ->type_name("WIDTHxHEIGHT@HZ")
         ->capture_default_str()
         ->group(group);
     app.add_option(
@@ -81,11 +83,14 @@ void addCameraOptions(CLI::App& app, GrabberOptions& o, Words& words)
            "--calibration",
            o.calibration,
            "Calibration file: yml of camera-calib, ini of rawlog-grabber")
+        ->type_name("FILE")
         ->group(group);
     app.add_option("--section", o.section, "S of its sections S_LEFT, S_RIGHT, S_LEFT2RIGHT_POSE")
+        ->type_name("NAME")
         ->capture_default_str()
         ->group(group);
     app.add_option("--label", o.label, "Sensor label (default: the ini file's, or OPENNI2)")
+        ->type_name("LABEL")
         ->check(isLabel())
         ->group(group);
 }
@@ -94,6 +99,7 @@ void addRecordingOptions(CLI::App& app, GrabberOptions& o, Words& words)
 {
     const std::string group = "Recording";
     app.add_option("-o,--output", o.output, "Rawlog (or .oni file) to write; never overwritten")
+        ->type_name("FILE")
         ->group(group);
     app.add_option("--duration", o.capture.duration, "Stop after so many seconds")
         ->check(isPositive())
@@ -151,12 +157,15 @@ void addRecordingOptions(CLI::App& app, GrabberOptions& o, Words& words)
 void addOtherOptions(CLI::App& app, GrabberOptions& o, Words& words)
 {
     app.add_flag("--list", words.list, "Show cameras, their modes and abilities")->group("Show");
-    app.add_option("--preview", o.preview, "Renew this PNG picture every second")->group("Show");
+    app.add_option("--preview", o.preview, "Renew this PNG picture every second")
+        ->type_name("FILE")
+        ->group("Show");
     app.add_flag("--quiet", o.quiet, "Show no status line")->group("Show");
     app.add_flag("--live", o.live, "Run the odometry on the stream; print a line per frame")
         ->group("Live odometry");
     app.add_option(
            "--live-config", o.liveOdometry.config, "With --live: configuration of the odometry")
+        ->type_name("FILE")
         ->group("Live odometry");
     app.add_option(
            "--live-mask",
@@ -164,11 +173,13 @@ void addOtherOptions(CLI::App& app, GrabberOptions& o, Words& words)
            "With --live: image that is black (darker than half of its brightest) where the camera "
            "sees "
            "the robot itself: that is left out")
+        ->type_name("FILE")
         ->group("Live odometry");
     app.add_option(
            "--live-output",
            o.liveOdometry.poseRawlog,
            "With --live: write a rawlog with its pose PDFs")
+        ->type_name("FILE")
         ->group("Live odometry");
 }
 

@@ -6,6 +6,7 @@
 #include <ostream>
 
 #include "ProgressBar.h"
+#include "frames_text.h"
 
 namespace pointplane
 {
@@ -82,7 +83,7 @@ void print(const RunSummary& summary, std::ostream& out)
     }
     else
     {
-        out << "saw " << state.capture.pairing.pairs << " frames, "
+        out << "saw " << framesText(state.capture.pairing.pairs) << ", "
             << durationText(state.capture.recordedTime) << (summary.outputs.empty() ? "" : ", to");
     }
     for (const auto& path : summary.outputs)
@@ -95,8 +96,8 @@ void print(const RunSummary& summary, std::ostream& out)
     printTimes(summary, out);
     if (summary.hasLive)
     {
-        out << "live odometry: " << summary.live.processed << " frames, " << summary.live.notTracked
-            << " not tracked, " << summary.live.skipped << " skipped\n";
+        out << "live odometry: " << framesText(summary.live.processed) << ", "
+            << summary.live.notTracked << " not tracked, " << summary.live.skipped << " skipped\n";
     }
     for (const auto& note : summary.notes)
     {

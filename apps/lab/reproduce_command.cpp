@@ -55,12 +55,14 @@ struct ReproduceCommand
 void ReproduceCommand::addTo(CLI::App& command)
 {
     command.add_option("directories", directories, "Folders of TUM sequences, or single sequences")
+        ->type_name("DIR")
         ->required();
     command
         .add_option(
             "--paper-config",
             paperConfig,
             "The paper's configuration (default: config-paper.ini here or with the program)")
+        ->type_name("FILE")
         ->group("Runs");
     command.add_option("--alphas", alphas, "Weights of the planes, for Fig. 3")
         ->delimiter(',')

@@ -51,9 +51,14 @@ std::vector<std::string> namesOf(const std::vector<std::string>& rawlogs)
 void SweepCommand::addTo(CLI::App& command)
 {
     command.add_option("parameter", parameter, "Key of the configuration, e.g. PoseSolver.alpha")
+        ->type_name("KEY")
         ->required();
-    command.add_option("rawlogs", rawlogs, "Sequences")->required()->expected(1, -1);
+    command.add_option("rawlogs", rawlogs, "Sequences")
+        ->type_name("FILE")
+        ->required()
+        ->expected(1, -1);
     command.add_option("--values", values, "Values to try, e.g. 0,1,10 or surf,orb")
+        ->type_name("VALUE")
         ->delimiter(',')
         ->group("Runs");
     command.add_option("--range", range, "From, to and how many values, instead of --values")
@@ -67,10 +72,14 @@ void SweepCommand::addTo(CLI::App& command)
             "--gt",
             groundTruths,
             "Ground truth of each rawlog (default: NAME.groundtruth.txt beside it)")
+        ->type_name("FILE")
         ->delimiter(',')
         ->group("Runs");
-    command.add_option("-c,--config", config, "Configuration of all runs")->group("Runs");
+    command.add_option("-c,--config", config, "Configuration of all runs")
+        ->type_name("FILE")
+        ->group("Runs");
     command.add_option("--set", settings, "Section.key=value for all runs")
+        ->type_name("KEY=VALUE")
         ->allow_extra_args(false)
         ->group("Runs");
     runner.addTo(command);

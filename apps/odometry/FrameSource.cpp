@@ -12,6 +12,8 @@
 #include <filesystem>
 #include <utility>
 
+#include "frames_text.h"
+
 namespace pointplane
 {
 using mrpt::obs::CObservation3DRangeScan;
@@ -123,7 +125,7 @@ std::vector<std::string> FrameSource::notes() const
         if (label != label_)
         {
             out.push_back(
-                "not used: " + std::to_string(count) + " frames of camera '" + label +
+                "not used: " + framesText(count) + " of camera '" + label +
                 "' (--sensor-label chooses)");
         }
     }

@@ -22,21 +22,26 @@ namespace
 {
 void addOptions(CLI::App& app, OdometryOptions& o, bool& dumpConfig, bool& dumpKeys)
 {
-    app.add_option("rawlogs", o.inputs, "Input rawlogs, taken as one sequence");
+    app.add_option("rawlogs", o.inputs, "Input rawlogs, taken as one sequence")->type_name("FILE");
     app.add_option(
-        "-c,--config", o.config, "Read the configuration from this file (default: built in)");
+           "-c,--config", o.config, "Read the configuration from this file (default: built in)")
+        ->type_name("FILE");
     app.add_option("--set", o.settings, "Override one key: Section.key=value; once for each key")
+        ->type_name("KEY=VALUE")
         ->type_size(1)
         ->allow_extra_args(false);
     app.add_option(
-        "--sensor-label",
-        o.sensorLabel,
-        "Use this camera of the rawlog (default: that of the first frame)");
+           "--sensor-label",
+           o.sensorLabel,
+           "Use this camera of the rawlog (default: that of the first frame)")
+        ->type_name("LABEL");
     app.add_option(
-        "--mask",
-        o.mask,
-        "Image that is black (darker than half of its brightest) where the camera sees the robot "
-        "itself: that is left out");
+           "--mask",
+           o.mask,
+           "Image that is black (darker than half of its brightest) where the camera sees the "
+           "robot "
+           "itself: that is left out")
+        ->type_name("FILE");
     app.add_flag("--dump-config", dumpConfig, "Print all keys with the values in effect, and exit");
     app.add_flag("--dump-keys", dumpKeys, "The same as Markdown tables, for docs/config.md")
         ->group("");
@@ -46,7 +51,8 @@ void addOutputOptions(CLI::App& app, OdometryOptions& o)
 {
     const std::size_t numOthers = app.get_options().size();
     auto* output =
-        app.add_option("-o,--output", o.output, "Write a rawlog with a pose PDF per frame");
+        app.add_option("-o,--output", o.output, "Write a rawlog with a pose PDF per frame")
+            ->type_name("FILE");
     auto* onlyPoses =
         app.add_flag("--only-poses", o.onlyPoses, "Leave the observations out of the rawlog")
             ->needs(output);
@@ -65,8 +71,10 @@ void addOutputOptions(CLI::App& app, OdometryOptions& o)
            "Put point clouds into the scans of the rawlog (rbpf-slam, maps)")
         ->needs(output)
         ->excludes(onlyPoses);
-    auto* simplemap = app.add_option(
-        "--simplemap", o.simplemap, "Write key frames with pose PDFs, for observations2map");
+    auto* simplemap =
+        app.add_option(
+               "--simplemap", o.simplemap, "Write key frames with pose PDFs, for observations2map")
+            ->type_name("FILE");
     app.add_option(
            "--keyframe-distance",
            o.keyframeDistance,
@@ -79,16 +87,22 @@ void addOutputOptions(CLI::App& app, OdometryOptions& o)
         ->capture_default_str()
         ->needs(simplemap);
     app.add_option(
-        "--graph", o.graph, "Write a pose graph with information matrices, for graph-slam");
-    auto* trajectory = app.add_option("--trajectory", o.trajectory, "Write the poses as TUM text");
+           "--graph", o.graph, "Write a pose graph with information matrices, for graph-slam")
+        ->type_name("FILE");
+    auto* trajectory = app.add_option("--trajectory", o.trajectory, "Write the poses as TUM text")
+                           ->type_name("FILE");
     app.add_option(
            "--trajectory-frame", o.trajectoryFrame, "Whose poses: optical (the camera's) or robot")
         ->check(isOneOf({"optical", "robot"}))
         ->capture_default_str()
         ->needs(trajectory);
-    app.add_option("--diagnostics", o.diagnostics, "Write a table with a line per frame (CSV)");
+    app.add_option("--diagnostics", o.diagnostics, "Write a table with a line per frame (CSV)")
+        ->type_name("FILE");
     auto* overlay = app.add_option(
-        "--overlay", o.overlay, "Draw points and planes of each frame into this folder (JPEG)");
+                           "--overlay",
+                           o.overlay,
+                           "Draw points and planes of each frame into this folder (JPEG)")
+                        ->type_name("DIR");
     app.add_option("--overlay-every", o.overlayEvery, "Draw every N-th frame only")
         ->check(CLI::Range(1, 1000000))
         ->capture_default_str()

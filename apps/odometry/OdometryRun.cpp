@@ -22,6 +22,7 @@
 #include "ProgressBar.h"
 #include "RawlogSink.h"
 #include "Worker.h"
+#include "frames_text.h"
 #include "map_sinks.h"
 #include "text_sinks.h"
 
@@ -307,8 +308,8 @@ class Run
         std::string cameras;
         for (const auto& [label, count] : source_.framesOf())
         {
-            cameras += (cameras.empty() ? "" : ", ") + std::to_string(count) +
-                       " frames of camera '" + label + "'";
+            cameras +=
+                (cameras.empty() ? "" : ", ") + framesText(count) + " of camera '" + label + "'";
         }
         throw InputError(
             inputs +

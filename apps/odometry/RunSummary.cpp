@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <ostream>
 
+#include "frames_text.h"
 #include "mostly_predicted.h"
 
 namespace pointplane
@@ -15,11 +16,6 @@ namespace pointplane
 namespace
 {
 constexpr std::size_t kMostGroups = 8;  // lines that are still read
-
-[[nodiscard]] std::string framesText(std::size_t number)
-{
-    return std::to_string(number) + (number == 1 ? " frame" : " frames");
-}
 
 /** Reasons that differ in numbers alone are one reason. */
 [[nodiscard]] std::string withoutNumbers(std::string text)

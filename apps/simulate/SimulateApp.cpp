@@ -16,6 +16,7 @@
 #include <ostream>
 
 #include "SequenceWriter.h"
+#include "frames_text.h"
 #include "label_check.h"
 #include "run_program.h"
 #include "standard_streams.h"
@@ -67,13 +68,16 @@ void addListSettings(CLI::App& app)
 void addOptions(CLI::App& app, Arguments& args)
 {
     app.add_option("scene", args.scene, sceneHelp())->required();
-    app.add_option("-o,--output", args.output.path, "Rawlog to write")->required();
+    app.add_option("-o,--output", args.output.path, "Rawlog to write")
+        ->type_name("FILE")
+        ->required();
     app.add_option(
            "--seed", args.seed, "Seed of motion and noise: the same seed gives the same bytes")
         ->capture_default_str();
     app.add_option("--duration", args.duration, "Length [s] (default: 18)");
     app.add_option("--fps", args.fps, "Frames a second (default: 30)");
-    app.add_option("--size", args.size, "Size of the images, e.g. 320x240 (default: the camera's)");
+    app.add_option("--size", args.size, "Size of the images, e.g. 320x240 (default: the camera's)")
+        ->type_name("WIDTHxHEIGHT");
     app.add_option(
            "--camera",
            args.camera,
@@ -86,9 +90,11 @@ void addOptions(CLI::App& app, Arguments& args)
            "--set",
            args.settings,
            "Set a property of the camera, key=value; once for each key (--list-settings)")
+        ->type_name("KEY=VALUE")
         ->expected(1)
         ->take_all();
     app.add_option("--label", args.output.label, "Label of the camera in the rawlog")
+        ->type_name("LABEL")
         ->check(isLabel())
         ->capture_default_str();
     app.add_flag("--external", args.output.external, "Put the images into files beside the rawlog");
@@ -192,7 +198,7 @@ int simulate(Arguments& args, std::ostream& standard, std::ostream& err)
     const SimulatedSequence sequence(args.scene, params, args.seed);
     args.output.description = describe(args, params);
     writeSequence(sequence, args.output, err);
-    out << args.output.path << ": " << sequence.numFrames() << " frames\n"
+    out << args.output.path << ": " << framesText(sequence.numFrames()) << "\n"
         << (writesTruth ? groundTruthOf(args.output.path) + ": ground truth"
                         : args.output.path + ": is not a file; the ground truth was not written")
         << "\n";

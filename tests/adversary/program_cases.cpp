@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "program_cases.h"
 
+#include <cctype>
 #include <filesystem>
 #include <set>
 #include <sstream>
@@ -134,13 +135,12 @@ std::vector<Option> optionsOf(const Case& c, const Surroundings& surroundings)
     {
         std::istringstream words(line);
         std::string name, type;
-        if (line.rfind("  -", 0) == 0)  // `  -o,--output TEXT  ...`
+        if (line.rfind("  -", 0) == 0)  // `  -o,--output FILE  ...`
         {
             words >> name >> type;
             const std::string word = type.substr(0, type.find_first_of(":="));
             const std::set<std::string> numbers{"FLOAT", "INT", "UINT"};
-            const std::set<std::string> texts{"TEXT", "FILE", "DIR", "NAME", "PROGRAM"};
-            takesValue = numbers.count(word) + texts.count(word) > 0;
+            takesValue = type.size() > 1 && std::isupper(type[0]) && std::isupper(type[1]);
             if (takesValue)
             {
                 out.push_back(

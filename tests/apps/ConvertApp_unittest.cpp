@@ -492,6 +492,26 @@ TEST_F(ConvertApp, nothingIsWrittenBesideAPipe)
     EXPECT_EQ(std::distance(first, end), 2);
 }
 
+/** out and out.rawlog have one name for their images, out.rawlog.gz has another. */
+TEST_F(ConvertApp, imagesOfAnotherRawlogAreNotReplaced)
+{
+    const std::string other = dir_ / "out", images = dir_ / "out_Images";
+    ASSERT_EQ(run({in_, "-o", out_, "--external"}), kExitOk) << text_;
+    std::filesystem::remove(dir_ / "out.groundtruth.txt");
+    EXPECT_EQ(run({in_, "-o", other, "--external"}), kExitBadInput);
+    EXPECT_THAT(
+        text_,
+        HasSubstr("would replace " + images + ", which is that of " + out_ + "; give another"));
+    EXPECT_FALSE(std::filesystem::exists(other));
+    for (int i = 0; i < 2; ++i)  // their own they replace
+    {
+        EXPECT_EQ(run({in_, "-o", out_, "--external"}), kExitOk) << text_;
+        std::filesystem::remove(dir_ / "out.groundtruth.txt");
+        EXPECT_EQ(run({in_, "-o", out_ + ".gz", "--external"}), kExitOk) << text_;
+        std::filesystem::remove(dir_ / "out.groundtruth.txt");
+    }
+}
+
 /** Of another rawlog, whose name differs by .gz alone, or of an earlier one. */
 TEST_F(ConvertApp, groundTruthOfAnotherRawlogIsNotReplacedAndNotAdopted)
 {

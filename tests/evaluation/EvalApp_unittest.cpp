@@ -6,7 +6,9 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <iomanip>
 #include <sstream>
+#include <utility>
 
 #include "run_app.h"
 #include "test_trajectories.h"
@@ -25,6 +27,7 @@ test::AppRun run(const std::vector<std::string>& args) { return test::runApp(run
 std::string straightLine(double factor, double later = 0)
 {
     std::ostringstream out;
+    out << std::setprecision(15);
     for (int i = 0; i <= 50; ++i)
     {
         out << 0.1 * i + later << " " << 0.1 * i * factor << " 0 0 0 0 0 1\n";
@@ -51,6 +54,28 @@ TEST_F(EvalApp, rpeTableAndBothSpellings)
     const test::AppRun underscores =
         run({"rpe", truth, estimate, "--fixed_delta", "--delta_unit=s"});
     EXPECT_EQ(underscores.out, hyphens.out);
+}
+
+TEST_F(EvalApp, stampsInMillisecondsAreTold)
+{
+    std::ostringstream inMilliseconds;
+    for (int i = 0; i <= 50; ++i)
+    {
+        inMilliseconds << 15000000 + i << "00000 0 0 0 0 0 0 1\n";
+    }
+    const std::string seconds = writeFile(files, "s.txt", straightLine(1, 1.5e9));
+    const std::string fine = writeFile(files, "ms.txt", inMilliseconds.str());
+    for (const auto& [first, second] : {std::pair(seconds, fine), std::pair(fine, seconds)})
+    {
+        const test::AppRun r = run({"rpe", first, second});
+        EXPECT_EQ(r.code, 2);
+        EXPECT_THAT(
+            r.err,
+            HasSubstr(
+                "; stamps of '" + fine + "' look like milliseconds: write them in seconds\n"));
+    }
+    EXPECT_THAT(
+        run({"rpe", seconds, estimate}).err, HasSubstr("are these files of the same sequence?"));
 }
 
 TEST_F(EvalApp, verboseIsTheScriptsOutput)

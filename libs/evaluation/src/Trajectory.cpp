@@ -37,6 +37,29 @@ std::string timeRange(const char* role, const Trajectory& trajectory, double off
            numberText(trajectory.stamps.back() + offset, 3) + "] s";
 }
 
+/** What two trajectories that do not overlap may be, as the end of a message. */
+std::string whyApart(const Trajectory& groundTruth, const Trajectory& estimate)
+{
+    constexpr double kAlike = 0.01;  // stamps since 1970 differ by less within half a year
+    const std::pair<double, const char*> units[] = {
+        {1e3, "milliseconds"}, {1e6, "microseconds"}, {1e9, "nanoseconds"}};
+    for (const auto& [perSecond, unit] : units)
+    {
+        for (const auto& [fine, coarse] :
+             {std::pair(&groundTruth, &estimate), std::pair(&estimate, &groundTruth)})
+        {
+            const double seconds = fine->stamps.front() / perSecond;
+            if (std::abs(seconds - coarse->stamps.front()) <
+                kAlike * std::abs(coarse->stamps.front()))
+            {
+                return "; stamps of '" + fine->name + "' look like " + unit +
+                       ": write them in seconds";
+            }
+        }
+    }
+    return "; are these files of the same sequence? (--offset shifts the estimate)";
+}
+
 /** Moves poses that are no numbers out of the list. \return their stamps */
 std::vector<double> removeNotFinite(std::vector<StampedPose>& poses)
 {
@@ -191,8 +214,7 @@ void checkOverlap(const Trajectory& groundTruth, const Trajectory& estimate, dou
         throw std::runtime_error(
             "the trajectories do not overlap in time: " +
             timeRange("ground truth", groundTruth, 0) + ", " +
-            timeRange("estimate", estimate, offset) +
-            "; are these files of the same sequence? (--offset shifts the estimate)");
+            timeRange("estimate", estimate, offset) + whyApart(groundTruth, estimate));
     }
 }
 
