@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
 # Fuzzes everything that reads what others wrote: tools/fuzz.sh SECONDS [FUZZER...]
 # Each fuzzer runs so long; without names, all do. Builds with Clang and sanitizers in build/sanitize-address.
-# The seed is by chance, or $FUZZ_SEED.
 # An input that breaks something stays in build/sanitize-address/fuzz/findings, and the exit code is 1.
 build_dir=build/sanitize-address
 source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
@@ -27,7 +26,7 @@ export ASAN_OPTIONS=$sanitizer_options
 fuzz() {
     local fuzzer=$1 corpus=$fuzz_dir/corpus/$1 log=$fuzz_dir/$1.log status=0
     mkdir -p "$corpus"
-    if ! "$fuzz_dir/fuzz_$fuzzer" -max_total_time="$seconds" -seed="${FUZZ_SEED:-0}" -timeout=20 -rss_limit_mb=3000 -malloc_limit_mb=300 \
+    if ! "$fuzz_dir/fuzz_$fuzzer" -max_total_time="$seconds" -timeout=20 -rss_limit_mb=3000 -malloc_limit_mb=300 \
         -print_final_stats=1 -artifact_prefix="$fuzz_dir/findings/$fuzzer-" "$corpus" "$fuzz_dir/seeds/$fuzzer" \
         >"$log" 2>&1; then
         grep -v '^#' "$log" | tail -n 60
