@@ -17,11 +17,19 @@ for part in $parts; do
         "$build/benchmarks/speed/benchmark_speed" --data "$data" --markdown "$page" >/dev/null
         ;;
     planes)
-        { echo && "$build/benchmarks/planes/benchmark_planes" && echo; } >"$work/planes.md"
+        {
+            echo
+            "$build/benchmarks/planes/benchmark_planes"
+            echo
+        } >"$work/planes.md"
         replace "$page" planes "$work/planes.md"
         ;;
     memory)
-        { echo && benchmarks/memory.sh "$build/bin" && echo; } >"$work/memory.md"
+        {
+            echo
+            benchmarks/memory.sh "$build/bin"
+            echo
+        } >"$work/memory.md"
         replace "$page" memory "$work/memory.md"
         ;;
     *)
