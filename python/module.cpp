@@ -15,6 +15,7 @@
 #include <array>
 #include <cstdint>
 #include <deque>
+#include <exception>
 #include <filesystem>
 #include <limits>
 #include <map>
@@ -37,6 +38,19 @@ namespace pointplane
 {
 namespace
 {
+/** A text for Python. Names of files and what ini files hold may be in any coding; bytes that are
+ * not UTF-8 are shown as \\xe9. */
+py::str textOf(const std::string& text)
+{
+    PyObject* const decoded = PyUnicode_DecodeUTF8(
+        text.data(), static_cast<py::ssize_t>(text.size()), "backslashreplace");
+    if (decoded == nullptr)
+    {
+        throw py::error_already_set();
+    }
+    return py::reinterpret_steal<py::str>(decoded);
+}
+
 /** Whether it holds numbers of this type. A pickled array, or one with metadata, has a dtype object
  * of its own. \param fill what a masked element should be, for the message */
 template <class T>
@@ -63,7 +77,13 @@ cv::Mat matOf(const py::array& array, int type, const char* what)
             py::cast<std::string>(py::str(array.attr("shape"))) + ", not (height, width" +
             (colour ? ", 3)" : ")"));
     }
-    if (array.strides(1) != itemSize || (colour && array.strides(2) != 1) || array.strides(0) <= 0)
+    if (array.size() == 0)
+    {
+        throw py::value_error(std::string(what) + ": is empty");
+    }
+    const auto rowGap = array.strides(0) - array.shape(1) * itemSize;
+    if (array.strides(1) != itemSize || (colour && array.strides(2) != 1) || rowGap < 0 ||
+        rowGap % (itemSize / CV_MAT_CN(type)) != 0)
     {
         throw py::value_error(
             std::string(what) + ": rows are not contiguous; give numpy.ascontiguousarray(" + what +
@@ -337,9 +357,9 @@ void addResult(py::module_& m)
             "status",
             [](const OdometryResult& r) { return toString(r.status); },
             "first, tracked, predicted or lost")
-        .def_readonly(
+        .def_property_readonly(
             "reason",
-            &OdometryResult::reason,
+            [](const OdometryResult& r) { return textOf(r.reason); },
             "why it was not tracked, or what limits a tracked one (directions that are predicted, "
             "an image that is left out); or empty")
         .def_readonly("stamp", &OdometryResult::stamp, "of the frame [s]")
@@ -361,8 +381,9 @@ void addResult(py::module_& m)
             "__repr__",
             [](const OdometryResult& r)
             {
-                return std::string("<pointplane.Result ") + toString(r.status) +
-                       (r.reason.empty() ? "" : ": " + r.reason) + ">";
+                return textOf(
+                    std::string("<pointplane.Result ") + toString(r.status) +
+                    (r.reason.empty() ? "" : ": " + r.reason) + ">");
             });
 }
 
@@ -426,6 +447,24 @@ void addOdometry(py::module_& m)
         .def("reset", &SharedOdometry::reset, "Starts anew with the same configuration and mask.");
 }
 
+void addInputError(py::module_& m)
+{
+    static py::handle type;
+    type = py::exception<InputError>(m, "InputError", PyExc_ValueError).release();
+    py::register_exception_translator(
+        [](std::exception_ptr thrown)
+        {
+            try
+            {
+                std::rethrow_exception(std::move(thrown));
+            }
+            catch (const InputError& error)
+            {
+                PyErr_SetObject(type.ptr(), textOf(error.what()).ptr());
+            }
+        });
+}
+
 void addRawlogs(py::module_& m)
 {
     py::class_<ConvertedFrame>(m, "Frame", "A frame of a rawlog, depth registered to colour.")
@@ -439,7 +478,10 @@ void addRawlogs(py::module_& m)
             [](const ConvertedFrame& f) { return arrayOf<std::uint8_t>(f.frame.gray); },
             "uint8, or None")
         .def_property_readonly("camera", [](const ConvertedFrame& f) { return f.frame.camera; })
-        .def_readonly("problem", &ConvertedFrame::problem, "why it cannot be used, or empty");
+        .def_property_readonly(
+            "problem",
+            [](const ConvertedFrame& f) { return textOf(f.problem); },
+            "why it cannot be used, or empty");
     py::class_<RawlogFrames>(m, "RawlogFrames", "See read_rawlog().")
         .def("__iter__", [](RawlogFrames& self) -> RawlogFrames& { return self; })
         .def("__next__", &RawlogFrames::next);
@@ -461,7 +503,7 @@ PYBIND11_MODULE(pointplane, m)
     using namespace pointplane;
     m.doc() = "RGB-D visual odometry from noisy points and planes, with covariances.";
     m.attr("__version__") = POINTPLANE_VERSION;
-    py::register_exception<InputError>(m, "InputError", PyExc_ValueError);
+    addInputError(m);
     addCamera(m);
     addResult(m);
     addRawlogs(m);  // before who takes its frames, whose help names them

@@ -45,6 +45,15 @@ class Rawlogs(unittest.TestCase):
         with self.assertRaisesRegex(pointplane.InputError, "none.rawlog"):
             pointplane.read_rawlog("none.rawlog")
 
+    def test_names_that_are_not_utf_8_are_shown(self):
+        with self.assertRaisesRegex(pointplane.InputError, r"cannot open caf\\xe9.rawlog: "):
+            pointplane.read_rawlog(b"caf\xe9.rawlog")
+        with tempfile.TemporaryDirectory() as folder:
+            with open(folder + "/latin.ini", "wb") as file:
+                file.write(b"[Lens]\nnominal = v\xe9rit\xe9\n")
+            with self.assertRaisesRegex(pointplane.InputError, r"nominal = 'v\\xe9rit\\xe9' is not"):
+                pointplane.VisualOdometry(folder + "/latin.ini")
+
     def test_files_may_be_paths_of_pathlib(self):
         frames = list(pointplane.read_rawlog(pathlib.Path(RAWLOG)))
         self.assertEqual(len(frames), len(list(pointplane.read_rawlog(RAWLOG))))
@@ -185,6 +194,15 @@ class Odometry(unittest.TestCase):
                 ValueError, r"^depth: rows are not contiguous; give numpy.ascontiguousarray\(depth\)$"
             ):
                 odometry.process(view, None, frame.camera, 1.0)
+        # Rows that overlap, as of a sliding window, or that lie odd bytes apart.
+        row = frame.depth.shape[1] * 4
+        for step in (4, row + 1):
+            memory = np.zeros(frame.depth.shape[0] * (row + 4), np.uint8)
+            view = np.ndarray(frame.depth.shape, np.float32, memory, 0, (step, 4))
+            with self.assertRaisesRegex(ValueError, "^depth: rows are not contiguous"):
+                odometry.process(view, None, frame.camera, 1.0)
+        with self.assertRaisesRegex(ValueError, "^depth: is empty$"):
+            odometry.process(frame.depth[:0], None, frame.camera, 1.0)
         with self.assertRaisesRegex(
             ValueError, r"^colour: has the shape \(1, 2, 4\), not \(height, width, 3\)$"
         ):
