@@ -8,7 +8,11 @@
 #include <cctype>
 #include <cstdlib>
 #include <ctime>
+#include <filesystem>
 #include <ostream>
+#include <set>
+#include <string>
+#include <system_error>
 
 #include "OutputGuard.h"
 #include "command.h"
@@ -49,6 +53,25 @@ std::string timeText()
     std::strftime(text, sizeof text, "%Y-%m-%d %H:%M:%S UTC", &utc);
     return text;
 }
+
+/** What is to be said of charts in a folder that are not of this report, as those of a run with
+ * other options. \param written names of this report's */
+std::string otherChartsText(const std::string& directory, const std::set<std::string>& written)
+{
+    std::set<std::string> others;
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(directory, error))
+    {
+        const std::string name = entry.path().filename();
+        if (entry.path().extension() == ".svg" && written.count(name) == 0)
+        {
+            others.insert(name);
+        }
+    }
+    return others.empty() ? ""
+                          : "; SVG files beside it that are not of this report: " +
+                                std::to_string(others.size()) + ", e.g. " + *others.begin();
+}
 }  // namespace
 
 void guardReport(OutputGuard& guard, const std::string& directory)
@@ -64,10 +87,13 @@ void writeReportFile(HtmlReport report, const std::string& directory, CommandCon
     const OutputFolder folder(directory);
     const std::string path = folder.fileAt("index.html");
     writeText(report.html(), path, context.out);
+    std::set<std::string> written;
     for (const Chart& chart : report.charts())
     {
-        writeText(svgFileOf(chart), folder.fileAt(fileNameOf(chart.title) + ".svg"), context.out);
+        const std::string name = fileNameOf(chart.title) + ".svg";
+        writeText(svgFileOf(chart), folder.fileAt(name), context.out);
+        written.insert(name);
     }
-    context.err << "report: " << path << "\n";
+    context.err << "report: " << path << otherChartsText(directory, written) << "\n";
 }
 }  // namespace pointplane

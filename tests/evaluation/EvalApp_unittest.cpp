@@ -529,6 +529,22 @@ TEST_F(EvalApp, reportsOfOneRun)
     EXPECT_EQ(run({"rpe", truth, estimate, "--report", truth}).code, 2);  // a file, no folder
 }
 
+TEST_F(EvalApp, reportsTellChartsOfAnEarlierOne)
+{
+    const std::string folder = files / "r";
+    const std::string told = "index.html; SVG files beside it that are not of this report: ";
+    for (int i = 0; i < 2; ++i)
+    {
+        EXPECT_THAT(
+            run({"rpe", truth, estimate, "--report", folder}).err,
+            testing::Not(HasSubstr("not of this report")));
+    }
+    writeFile(files, "r/nees-of-increments-of-1f.svg", "");
+    EXPECT_THAT(
+        run({"rpe", truth, estimate, "--report", folder}).err,
+        HasSubstr(told + "1, e.g. nees-of-increments-of-1f.svg\n"));
+}
+
 TEST_F(EvalApp, reportsDoNotFollowLinks)
 {
     const std::string folder = files / "r", before = test::readBytes(truth);
