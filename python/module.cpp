@@ -503,6 +503,9 @@ PYBIND11_MODULE(pointplane, m)
     using namespace pointplane;
     m.doc() = "RGB-D visual odometry from noisy points and planes, with covariances.";
     m.attr("__version__") = POINTPLANE_VERSION;
+    // NumPy is loaded here. pybind11 would load it for the first array, where two threads that need
+    // one wait for each other.
+    (void)py::dtype::of<float>();
     addInputError(m);
     addCamera(m);
     addResult(m);

@@ -7,6 +7,7 @@ import pathlib
 import pickle
 import re
 import struct
+import subprocess
 import sys
 import tempfile
 import threading
@@ -277,6 +278,23 @@ class Odometry(unittest.TestCase):
         odometry.reset()
         self.assertEqual(odometry.process(frames[0]).status, "first")
         self.assertEqual(odometry.process(frames[1]).status, "tracked")
+
+    def test_first_arrays_may_be_of_several_threads(self):
+        script = """
+import sys, threading
+import pointplane
+frame = next(pointplane.read_rawlog(sys.argv[1]))
+start = threading.Barrier(4)
+def work():
+    start.wait()
+    frame.depth
+threads = [threading.Thread(target=work, daemon=True) for _ in range(4)]
+for thread in threads:
+    thread.start()
+for thread in threads:
+    thread.join()
+"""
+        subprocess.run([sys.executable, "-c", script, RAWLOG], check=True, timeout=60)
 
     def test_configuration(self):
         pointplane.VisualOdometry(settings=["PoseSolver.alpha=7"])
