@@ -51,20 +51,6 @@ std::string sceneHelp()
     return out;
 }
 
-/** Prints all settings with their defaults and ends the program, as --help does. */
-void addListSettings(CLI::App& app)
-{
-    app.add_flag_callback(
-        "--list-settings",
-        []
-        {
-            requireStandardOutput();
-            SimulationParams defaults;
-            throw CLI::CallForVersion(iniText(parametersOf(kSection, defaults)), 0);
-        },
-        "Print the keys of --set with their defaults");
-}
-
 void addOptions(CLI::App& app, Arguments& args)
 {
     app.add_option("scene", args.scene, sceneHelp())->required();
@@ -172,6 +158,21 @@ SimulationParams paramsOf(const Arguments& args)
     return params;
 }
 
+/** Prints all settings and ends the program, as --help does. Comes after the other options, which
+ * it looks at. */
+void addListSettings(CLI::App& app, const Arguments& args)
+{
+    app.add_flag_callback(
+        "--list-settings",
+        [&args]
+        {
+            requireStandardOutput();
+            SimulationParams params = paramsOf(args);
+            throw CLI::CallForVersion(iniText(parametersOf(kSection, params)), 0);
+        },
+        "Print the keys of --set with the values in effect, and exit");
+}
+
 /** What it takes to render the same bytes again. */
 std::string describe(const Arguments& args, SimulationParams params)
 {
@@ -224,7 +225,7 @@ int runSimulate(const std::vector<std::string>& args, std::ostream& out, std::os
         "pointplane-simulate"};
     Arguments arguments;
     addOptions(app, arguments);
-    addListSettings(app);
+    addListSettings(app, arguments);
     return runCommand(app, args, out, err, [&] { return simulate(arguments, out, err); });
 }
 }  // namespace pointplane

@@ -506,6 +506,13 @@ TEST(SimulateApp, listsItsSettingsAndScenes)
     const Finished settings = run({"--list-settings"});
     EXPECT_EQ(settings.code, 0);
     EXPECT_THAT(settings.out, testing::HasSubstr("depthDelay = -0.01"));
+    const Finished phone = run({"--list-settings", "--camera", "phone", "--set", "maxDepth=4"});
+    EXPECT_EQ(phone.code, 0);
+    EXPECT_THAT(phone.out, testing::HasSubstr("depthDelay = 0 "));
+    EXPECT_THAT(phone.out, testing::HasSubstr("maxDepth = 4 "));
+    const Finished refused = run({"--list-settings", "--set", "maxDepth=-4"});
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_THAT(refused.err, testing::HasSubstr("maxDepth = -4"));
     const Finished help = run({"--help"});
     EXPECT_EQ(help.code, 0);
     EXPECT_THAT(help.out, testing::HasSubstr("notexture: "));
