@@ -310,6 +310,18 @@ void OutputGuard::addRawlog(const std::string& option, const std::string& path)
     }
 }
 
+void OutputGuard::addText(const std::string& option, const std::string& path)
+{
+    addOutput(option, path);
+    const fs::path extension = fs::path(path).extension();
+    if ((extension == ".rawlog" || extension == ".gz") && hasPlaceBeside(path))
+    {
+        throw InputError(
+            option + " " + path +
+            ": would be plain text; give a name that ends neither in .rawlog nor in .gz");
+    }
+}
+
 void OutputGuard::addOutputFolder(
     const std::string& option, const std::string& path, const std::string& extension)
 {

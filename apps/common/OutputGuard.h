@@ -48,6 +48,10 @@ class OutputGuard
      * has an extension: that of something else may be a file of the user's. */
     void addRawlog(const std::string& option, const std::string& path);
 
+    /** As addOutput(), for a text. The name of a file may not end in .rawlog or .gz: that is what
+     * it would not be, and such a file may be a recording of the user's. */
+    void addText(const std::string& option, const std::string& path);
+
     /** A folder, made if need be, in which files are written.
      * \param extension of these files, e.g. ".png"; empty: any */
     void addOutputFolder(

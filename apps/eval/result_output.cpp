@@ -59,7 +59,7 @@ void OutputFiles::guardedBy(OutputGuard& guard, bool lines) const
         requireStandardOutput();
     }
     const auto add = [&](const char* option, const std::string& path)
-    { guard.addOutput(option, path == "-" ? "" : path); };
+    { guard.addText(option, path == "-" ? "" : path); };
     add("--json", json);
     add("--csv", csv);
     add("--save", save);

@@ -91,9 +91,9 @@ void addSink(Sinks& sinks, const std::string& option, const Args&... args)
         guard.addInputRawlog(input);
     }
     guard.addOutput("--simplemap", options.simplemap);
-    guard.addOutput("--graph", options.graph);
-    guard.addOutput("--trajectory", options.trajectory);
-    guard.addOutput("--diagnostics", options.diagnostics);
+    guard.addText("--graph", options.graph);
+    guard.addText("--trajectory", options.trajectory);
+    guard.addText("--diagnostics", options.diagnostics);
     guard.addOutputFolder("--overlay", options.overlay, ".jpg");
     guard.addRawlog("-o", options.output);
     return guard;

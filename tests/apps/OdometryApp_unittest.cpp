@@ -288,9 +288,10 @@ TEST_F(OdometryApp, aMaskLeavesOutTheRobot)
 /** As one that was drawn for another camera. What an earlier run wrote stays. */
 TEST_F(OdometryApp, aMaskOfAnotherSizeEndsTheRunAtTheFirstFrame)
 {
+    const std::string poses = dir_ / "poses.txt";
     test::writeObservations(in_, 5);
-    ASSERT_EQ(run({in_, "--trajectory", out_}).code, kExitOk);
-    const std::string before = readBytes(out_);
+    ASSERT_EQ(run({in_, "--trajectory", poses}).code, kExitOk);
+    const std::string before = readBytes(poses);
     cv::Mat mask(10, 20, CV_8UC1, cv::Scalar(255));
     mask.row(0).setTo(0);
     cv::imwrite(dir_ / "small.png", mask);
@@ -299,15 +300,15 @@ TEST_F(OdometryApp, aMaskOfAnotherSizeEndsTheRunAtTheFirstFrame)
     for (const char* jobs : {"1", "2"})
     {
         const Outcome outcome =
-            run({in_, "--mask", dir_ / "small.png", "--jobs", jobs, "--trajectory", out_});
+            run({in_, "--mask", dir_ / "small.png", "--jobs", jobs, "--trajectory", poses});
         EXPECT_EQ(outcome.code, kExitBadInput);
         EXPECT_EQ(
             outcome.err,
             "pointplane-odometry: " + (dir_ / "small.png") +
                 ": is 20x10, but images of camera 'RGBD' are " + std::to_string(size.width) + "x" +
                 std::to_string(size.height) + "; draw it in that size\n");
-        EXPECT_EQ(readBytes(out_), before);
-        EXPECT_FALSE(std::filesystem::exists(out_ + ".partial"));
+        EXPECT_EQ(readBytes(poses), before);
+        EXPECT_FALSE(std::filesystem::exists(poses + ".partial"));
     }
 }
 
@@ -438,7 +439,7 @@ TEST_F(OdometryApp, otherCamerasAreNamed)
 {
     const Outcome outcome = runOn(
         6, [](int i, CObservation3DRangeScan& scan) { scan.sensorLabel = i == 4 ? "" : "RGBD"; });
-    EXPECT_THAT(outcome.out, HasSubstr("not used: 1 frames of camera ''"));
+    EXPECT_THAT(outcome.out, HasSubstr("not used: 1 frame of camera ''"));
 }
 
 TEST_F(OdometryApp, optionsWithoutEffectAreNamed)

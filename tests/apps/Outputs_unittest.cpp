@@ -230,6 +230,22 @@ TEST_F(Outputs, aRawlogHasTheNameOfOne)
     EXPECT_GT(reader.get().size(), 100U);
 }
 
+TEST_F(Outputs, aTextHasNotTheNameOfARawlogOrAnArchive)
+{
+    writeBytes(dir_ / "in/other.rawlog", "precious");
+    for (const char* option : {"--trajectory", "--diagnostics", "--graph"})
+    {
+        for (const char* name : {"in/other.rawlog", "other.rawlog.gz", "poses.txt.gz"})
+        {
+            expectRefused(
+                {in_, option, dir_ / name},
+                option + (" " + (dir_ / name)) +
+                    ": would be plain text; give a name that ends neither in .rawlog nor in .gz\n");
+        }
+    }
+    EXPECT_EQ(readBytes(dir_ / "in/other.rawlog"), "precious");
+}
+
 /** What is wrong is the input, not where the output is. */
 TEST_F(Outputs, aFolderAsAnInputIsBlamedItself)
 {
