@@ -26,11 +26,13 @@
 #include <utility>
 #include <vector>
 
+#include <cxxabi.h>
 #include <pybind11/eigen.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
+#include <unistd.h>
 
 namespace py = pybind11;
 
@@ -257,6 +259,33 @@ class RawlogFrames
     std::map<std::string, std::size_t> framesOf_;
 };
 
+/** While it lives, other threads of Python run. If Python ends meanwhile, as under a daemon thread,
+ * this thread stops here. Python would unwind it, and end the program on the way through C++. */
+class WithoutPython
+{
+ public:
+    WithoutPython() : state_(PyEval_SaveThread()) {}
+    ~WithoutPython()
+    {
+        try
+        {
+            PyEval_RestoreThread(state_);
+        }
+        catch (const abi::__forced_unwind&)
+        {
+            while (true)
+            {
+                ::pause();
+            }
+        }
+    }
+    WithoutPython(const WithoutPython&) = delete;
+    WithoutPython& operator=(const WithoutPython&) = delete;
+
+ private:
+    PyThreadState* state_;
+};
+
 /** An odometry that Python's threads may share: one frame after the other. */
 class SharedOdometry
 {
@@ -268,7 +297,7 @@ class SharedOdometry
         OdometryResult result;
         {
             // In this order: who waits for a frame of another thread must not hold up Python.
-            const py::gil_scoped_release release;
+            const WithoutPython others;
             const std::lock_guard lock(mutex_);
             result = odometry_.process(converted.frame);
         }
@@ -281,14 +310,14 @@ class SharedOdometry
 
     void setMask(const cv::Mat& mask)
     {
-        const py::gil_scoped_release release;
+        const WithoutPython others;
         const std::lock_guard lock(mutex_);
         odometry_.setMask(mask);
     }
 
     void reset()
     {
-        const py::gil_scoped_release release;
+        const WithoutPython others;
         const std::lock_guard lock(mutex_);
         odometry_.reset();
     }

@@ -296,6 +296,22 @@ for thread in threads:
 """
         subprocess.run([sys.executable, "-c", script, RAWLOG], check=True, timeout=60)
 
+    def test_a_daemon_thread_does_not_disturb_the_end(self):
+        script = """
+import sys, threading, time
+import pointplane
+odometry, frames = pointplane.VisualOdometry(), list(pointplane.read_rawlog(sys.argv[1]))
+def work():
+    while True:
+        for frame in frames:
+            odometry.process(frame)
+threading.Thread(target=work, daemon=True).start()
+time.sleep(0.2)
+"""
+        for _ in range(3):
+            done = subprocess.run([sys.executable, "-c", script, RAWLOG], timeout=60)
+            self.assertEqual(done.returncode, 0)
+
     def test_configuration(self):
         pointplane.VisualOdometry(settings=["PoseSolver.alpha=7"])
         with self.assertRaisesRegex(pointplane.InputError, "PoseSolver"):
