@@ -111,11 +111,17 @@ TEST(ParamsIni, mistakesAreNamedWithFileLineAndWhatWasMeant)
 
 TEST(ParamsIni, valuesMustBeWhatTheKeyTakes)
 {
-    for (const char* bad : {"3.7", "abc", "", "0x1q", "1 2", "99999999999"})
+    for (const char* bad : {"3.7", "abc", "", "0x1q", "1 2", "-"})
     {
         EXPECT_THAT(
             errorOf(std::string("[Alpha]\ncount = ") + bad),
             HasSubstr("x.ini:2: [Alpha] count = '" + std::string(bad) + "' is not a whole number"));
+    }
+    for (const char* large : {"99999999999", "-99999999999"})
+    {
+        EXPECT_EQ(
+            errorOf(std::string("[Alpha]\ncount = ") + large),
+            "x.ini:2: [Alpha] count = '" + std::string(large) + "' is too large a number");
     }
     for (const char* bad : {"0,25", "abc", "nan", "inf", "1e999", "2.5 m"})
     {

@@ -130,15 +130,26 @@ template <class Number>
     return true;
 }
 
+/** Whether it is digits and perhaps a sign. */
+[[nodiscard]] bool isOfDigits(const std::string& text)
+{
+    const std::size_t digits = text.find_first_of("+-") == 0 ? 1 : 0;
+    return text.size() > digits &&
+           text.find_first_not_of("0123456789", digits) == std::string::npos;
+}
+
 void assign(const std::string& where, const ParameterRef& parameter, const std::string& text)
 {
     const bool good =
         std::visit([&text](auto* target) { return assignTo(target, text); }, parameter.value);
     if (!good)
     {
+        // All that a whole number can be refused for.
+        const bool isTooLarge = std::holds_alternative<int*>(parameter.value) && isOfDigits(text);
         throw InputError(
-            where + ": [" + parameter.section + "] " + parameter.key + " = '" + text + "' is not " +
-            parameter.typeName() +
+            where + ": [" + parameter.section + "] " + parameter.key + " = '" + text + "' is " +
+            (isTooLarge ? std::string("too large a number")
+                        : std::string("not ") + parameter.typeName()) +
             (text.find_first_of("#;") == std::string::npos
                  ? ""
                  : " (a comment after a value starts with //)"));
