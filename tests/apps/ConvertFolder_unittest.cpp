@@ -360,7 +360,7 @@ TEST_F(ConvertFolder, depthInFloatingPointMayHaveAnotherUnit)
     writeDepth(1.5F);
     writeImage("in/depth/1.tiff", cv::Mat(48, 64, CV_32FC1, cv::Scalar(0)));
     EXPECT_EQ(run({"folder", in_}), kExitOk) << text_;
-    EXPECT_THAT(text_, HasSubstr("depth: no reading in 1 frames"));
+    EXPECT_THAT(text_, HasSubstr("depth: no reading in 1 frame\n"));
 }
 
 TEST_F(ConvertFolder, imagesWhoseNamesAreNoNumberAreCounted)
