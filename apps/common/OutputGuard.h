@@ -64,7 +64,8 @@ class OutputGuard
     void addGroundTruth(const std::string& rawlog, const std::string& text);
 
     /** As addOutputFolder(), for one beside a rawlog that is an output itself, and for the partial
-     * one (partialFolderOf()). Refused if it is that of another rawlog. \param folder NAME_... */
+     * one (partialFolderOf()). Refused if it is that of another rawlog. \param folder
+     * NAME_Images or NAME_Masks */
     void addFolderBeside(
         const std::string& option, const std::string& rawlog, const std::string& folder);
 
