@@ -48,7 +48,7 @@ class PairBuilderTest : public testing::Test
 
     void build()
     {
-        PairBuilder(previous, current, calibrator).build({association}, points, planes);
+        PairBuilder(previous, current, calibrator).build({association}, 15, points, planes);
     }
 
     Reference previous, reference;

@@ -85,6 +85,7 @@ Aligner::Aligner(const OdometryParams& params)
     : params_(params.pipeline),
       searchesAhead_(params.pipeline.searchesAhead()),
       minOverlap_(params.reference.keyframeMinOverlap),
+      windowPx_(params.pointTracker.windowPx),
       memory_(params.noiseScale.timeConstant),
       solver_(params.poseSolver),
       judge_(params)
@@ -348,7 +349,7 @@ void Aligner::estimate(
 {
     const Stopwatch watch;
     PoseProblem& problem = alignment.problem;
-    scene.pairs.build(alignment.associations, problem.points, problem.planes);
+    scene.pairs.build(alignment.associations, windowPx_, problem.points, problem.planes);
     problem.prior = scene.predicted.prior;
     problem.noise = scene.errors.noise();
     if (params_.fuses())

@@ -90,7 +90,9 @@ class Aligner
 
     PipelineParams params_;
     bool searchesAhead_;
-    double minOverlap_, memory_;
+    double minOverlap_;
+    int windowPx_;
+    double memory_;
     PoseSolver solver_;
     Judge judge_;
 };

@@ -17,17 +17,14 @@ namespace pointplane
 {
 namespace
 {
-/** Corners of several references that are found in the same cell of this side count as one. */
-constexpr double kSameCorner = 6;  // [px]
-
 cv::Size sizeOf(const PinholeCamera& camera) { return {camera.width, camera.height}; }
 
-/** Number of the cell of the image that the pixel is in. */
-int cellOf(const Eigen::Vector2d& uv_px)
+/** Number of the cell of the image that the pixel is in. \param side_px of the cells */
+int cellOf(const Eigen::Vector2d& uv_px, double side_px, const PinholeCamera& camera)
 {
-    constexpr int kCellsPerRow = 10000;
-    return static_cast<int>(std::floor(uv_px.y() / kSameCorner)) * kCellsPerRow +
-           static_cast<int>(std::floor(uv_px.x() / kSameCorner));
+    const int cellsPerRow = static_cast<int>(std::ceil(camera.width / side_px));
+    return static_cast<int>(std::floor(uv_px.y() / side_px)) * cellsPerRow +
+           static_cast<int>(std::floor(uv_px.x() / side_px));
 }
 
 /** Number of the patch of the image that the pixel is in. */
@@ -66,6 +63,7 @@ struct CurrentView
     const Features& features;
     const ShutterCorrection shutter;
     const CameraCalibrator& learnt;
+    const double cellPx;  //!< side of the cells in which corners count as one
 
     /** \param byCamera how the feature moves with errors of the camera */
     template <class ByCamera>
@@ -120,7 +118,7 @@ PointPair pointPair(const ReferenceView& past, const CurrentView& current, const
     pair.cur = cur.p_cam;
     current.correct(pair.cur.mean, pointByCamera);
     pair.reference = past.reference.id;
-    pair.feature = cellOf(cur.uv_px);
+    pair.feature = cellOf(cur.uv_px, current.cellPx, camera);
     pair.hasDepth = cur.hasDepth;
     pair.surface = surfaceAt(camera.depthPixel(cur.uv_px), features.planes);
     if (features.bend > 0)
@@ -148,6 +146,7 @@ struct FusedPoint
 
 void PairBuilder::build(
     const std::vector<Association>& associations,
+    int windowPx,
     std::vector<PointPair>& points,
     std::vector<PlanePair>& planes) const
 {
@@ -155,7 +154,10 @@ void PairBuilder::build(
     planes.clear();
     const PinholeCamera& camera = current_.frame.camera;
     const CurrentView current{
-        current_, {learnt_.complete(current_.frame.shutter), sizeOf(camera)}, learnt_};
+        current_,
+        {learnt_.complete(current_.frame.shutter), sizeOf(camera)},
+        learnt_,
+        0.5 * windowPx};
     for (const Association& association : associations)
     {
         const Reference& reference = *association.reference;

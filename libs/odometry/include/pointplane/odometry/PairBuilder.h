@@ -24,9 +24,12 @@ class PairBuilder
     {
     }
 
-    /** Replaces points and planes by the pairs of all associations. */
+    /** Replaces points and planes by the pairs of all associations.
+     * \param windowPx side of the patches that were searched for [px]. Corners of several
+     * references whose patches share half a side see the same pixels: they count as one. */
     void build(
         const std::vector<Association>& associations,
+        int windowPx,
         std::vector<PointPair>& points,
         std::vector<PlanePair>& planes) const;
 
