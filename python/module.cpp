@@ -12,6 +12,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <deque>
@@ -327,14 +328,31 @@ class SharedOdometry
     Odometry odometry_;
 };
 
+/** \param given numbers, or an array of any shape: OpenCV's is 1x5
+ * \throws value_error for more than is known here */
+std::array<double, 5> distortionOf(const py::object& given)
+{
+    const auto values =
+        (py::hasattr(given, "ravel") ? given.attr("ravel")() : given).cast<std::vector<double>>();
+    std::array<double, 5> out{};
+    const auto known = values.begin() + static_cast<long>(std::min(values.size(), out.size()));
+    if (std::any_of(known, values.end(), [](double value) { return value != 0; }))
+    {
+        throw py::value_error(
+            "distortion has " + std::to_string(values.size()) +
+            " values, but only k1 k2 p1 p2 k3 are known: undistort the images first");
+    }
+    std::copy(values.begin(), known, out.begin());
+    return out;
+}
+
 void addCamera(py::module_& m)
 {
     py::class_<PinholeCamera>(
         m,
         "Camera",
         "Pinhole camera. Pixel (0, 0) is the centre of the top left one; distortion is k1 k2 p1 "
-        "p2 "
-        "k3 of OpenCV.")
+        "p2 k3 of OpenCV: of fewer values, the others are 0.")
         .def(
             py::init(
                 [](double fx,
@@ -343,7 +361,7 @@ void addCamera(py::module_& m)
                    double cy,
                    int width,
                    int height,
-                   const std::array<double, 5>& distortion)
+                   const py::object& distortion)
                 {
                     PinholeCamera camera;
                     camera.fx = fx;
@@ -352,7 +370,7 @@ void addCamera(py::module_& m)
                     camera.cy = cy;
                     camera.width = width;
                     camera.height = height;
-                    camera.distortion = distortion;
+                    camera.distortion = distortionOf(distortion);
                     if (const std::string problem = camera.problem(); !problem.empty())
                     {
                         throw py::value_error(problem);
@@ -365,7 +383,7 @@ void addCamera(py::module_& m)
             py::arg("cy"),
             py::arg("width"),
             py::arg("height"),
-            py::arg("distortion") = std::array<double, 5>{})
+            py::arg("distortion") = py::tuple())
         .def_readonly("width", &PinholeCamera::width)
         .def_readonly("height", &PinholeCamera::height)
         .def_readonly("fx", &PinholeCamera::fx)

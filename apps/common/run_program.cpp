@@ -116,6 +116,14 @@ class HelpFormatter : public CLI::Formatter
                                "; commands are " + known;
 }
 
+/** CLI11 says "At Most 1 required but received 2". */
+[[nodiscard]] std::string problemOf(const CLI::Error& e)
+{
+    const std::string text = e.what();
+    const std::size_t at = text.find(": At Most 1 required but received ");
+    return at == std::string::npos ? text : text.substr(0, at) + " is given more than once";
+}
+
 /** For a terminal, whatever the names and the input hold that it quotes: one line, unless the text
  * is one of our own in several lines. */
 [[nodiscard]] std::string printable(std::string text, bool keepsLines = false)
@@ -185,8 +193,9 @@ int runCommand(
     std::ostream& err,
     const std::function<int()>& body)
 {
-    app.failure_message([](const CLI::App* a, const CLI::Error& e)
-                        { return a->get_name() + ": " + printable(e.what()) + " (see --help)\n"; });
+    app.failure_message(
+        [](const CLI::App* a, const CLI::Error& e)
+        { return a->get_name() + ": " + printable(problemOf(e)) + " (see --help)\n"; });
     std::vector<CLI::App*> commands = app.get_subcommands({});
     const std::string problem = problemOfCommand(commands, args);
     if (!problem.empty())

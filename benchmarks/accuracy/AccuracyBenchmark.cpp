@@ -75,6 +75,10 @@ std::vector<SequenceScores> AccuracyBenchmark::scoreAll(std::ostream& out, std::
 
 void AccuracyBenchmark::run(std::ostream& out, std::ostream& err) const
 {
+    if (!markdownFile_.empty())
+    {
+        checkMarkdownSection(markdownFile_, "accuracy");
+    }
     const std::vector<SequenceScores> all = scoreAll(out, err);
     if (!jsonFile_.empty())
     {

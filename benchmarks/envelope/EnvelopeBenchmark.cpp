@@ -334,6 +334,10 @@ std::vector<EnvelopeScore> EnvelopeBenchmark::scoreSequence(
 void EnvelopeBenchmark::run(std::ostream& out, std::ostream& err) const
 {
     cv::setNumThreads(1);  // runs are independent: the machine is better used by these
+    if (!markdownFile_.empty())
+    {
+        checkMarkdownSection(markdownFile_, section_);
+    }
     const std::vector<NamedMethod> wanted = methods();
     std::vector<EnvelopeScore> all;
     for (const SequenceSource& source : sources())

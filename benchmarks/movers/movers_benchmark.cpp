@@ -133,6 +133,10 @@ int main(int argc, char** argv)
             std::cerr << "usage: benchmark_movers [PAGE.md with movers:begin and movers:end]\n";
             return 2;
         }
+        if (argc == 2)
+        {
+            pointplane::checkMarkdownSection(argv[1], "movers");
+        }
         const std::string table = pointplane::table();
         std::cout << table;
         if (argc == 2)

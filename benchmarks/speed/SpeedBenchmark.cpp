@@ -171,6 +171,10 @@ std::string SpeedBenchmark::stageTable(const BenchmarkSequence& sequence) const
 
 void SpeedBenchmark::run(std::ostream& out, std::ostream& err) const
 {
+    if (!markdownFile_.empty())
+    {
+        checkMarkdownSection(markdownFile_, "speed");
+    }
     std::string page = "\n";
     for (const SequenceSource& source : tumSequences(data_))
     {

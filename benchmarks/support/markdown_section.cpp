@@ -5,11 +5,20 @@
 
 #include <fstream>
 #include <iterator>
+#include <utility>
 
 namespace pointplane
 {
-void replaceMarkdownSection(
-    const std::string& path, const std::string& name, const std::string& text)
+namespace
+{
+/** A page, and where its section is. */
+struct Section
+{
+    std::string page;
+    std::size_t first, size;
+};
+
+Section sectionOf(const std::string& path, const std::string& name)
 {
     std::ifstream in(path);
     if (!in)
@@ -24,9 +33,22 @@ void replaceMarkdownSection(
     {
         throw InputError(path + ": no section between the markers of '" + name + "'");
     }
-    page.replace(first + begin.size(), last - first - begin.size(), text);
+    return {std::move(page), first + begin.size(), last - first - begin.size()};
+}
+}  // namespace
+
+void checkMarkdownSection(const std::string& path, const std::string& name)
+{
+    (void)sectionOf(path, name);
+}
+
+void replaceMarkdownSection(
+    const std::string& path, const std::string& name, const std::string& text)
+{
+    Section section = sectionOf(path, name);
+    section.page.replace(section.first, section.size, text);
     std::ofstream out(path);
-    out << page;
+    out << section.page;
     out.close();
     if (!out)
     {

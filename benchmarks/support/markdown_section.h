@@ -10,4 +10,8 @@ namespace pointplane
  * \throws EnvironmentError when it cannot be written */
 void replaceMarkdownSection(
     const std::string& path, const std::string& name, const std::string& text);
+
+/** Before a long run: whether the page has the section.
+ * \throws InputError like replaceMarkdownSection() */
+void checkMarkdownSection(const std::string& path, const std::string& name);
 }  // namespace pointplane

@@ -234,6 +234,9 @@ TEST(RunCommand, wholeNumbersAreThoseThatWereGiven)
     EXPECT_EQ(parsed({"--first", "-0"})->first, 0U);
     EXPECT_EQ(parsed({"--jobs", "+08"})->jobs, 8);
     EXPECT_EQ(parsed({"--jobs=-3"})->jobs, -3);
+    EXPECT_FALSE(parsed({"--jobs", "2", "--jobs", "3"}));
+    EXPECT_NE(told.find(": --jobs is given more than once (see --help)"), std::string::npos)
+        << told;
 }
 
 TEST(RunCommand, numbersAreThoseOfFilesToo)

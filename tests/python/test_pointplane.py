@@ -214,6 +214,19 @@ class Odometry(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, "principal point is outside of the image"):
                 pointplane.Camera(500, 500, cx, cy, 640, 480)
 
+    def test_distortion_is_as_opencv_gives_it(self):
+        def distortion(given):
+            return list(pointplane.Camera(500, 500, 320, 240, 640, 480, given).distortion)
+
+        five = [0.1, -0.2, 0.001, 0.002, 0.3]
+        for given in (five, tuple(five), np.array(five), np.array([five]), np.array(five)[:, None]):
+            self.assertEqual(distortion(given), five)
+        self.assertEqual(distortion(five[:4]), five[:4] + [0])
+        self.assertEqual(distortion([]), 5 * [0])
+        self.assertEqual(distortion(five + [0, 0, 0]), five)
+        with self.assertRaisesRegex(ValueError, "^distortion has 8 values, but only k1 k2 p1 p2 k3"):
+            distortion(five + [0, 0, 1e-3])
+
     def test_arrays_of_another_process_are_taken(self):
         frame = next(iter(pointplane.read_rawlog(RAWLOG)))
         millimetres = np.nan_to_num(frame.depth * 1000).astype(np.uint16)
