@@ -192,5 +192,18 @@ TEST(AttachedParts, missingImagesChangeNothing)
     parts.update(frame, {});
     EXPECT_EQ(parts.share(), share);
 }
+
+/** Some cameras give colour first. */
+TEST(AttachedParts, theFirstImagesMayBeWithoutDepth)
+{
+    const auto scene = [](int moved) { return withRobot(wall(moved)); };
+    AttachedParts usual, late;
+    RgbdFrame blank = scene(0);
+    blank.depth.setTo(std::numeric_limits<float>::quiet_NaN());
+    late.update(blank, {});
+    const double share = shareOf(usual, scene);
+    EXPECT_GT(share, 0);
+    EXPECT_EQ(shareOf(late, scene), share);
+}
 }  // namespace
 }  // namespace pointplane

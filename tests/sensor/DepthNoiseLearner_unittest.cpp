@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <functional>
+#include <limits>
 
 #include "monte_carlo.h"
 #include <gtest/gtest.h>
@@ -156,6 +157,43 @@ TEST_F(DepthNoiseLearnerTest, imagesThatTellNothingLeaveWhatIsGiven)
     learner.update(cv::Mat());
     EXPECT_EQ(learner.noise().kind, "structuredLight");
     expectGiven(learner.noise());
+}
+
+/** Cells of one distance tell the noise there, and not how it grows. (Nearer, it is that of a
+ * Kinect.) */
+TEST_F(DepthNoiseLearnerTest, aWallTellsTheNoiseAtItsDistance)
+{
+    for (double z = 1.5; z < 40; z *= 1.09)
+    {
+        DepthNoiseLearner learner({});
+        learner.update(floorImage(z, z, [&](double depth) { return depth + 2e-3 * normal(); }));
+        const DepthNoise& noise = learner.noise();
+        DepthNoise unbent = noise;
+        unbent.sigmaRelative = 0;
+        EXPECT_EQ(noise.kind, "timeOfFlight") << z;
+        EXPECT_NEAR(unbent.sigmaZ(z), 1.4 * 2e-3, 0.6e-3) << z;
+    }
+}
+
+/** A camera that gives no depth for a while is the same afterwards. */
+TEST_F(DepthNoiseLearnerTest, imagesWithoutDepthAreNotForgetting)
+{
+    DepthNoiseLearner learner({});
+    const cv::Mat blank(240, 320, CV_32FC1, std::numeric_limits<float>::quiet_NaN());
+    learner.update(blank);
+    const auto image = [&]
+    { return floorImage(0.8, 4, [&](double z) { return z + 2e-3 * normal(); }); };
+    learner.update(image());
+    const DepthNoise before = learner.noise();
+    EXPECT_EQ(before.kind, "timeOfFlight");
+    for (int i = 0; i < 2000; ++i)
+    {
+        learner.update(blank);
+    }
+    EXPECT_EQ(learner.noise().kind, before.kind);
+    EXPECT_EQ(learner.noise().sigmaDepth, before.sigmaDepth);
+    learner.update(image());
+    EXPECT_EQ(learner.noise().kind, before.kind);
 }
 
 /** A camera that first looks at something near is known when it has seen the room. */

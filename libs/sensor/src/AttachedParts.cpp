@@ -322,6 +322,10 @@ void AttachedParts::update(const RgbdFrame& frame, const DepthNoise& noise)
         return;
     }
     View later = viewOf(frame);
+    if (cv::countNonZero(later.depth > 0) == 0)
+    {
+        return;  // nothing could be compared with it
+    }
     const cv::Size grid = later.contrast.size();
     if (earlier_.gray.size() != later.gray.size())
     {

@@ -51,6 +51,9 @@ constexpr double kLessNoise = 0.5, kMoreNoise = 2;
 /** Exponent of the distance with which noise grows: 0 with time of flight, 2 with triangulation.
  * Depths that spread less than this (standard deviation of their logarithm) do not tell it. */
 constexpr double kTriangulation = 1, kLeastSpread = 0.1;
+/** Of two neighbouring bins of depth, one with 0.2 % of the cells makes the determinant 2e-2 of the
+ * product of the diagonal. */
+constexpr double kTwoDistances = 1e-6;
 /** Below this, an image was not measured: rounding to millimetres makes 0.3 mm. */
 constexpr double kRenderedSigma = 1e-4;  // [m]
 
@@ -85,31 +88,45 @@ DepthNoiseLearner::DepthNoiseLearner(const DepthNoise& given) : given_(given), n
 
 void DepthNoiseLearner::update(const cv::Mat& depth)
 {
-    const long image = numImages_++;
-    if (given_.kind == "given" || (image >= kFirstImages && image % kEveryImage != 0))
+    if (given_.kind == "given" || (numImages_ >= kFirstImages && numImages_ % kEveryImage != 0))
     {
+        ++numImages_;
         return;
     }
-    for (Histogram& histogram : residuals_)
-    {
-        std::for_each(histogram.begin(), histogram.end(), [](double& count) { count *= kKept; });
-    }
-    std::for_each(cells_.begin(), cells_.end(), [](double& count) { count *= kKept; });
-    fineSteps_ *= kKept;
-    steps_ *= kKept;
+    Counts image;
     const int stride = kEveryCell * kCellPx;
     for (int v = 0; v + kCellPx <= depth.rows; v += stride)
     {
         // Columns are shifted from row to row, so that a grid in the scene is no grid here.
         for (int u = v / stride % kEveryCell * kCellPx; u + kCellPx <= depth.cols; u += stride)
         {
-            addCell(depth, u, v);
+            addCell(depth, u, v, image);
         }
     }
-    decide();
+    if (std::any_of(image.cells.begin(), image.cells.end(), [](double n) { return n > 0; }))
+    {
+        ++numImages_;
+        add(image);
+        decide();
+    }
 }
 
-void DepthNoiseLearner::addCell(const cv::Mat& depth, int u0, int v0)
+void DepthNoiseLearner::add(const Counts& image)
+{
+    const auto follow = [](double& sum, double added) { sum = kKept * sum + added; };
+    for (std::size_t bin = 0; bin < kNumDepths; ++bin)
+    {
+        for (std::size_t level = 0; level < kNumLevels; ++level)
+        {
+            follow(counts_.residuals[bin][level], image.residuals[bin][level]);
+        }
+        follow(counts_.cells[bin], image.cells[bin]);
+    }
+    follow(counts_.fineSteps, image.fineSteps);
+    follow(counts_.steps, image.steps);
+}
+
+void DepthNoiseLearner::addCell(const cv::Mat& depth, int u0, int v0, Counts& counts)
 {
     constexpr double kMiddle = 0.5 * (kCellPx - 1);
     Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
@@ -135,7 +152,7 @@ void DepthNoiseLearner::addCell(const cv::Mat& depth, int u0, int v0)
     {
         return;
     }
-    addSteps(depth.ptr<float>(v0 + kCellPx / 2) + u0, kCellPx);
+    addSteps(depth.ptr<float>(v0 + kCellPx / 2) + u0, kCellPx, counts);
     const Eigen::Vector3d plane = A.ldlt().solve(b);
     const double z = std::min(n / b(0), kFarthest);
     const double sigma = z * z * std::sqrt(std::max(0.0, qq - b.dot(plane)) / (n - 3));
@@ -144,12 +161,12 @@ void DepthNoiseLearner::addCell(const cv::Mat& depth, int u0, int v0)
     {
         const double level = 4 * std::log2(std::max(sigma, kLeastSigma) / kLeastSigma);
         const auto i = static_cast<std::size_t>(std::min(level, kNumLevels - 1.0));
-        residuals_[static_cast<std::size_t>(bin)][i] += 1;
-        cells_[static_cast<std::size_t>(bin)] += 1;
+        counts.residuals[static_cast<std::size_t>(bin)][i] += 1;
+        counts.cells[static_cast<std::size_t>(bin)] += 1;
     }
 }
 
-void DepthNoiseLearner::addSteps(const float* row, int count)
+void DepthNoiseLearner::addSteps(const float* row, int count, Counts& counts)
 {
     for (int u = 0; u + 1 < count; ++u)
     {
@@ -158,15 +175,15 @@ void DepthNoiseLearner::addSteps(const float* row, int count)
         if (a > kNearestStep && b > kNearestStep && step > 0 &&
             step < kLargestStep * kStructuredStep)
         {
-            steps_ += 1;
-            fineSteps_ += step < kFineStep * kStructuredStep ? 1 : 0;
+            counts.steps += 1;
+            counts.fineSteps += step < kFineStep * kStructuredStep ? 1 : 0;
         }
     }
 }
 
 bool DepthNoiseLearner::hasLevels() const
 {
-    return steps_ > kLeastSteps && fineSteps_ < kFineShare * steps_;
+    return counts_.steps > kLeastSteps && counts_.fineSteps < kFineShare * counts_.steps;
 }
 
 std::string DepthNoiseLearner::judgedKind() const
@@ -181,26 +198,27 @@ std::string DepthNoiseLearner::judgedKind() const
     for (int bin = 0; bin < kNumDepths; ++bin)
     {
         const auto i = static_cast<std::size_t>(bin);
-        if (cells_[i] < kLeastCells)
+        if (counts_.cells[i] < kLeastCells)
         {
             continue;
         }
-        const double z = depthOfBin(bin), sigma = quantile(residuals_[i], kPlanarCells, cells_[i]);
+        const double z = depthOfBin(bin),
+                     sigma = quantile(counts_.residuals[i], kPlanarCells, counts_.cells[i]);
         least = std::min(least, sigma);
         if (z > kNearestStep)
         {
-            far += cells_[i] *
+            far += counts_.cells[i] *
                    std::log(std::max(sigma, kLeastSigma) / (given_.sigmaInverseDepth * z * z));
-            farCells += cells_[i];
+            farCells += counts_.cells[i];
             const double x = std::log(z), y = std::log(std::max(sigma, kLeastSigma));
-            z1 += cells_[i] * x;
-            z2 += cells_[i] * x * x;
-            s1 += cells_[i] * y;
-            zs += cells_[i] * x * y;
+            z1 += counts_.cells[i] * x;
+            z2 += counts_.cells[i] * x * x;
+            s1 += counts_.cells[i] * y;
+            zs += counts_.cells[i] * x * y;
         }
         else
         {
-            nearCells += cells_[i];
+            nearCells += counts_.cells[i];
         }
     }
     if (farCells + nearCells == 0)
@@ -240,16 +258,17 @@ void DepthNoiseLearner::decide()
     for (int bin = 0; bin < kNumDepths; ++bin)
     {
         const auto i = static_cast<std::size_t>(bin);
-        const double sigma =
-            cells_[i] < kLeastCells ? 0 : quantile(residuals_[i], kPlanarCells, cells_[i]);
+        const double sigma = counts_.cells[i] < kLeastCells
+                                 ? 0
+                                 : quantile(counts_.residuals[i], kPlanarCells, counts_.cells[i]);
         if (sigma > 0)
         {
             const double z = depthOfBin(bin);
             // Near readings alone tell nothing of how the noise grows.
             const double fourth = z > kNearestStep ? z * z * z * z : 0;
             const Eigen::Vector2d x(1 / (sigma * sigma), fourth / (sigma * sigma));
-            A += cells_[i] * x * x.transpose();
-            b += cells_[i] * x;
+            A += counts_.cells[i] * x * x.transpose();
+            b += counts_.cells[i] * x;
         }
     }
     if (isStructured)
@@ -261,8 +280,10 @@ void DepthNoiseLearner::decide()
         return;
     }
     noise_.sigmaRelative = kBend;
-    Eigen::Vector2d variance =
-        A.determinant() > 0 ? Eigen::Vector2d(A.inverse() * b) : Eigen::Vector2d(0, -1);
+    // Cells of one distance do not tell how the noise grows: all but singular.
+    Eigen::Vector2d variance = A.determinant() > kTwoDistances * A(0, 0) * A(1, 1)
+                                   ? Eigen::Vector2d(A.inverse() * b)
+                                   : Eigen::Vector2d(0, -1);
     if (!(variance.x() >= 0) || !(variance.y() >= 0))
     {
         const bool constant = !(variance.y() >= 0);

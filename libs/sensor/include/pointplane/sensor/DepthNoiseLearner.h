@@ -23,7 +23,8 @@ namespace pointplane
  *   surfaces in proportion to the distance, by a constant that is not learnt: a bent depth image
  *   looks like a bent surface.
  *
- * The same images give the same noise. After the first few, only one image in ten is looked at. */
+ * The same images give the same noise. After the first few, only one image in ten is looked at.
+ * Images without depth do not count. */
 class DepthNoiseLearner
 {
  public:
@@ -41,20 +42,28 @@ class DepthNoiseLearner
     [[nodiscard]] const DepthNoise& noise() const { return noise_; }
 
  private:
-    static constexpr int kNumDepths = 14;  //!< half octaves from 0.125 m
+    static constexpr int kNumDepths = 20;  //!< half octaves from 0.125 m to 128 m
     static constexpr int kNumLevels = 96;  //!< quarter octaves of the residuals, 1 um to 16 m
     using Histogram = std::array<double, kNumLevels>;
 
-    void addCell(const cv::Mat& depth, int u0, int v0);
-    void addSteps(const float* row, int count);
+    /** What was seen. */
+    struct Counts
+    {
+        std::array<Histogram, kNumDepths> residuals{};  //!< of cells, sigma_Z
+        std::array<double, kNumDepths> cells{};
+        double fineSteps{0}, steps{0};  //!< between neighbours: below structured light's, and all
+    };
+
+    static void addCell(const cv::Mat& depth, int u0, int v0, Counts& counts);
+    static void addSteps(const float* row, int count, Counts& counts);
+    /** Fades what was seen, and adds an image. */
+    void add(const Counts& image);
     [[nodiscard]] bool hasLevels() const;  //!< of structured light's disparity
     [[nodiscard]] std::string judgedKind() const;
     void decide();
 
     DepthNoise given_, noise_;
-    long numImages_{0};
-    std::array<Histogram, kNumDepths> residuals_{};  //!< of cells, sigma_Z
-    std::array<double, kNumDepths> cells_{};
-    double fineSteps_{0}, steps_{0};  //!< between neighbours: below structured light's, and all
+    long numImages_{0};  //!< with depth
+    Counts counts_;
 };
 }  // namespace pointplane
