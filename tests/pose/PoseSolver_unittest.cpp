@@ -363,6 +363,54 @@ TEST(PoseSolver, studentTBearsAWrongPlane)
     EXPECT_LT(robust, 0.1 * harmed);
 }
 
+/** One bad feature must not take the place of all the others. */
+TEST(PoseSolver, pairsThatAreNotFiniteCountForNothing)
+{
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const double infinite = std::numeric_limits<double>::infinity();
+    PairWorld world(17);
+    world.addPoints(30);
+    world.addPlanes(4);
+    world.T_prev_cur = world.randomMotion(0.03, 0.02);
+    const auto points = world.drawPoints();
+    const auto planes = world.drawPlanes();
+    for (const char* weighting : {"full", "none"})
+    {
+        PoseSolver::TParams params;
+        params.weighting = weighting;
+        const PoseSolver solver(params);
+        const PoseProblem good = test::atRest(points, planes, kStart, loosePrior());
+        const PoseEstimate expected = solver.solve(good, {});
+        const PoseAnalysis analysis = solver.analyse(good, expected);
+        for (const double bad : {nan, infinite, -infinite})
+        {
+            PoseProblem problem = good;
+            for (int i = 0; i < 3; ++i)
+            {
+                problem.points.insert(problem.points.begin(), points.front());
+                problem.planes.push_back(planes.front());
+            }
+            problem.points[0].cur.mean.z() = bad;
+            problem.points[1].ref.cov(0, 0) = bad;
+            problem.points[2].ref.mean.x() = bad;
+            const auto plane = problem.planes.end() - 3;
+            plane[0].ref.theta_m.y() = bad;
+            plane[1].cur.cov_m(1, 2) = bad;
+            plane[2].cur.theta_m.z() = bad;
+            const PoseEstimate estimate = solver.solve(problem, {});
+            EXPECT_THAT(estimate.pose().mean, test::IsNearPose(expected.pose().mean, 1e-12, 1e-12));
+            EXPECT_TRUE(estimate.pose().cov.isApprox(expected.pose().cov, 1e-9));
+            EXPECT_EQ(estimate.numPointInliers, expected.numPointInliers);
+            EXPECT_NEAR(estimate.planeChi2PerDof, expected.planeChi2PerDof, 1e-9);
+            const PoseAnalysis same = solver.analyse(problem, estimate);
+            EXPECT_NEAR(same.pointVariance, analysis.pointVariance, 1e-9);
+            EXPECT_NEAR(same.planeVariance, analysis.planeVariance, 1e-9);
+            EXPECT_TRUE(same.sensitivity.points.isApprox(analysis.sensitivity.points, 1e-9));
+            EXPECT_EQ(same.pointWeights.front(), 0);
+        }
+    }
+}
+
 TEST(PoseSolver, withoutPairsThePriorRemains)
 {
     PairWorld world(18);

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <utility>
 
@@ -50,6 +51,10 @@ double surprise(const Eigen::Isometry3d& T_prev_cur, const PoseGaussian& predict
 
 double maxSigma(const Matrix6d& cov)
 {
+    if (!cov.allFinite())
+    {
+        return std::numeric_limits<double>::infinity();
+    }
     const Eigen::SelfAdjointEigenSolver<Matrix6d> es(cov);
     return std::sqrt(std::max(0.0, es.eigenvalues().maxCoeff()));
 }

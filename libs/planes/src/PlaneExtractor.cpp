@@ -195,11 +195,15 @@ std::optional<PlaneFeature> PlaneExtractor::feature(
     double numPixels,
     const cv::Size& image) const
 {
-    if (!plane || !(plane->theta_m.norm() > 1e-3) || !plane->cov_m.allFinite())
+    if (!plane || !(plane->theta_m.norm() > 1e-3))
     {
         return std::nullopt;
     }
     plane->cov_m *= pixelsThatErrAsOne(*plane, cells, numPixels);
+    if (!plane->cov_m.allFinite())
+    {
+        return std::nullopt;
+    }
     return PlaneFeature{*plane, static_cast<int>(numPixels), leverOf(cells, grid_, image)};
 }
 }  // namespace pointplane

@@ -28,7 +28,7 @@ constexpr int kMostNeighbours = 5;
 DepthReading mixture(
     const cv::Mat& depth, int u, int v, const PointLifter::TParams& params, const DepthNoise& noise)
 {
-    double sumW = 0, sumZ = 0, sumZZ = 0;
+    double sumW = 0, sumVariance = 0, sumScatter = 0;
     int numNeighbours = 0;
     bool hasOwn = false;
     DepthReading out;
@@ -48,18 +48,20 @@ DepthReading mixture(
             const double w = (du == 0 ? 2 : 1) * (dv == 0 ? 2 : 1);
             const double sigma = noise.sigmaZ(z);
             sumW += w;
-            sumZ += w * z;
-            sumZZ += w * (sigma * sigma + z * z);
+            const double step = z - out.z;
+            out.z += w / sumW * step;
+            sumVariance += w * sigma * sigma;
+            sumScatter += w * step * (z - out.z);
             const bool isOwn = du == 0 && dv == 0;
             hasOwn = hasOwn || isOwn;
             numNeighbours += isOwn ? 0 : 1;
         }
     }
-    if (hasOwn || numNeighbours >= kMostNeighbours)
+    if (!hasOwn && numNeighbours < kMostNeighbours)
     {
-        out.z = sumZ / sumW;
-        out.sigma = std::sqrt(sumZZ / sumW - out.z * out.z);
+        return {};
     }
+    out.sigma = std::sqrt((sumVariance + sumScatter) / sumW);
     return out;
 }
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace pointplane
 {
@@ -14,6 +15,9 @@ namespace
 {
 /** Sigma of unweighted residuals; sets only the balance with the prior. */
 constexpr double kUnweightedSigma = 0.01;
+
+/** Squared norm of a pair that is not usable. */
+constexpr double kUnusable = std::numeric_limits<double>::infinity();
 
 double tukeyWeight(double squaredNorm, double limit)
 {
@@ -26,6 +30,16 @@ double tukeyCost(double squaredNorm, double limit)
     const double u = std::min(1.0, squaredNorm / (limit * limit));
     return limit * limit / 3 * (1 - (1 - u) * (1 - u) * (1 - u));
 }
+
+/** Of a point or a plane in both views. */
+bool isFinite(
+    const Eigen::Vector3d& ref,
+    const Eigen::Matrix3d& refCov,
+    const Eigen::Vector3d& cur,
+    const Eigen::Matrix3d& curCov)
+{
+    return ref.allFinite() && cur.allFinite() && refCov.allFinite() && curCov.allFinite();
+}
 }  // namespace
 
 NormalEquations::NormalEquations(const PoseSolver::Settings& solver, const PoseProblem& problem)
@@ -35,6 +49,15 @@ NormalEquations::NormalEquations(const PoseSolver::Settings& solver, const PoseP
       noise_(problem.noise),
       earlier_(problem.surfaces)
 {
+    for (const PointPair& pair : points_)
+    {
+        isUsable_.push_back(isFinite(pair.ref.mean, pair.ref.cov, pair.cur.mean, pair.cur.cov));
+    }
+    for (const PlanePair& pair : planes_)
+    {
+        isUsable_.push_back(
+            isFinite(pair.ref.theta_m, pair.ref.cov_m, pair.cur.theta_m, pair.cur.cov_m));
+    }
 }
 
 void NormalEquations::evaluate(const Motion& motion, double widening)
@@ -110,6 +133,11 @@ NormalEquations::CameraColumns NormalEquations::cameraColumns(size_t i) const
 NormalEquations::Weighted NormalEquations::weighted(size_t i, const Motion& motion) const
 {
     Weighted out;
+    if (!isUsable_[i])
+    {
+        out.squaredNorm = kUnusable;
+        return out;
+    }
     if (isPoint(i))
     {
         out.residual = pointResidual(points_[i], motion);
@@ -142,6 +170,10 @@ NormalEquations::Weighted NormalEquations::weighted(size_t i, const Motion& moti
 /** Weight and cost of a squared Mahalanobis norm [P17, after Eq. 10]. */
 std::pair<double, double> NormalEquations::robust(double squaredNorm, bool isPoint) const
 {
+    if (squaredNorm == kUnusable)
+    {
+        return {0, 0};
+    }
     const double limit = solver_.params.tukeySigmas * scale_;
     const double dof = solver_.params.planeStudentDof;
     if (isPoint && limit > 0)
@@ -200,6 +232,10 @@ double NormalEquations::relativeNorm(size_t i) const
 
 void NormalEquations::add(FeatureSum& sum, size_t i) const
 {
+    if (!isUsable_[i])
+    {
+        return;
+    }
     const auto& [residual, W, squaredNorm] = residuals_[i];
     const auto [w, cost] = robust(squaredNorm, isPoint(i));
     const double noise = isPoint(i) ? noise_.points : noise_.planes;
@@ -250,8 +286,11 @@ double NormalEquations::robustVariance() const
     std::vector<std::pair<double, double>> normsAndSurfaces;
     for (size_t i = 0; i < points_.size(); ++i)
     {
-        const double z = points_[i].cur.mean.z();
-        normsAndSurfaces.emplace_back(relativeNorm(i), z * z);
+        if (isUsable_[i])
+        {
+            const double z = points_[i].cur.mean.z();
+            normsAndSurfaces.emplace_back(relativeNorm(i), z * z);
+        }
     }
     return medianVariance(normsAndSurfaces);
 }
@@ -261,7 +300,10 @@ double NormalEquations::relativeMedian(size_t begin, size_t end) const
     std::vector<double> norms;
     for (size_t i = begin; i < end; ++i)
     {
-        norms.push_back(relativeNorm(i));
+        if (isUsable_[i])
+        {
+            norms.push_back(relativeNorm(i));
+        }
     }
     return medianVariance(norms);
 }

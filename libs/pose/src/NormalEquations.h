@@ -26,7 +26,7 @@ using Matrix312d = Eigen::Matrix<double, 3, 12>;
 using Matrix123d = Eigen::Matrix<double, 12, 3>;
 
 /** All residuals of a problem's pairs at a motion: those of the points, then those of the planes.
- */
+ * Pairs that are not finite count for nothing. */
 class NormalEquations
 {
  public:
@@ -52,6 +52,9 @@ class NormalEquations
     [[nodiscard]] double planeVariance() const;
 
     [[nodiscard]] PairNorms norms() const;
+
+    /** Whether a pair can count. */
+    [[nodiscard]] bool isUsable(size_t i) const { return isUsable_[i]; }
 
     /** Squared Mahalanobis norm of a residual, over the median of chi-square. */
     [[nodiscard]] double relativeNorm(size_t i) const;
@@ -118,6 +121,7 @@ class NormalEquations
     NoiseFactors noise_;
     const std::vector<InlierRatio>& earlier_;
     std::vector<InlierRatio> surfaces_;
+    std::vector<bool> isUsable_;
     std::vector<Weighted> residuals_;  //!< of the points, then of the planes
     double scale_{1};
     FeatureSum pointSum_, planeSum_;

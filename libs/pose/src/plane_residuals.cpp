@@ -39,8 +39,10 @@ PlaneResiduals residualsOfPlanes(const NormalEquations& equations, const PosePro
     std::map<int, std::vector<double>> norms;
     for (size_t i = 0; i < problem.planes.size(); ++i)
     {
-        norms[problem.planes[i].reference].push_back(
-            equations.relativeNorm(problem.points.size() + i));
+        if (const size_t pair = problem.points.size() + i; equations.isUsable(pair))
+        {
+            norms[problem.planes[i].reference].push_back(equations.relativeNorm(pair));
+        }
     }
     for (auto& [reference, ofPlanes] : norms)
     {

@@ -11,12 +11,13 @@ namespace pointplane
  * [translation; rotation], and for a change of the velocity. */
 struct Residual
 {
-    Eigen::Vector3d r;
-    Eigen::Matrix3d cov;                  //!< first-order propagation of both features' covariances
-    Eigen::Matrix3d curCov;               //!< the current feature's share of it
-    Matrix36d J;                          //!< dr / dxi
-    Matrix36d J_V;                        //!< dr / dV
-    ByCamera ofCamera{ByCamera::Zero()};  //!< change with errors of the camera
+    Eigen::Vector3d r{Eigen::Vector3d::Zero()};
+    Eigen::Matrix3d cov{
+        Eigen::Matrix3d::Zero()};  //!< first-order propagation of both features' covariances
+    Eigen::Matrix3d curCov{Eigen::Matrix3d::Zero()};   //!< the current feature's share of it
+    Matrix36d J{Matrix36d::Zero()};                    //!< dr / dxi
+    Matrix36d J_V{Matrix36d::Zero()};                  //!< dr / dV
+    ByCamera ofCamera{ByCamera::Zero()};               //!< change with errors of the camera
     Matrix36d ofReferenceVelocity{Matrix36d::Zero()};  //!< with that of the reference's velocity
 };
 
