@@ -37,6 +37,11 @@ class ErrorModelTest : public testing::Test
         return model.learn({{&reference}, estimate, analysis, 1e-9, Matrix12d::Zero()});
     }
 
+    [[nodiscard]] double viewAngle() const
+    {
+        return 2 * std::atan(std::sqrt(camera.width / camera.fx * camera.height / camera.fy) / 2);
+    }
+
     OdometryParams params;
     PinholeCamera camera;
     Reference reference;
@@ -76,14 +81,14 @@ TEST_F(ErrorModelTest, noiseByHand)
  * prior, by which both are as large as propagated. */
 TEST_F(ErrorModelTest, planesErrByTheirView)
 {
-    const double angle = 2 * std::atan(std::sqrt(640.0 * 480) / 500 / 2);  // of the view
-    camera.fy = 500;
+    const double angle = viewAngle();
     estimate.motion.mean.T_prev_cur.linear() =
         Eigen::AngleAxisd(angle / 3, Eigen::Vector3d::UnitY()).toRotationMatrix();
     analysis.sensitivity.planes(3, 3) = 8;
     const JointCovariance::Measurement out = learn();
-    EXPECT_NEAR(out.views.ofPlanes(0, 1), std::exp(-2), 1e-6) << "0.6 m and a third of the view";
-    EXPECT_NEAR(out.views.correlation(0, 1), std::exp(-4.0 / 3), 1e-6) << "of points";
+    EXPECT_NEAR(out.views.ofPlanes(0, 1), std::exp(-3 * 0.6 / angle - 1), 1e-6)
+        << "0.6 m of 1 m, and a third of the view";
+    EXPECT_NEAR(out.views.correlation(0, 1), std::exp(-0.6 / angle - 1.0 / 3), 1e-6) << "of points";
     EXPECT_NEAR(out.planeViewRoot(0, 0), std::sqrt(2), 1e-9);
     EXPECT_NEAR(out.planeViewRoot(3, 3), std::sqrt(8), 1e-9);
     EXPECT_NEAR(out.planeViewRoot(0, 3), 0, 1e-9);
@@ -108,7 +113,7 @@ TEST_F(ErrorModelTest, aFrameErrsByItsView)
     EXPECT_EQ(out.views.frames, std::vector<int>{1});
     ASSERT_EQ(out.views.correlation.rows(), 2);
     EXPECT_EQ(out.views.correlation(0, 0), 1);
-    EXPECT_NEAR(out.views.correlation(0, 1), std::exp(-1), 1e-6);
+    EXPECT_NEAR(out.views.correlation(0, 1), std::exp(-0.6 / viewAngle()), 1e-6);
     EXPECT_EQ(out.views.correlation(1, 0), out.views.correlation(0, 1));
     EXPECT_GT(out.viewSigma[0], 0);
     EXPECT_NEAR(out.viewSigma[3], out.viewSigma[0], 1e-12) << "a turn errs as much, 1 m away";

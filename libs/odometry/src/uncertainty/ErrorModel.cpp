@@ -17,7 +17,7 @@ namespace pointplane
 namespace
 {
 /** How alike the views of the references and of the frame are. */
-JointCovariance::Views viewsOf(const ErrorModel::Measured& frame, double viewAngle)
+JointCovariance::Views viewsOf(const ErrorModel::Measured& frame, double distance, double viewAngle)
 {
     JointCovariance::Views out;
     std::vector<Eigen::Isometry3d> poses;
@@ -36,9 +36,9 @@ JointCovariance::Views viewsOf(const ErrorModel::Measured& frame, double viewAng
             const auto row = static_cast<Eigen::Index>(i), column = static_cast<Eigen::Index>(k);
             const Eigen::Isometry3d motion = poses[i].inverse() * poses[k];
             out.correlation(row, column) = out.correlation(column, row) =
-                viewCorrelation(motion, viewAngle);
+                viewCorrelation(motion, distance, viewAngle);
             out.ofPlanes(row, column) = out.ofPlanes(column, row) =
-                planeViewCorrelation(motion, viewAngle);
+                planeViewCorrelation(motion, distance, viewAngle);
         }
     }
     return out;
@@ -49,6 +49,11 @@ double viewAngle(const PinholeCamera& camera)
 {
     const double size = camera.width / camera.fx * (camera.height / camera.fy);
     return 2 * std::atan(std::sqrt(std::abs(size)) / 2);
+}
+
+double distanceOf(const ErrorModel::Measured& frame)
+{
+    return featureDistance(frame.estimate.infoPoints + frame.estimate.infoPlanes);
 }
 
 /** The symmetric R with R R^T = S. */
@@ -84,7 +89,7 @@ CameraMatrix ErrorModel::changeCamera(const PinholeCamera& camera)
 
 JointCovariance::Measurement ErrorModel::learn(const Measured& frame)
 {
-    const JointCovariance::Views views = viewsOf(frame, viewAngle_);
+    const JointCovariance::Views views = viewsOf(frame, distanceOf(frame), viewAngle_);
     std::map<int, double> correlation;  // of the planes, with the new frame
     for (size_t k = 0; k < views.frames.size(); ++k)
     {
@@ -136,8 +141,7 @@ JointCovariance::Measurement ErrorModel::errorsOf(const Measured& frame) const
     out.priorNoise = propagate(of.prior, frame.motionNoise);
     if (!of.points.isZero(0))
     {
-        out.viewSigma = viewSigma(
-            commonAngle(), frame.estimate.infoPoints + frame.estimate.infoPlanes, frame.shutter);
+        out.viewSigma = viewSigma(commonAngle(), distanceOf(frame), frame.shutter);
     }
     out.planeViewRoot = rootOf(planes_.byView() * Matrix6d(of.planes.topLeftCorner<6, 6>()));
     return out;

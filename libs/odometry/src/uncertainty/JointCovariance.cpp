@@ -239,7 +239,8 @@ void JointCovariance::addBends(const Measurement& measurement)
     }
 }
 
-/** What is known of the error at other views foretells a part of it (kriging); the rest is new.
+/** What is known of the error at other views foretells a part of it (kriging); the rest is new. How
+ * alike the known ones are stays as it was when they were added.
  * \param C correlation of the errors of `frames` */
 void JointCovariance::addView(
     Kind kind, const std::vector<int>& frames, std::size_t added, const Eigen::MatrixXd& C)
@@ -260,7 +261,12 @@ void JointCovariance::addView(
     if (!known.empty())
     {
         const Eigen::VectorXd shared = C(known, added);
-        const Eigen::VectorXd weights = C(known, known).ldlt().solve(shared);
+        std::vector<Eigen::Index> rows;  // of one component: all are alike
+        for (const std::size_t k : known)
+        {
+            rows.push_back(find(kind, frames[k]));
+        }
+        const Eigen::VectorXd weights = errors_.cov()(rows, rows).ldlt().solve(shared);
         for (std::size_t k = 0; k < known.size(); ++k)
         {
             A.middleCols(find(kind, frames[known[k]]), size) =

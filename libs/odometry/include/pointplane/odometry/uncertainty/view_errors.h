@@ -13,24 +13,29 @@ namespace pointplane
  * nothing of it shows when they are compared; frames far apart err each for itself. This is a
  * stationary Gaussian field over views.
  * \param motion between the two frames
+ * \param distance of the features [m]: a translation moves them in view like a turn by its part of
+ * that
  * \param viewAngle of the camera [rad]: a turn by it shows nothing of what was in view before
- * \return correlation of their errors: exp(-distance / 0.6 m - angle / viewAngle) */
-[[nodiscard]] double viewCorrelation(const Eigen::Isometry3d& motion, double viewAngle);
+ * \return correlation of their errors: exp(-(translation / distance + turn) / viewAngle) */
+[[nodiscard]] double viewCorrelation(
+    const Eigen::Isometry3d& motion, double distance, double viewAngle);
 
 /** The same of what the planes of the frames err by. A turn by a part of the view puts them into
  * another part of the image, where they are cut out differently.
- * \return exp(-distance / 0.6 m - 3 angle / viewAngle) */
-[[nodiscard]] double planeViewCorrelation(const Eigen::Isometry3d& motion, double viewAngle);
+ * \return exp(-3 (translation / distance + turn) / viewAngle) */
+[[nodiscard]] double planeViewCorrelation(
+    const Eigen::Isometry3d& motion, double distance, double viewAngle);
 
-/** Standard deviation of that error, as one of the pose (left perturbation) [m, rad]: sigma D per
- * axis of the translation and sigma per axis of the rotation, which moves the features as far. D is
- * their distance, which `information` tells.
+/** How far away the features are [m]: where a rotation moves them as far as a translation of that
+ * distance times the angle. \param information of the pose by all features, J^T W J */
+[[nodiscard]] double featureDistance(const Matrix6d& information);
+
+/** Standard deviation of that error, as one of the pose (left perturbation) [m, rad]: sigma times
+ * the features' distance [m] per axis of the translation and sigma per axis of the rotation, which
+ * moves them as far.
  *
  * From row to row, and from colour to depth, features err as differently as from frame to frame.
  * Where these are exposed one after the other, this looks like a velocity: the last six components
- * [m/s, rad/s]. Zero if all is exposed at once.
- *
- * \param information of the pose by all features, J^T W J */
-[[nodiscard]] Vector12d viewSigma(
-    double sigma, const Matrix6d& information, const ShutterModel& shutter);
+ * [m/s, rad/s]. Zero if all is exposed at once. */
+[[nodiscard]] Vector12d viewSigma(double sigma, double distance, const ShutterModel& shutter);
 }  // namespace pointplane
