@@ -175,7 +175,9 @@ TEST_F(ErrorModelTest, aSmoothErrorOfDepthIsPassedOn)
     ErrorModel::Measured frame{{&reference}, estimate, analysis, 1e-9, Matrix12d::Zero()};
     frame.bend = 0.1;
     const JointCovariance::Measurement out = model.learn(frame);
-    EXPECT_NEAR(out.bendVariance, 0.01, 1e-15);
+    EXPECT_NEAR(out.bendSigma, 0.1, 1e-12);
+    EXPECT_NEAR(out.views.ofPatches(0, 0), 1, 1e-12);
+    EXPECT_NEAR(out.views.ofPatches(0, 1), out.views.ofPlanes(0, 1) / 2, 1e-12) << "half is new";
     EXPECT_EQ(out.patches(0, 5), 2);
     EXPECT_EQ(out.referencePatches.at(1)(0, 5), 3);
 }

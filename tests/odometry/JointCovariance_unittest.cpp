@@ -172,7 +172,10 @@ JointCovariance::Measurement bentAgainst(int reference)
 {
     JointCovariance::Measurement out;
     out.references[reference] = ofPose(Matrix6d::Identity());
-    out.bendVariance = 0.25;
+    out.views.frames = {reference};
+    out.views.correlation = out.views.ofPlanes = out.views.ofPatches =
+        Eigen::MatrixXd::Identity(2, 2);
+    out.bendSigma = 0.5;
     out.patches(0, 3) = 2;
     out.referencePatches[reference] = -out.patches;
     return out;
@@ -539,13 +542,13 @@ TEST(JointCovariance, monteCarlo)
         m.viewSigma = Vector12d::LinSpaced(0.3, 0.8);
         m.previousVelocity = smoothing(setup);
         m.views = viewsOf(k == 1 ? std::vector<int>{0} : std::vector<int>{0, k - 1}, k);
-        m.views.ofPlanes = m.views.correlation;
+        m.views.ofPlanes = m.views.ofPatches = m.views.correlation;
         m.planeViewRoot = setup.covariance<6>(0.1, 0.5);
         m.camera = setup.vector<12>() * setup.vector<kNumCameraErrors>().transpose();
         m.camera.bottomRightCorner<6, 3>().setConstant(0.4);
         m.cameraGain = 0.8 * CameraMatrix::Identity();
         m.cameraNoise = setup.covariance<kNumCameraErrors>(0.01, 0.1);
-        m.bendVariance = 0.3;
+        m.bendSigma = std::sqrt(0.3);
         m.patches = 0.2 * setup.vector<12>() * setup.vector<kNumPatches>().transpose();
         for (const int reference : {0, k - 1})
         {
@@ -565,11 +568,7 @@ TEST(JointCovariance, monteCarlo)
         std::vector<Vector6d> pose{sampler.sample(startCov)};
         const std::vector<Vector12d> view = sampledViews<12>(kFrames, sampler);
         const std::vector<Vector6d> planeView = sampledViews<6>(kFrames, sampler);
-        std::vector<PatchVector> bends;
-        for (int k = 0; k < kFrames; ++k)
-        {
-            bends.emplace_back(std::sqrt(0.3) * sampler.vector<kNumPatches>());
-        }
+        const std::vector<PatchVector> bends = sampledViews<kNumPatches>(kFrames, sampler);
         std::vector<Vector6d> velocity{Vector6d::Zero()};
         CameraVector camera = sampler.sample(cameraCov);
         for (int k = 1; k < kFrames; ++k)
@@ -598,10 +597,10 @@ TEST(JointCovariance, monteCarlo)
                 shared += change *
                           m.viewSigma.cwiseProduct(view[static_cast<size_t>(k)] - view[reference]);
             }
-            shared += m.patches * bends[static_cast<size_t>(k)];
+            shared += m.bendSigma * m.patches * bends[static_cast<size_t>(k)];
             for (const auto& [frame, change] : m.referencePatches)
             {
-                shared += change * bends[static_cast<size_t>(frame)];
+                shared += m.bendSigma * change * bends[static_cast<size_t>(frame)];
             }
             shared += sampler.sample(m.noise);
             pose.push_back(Ad * shared.head<6>());

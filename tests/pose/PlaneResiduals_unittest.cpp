@@ -31,7 +31,7 @@ Told mean(unsigned seed, int numPoints, int numPlanes, double factor, int runs)
         const PoseEstimate estimate = solver.solve(problem, {});
         const PlaneResiduals residuals = solver.analyse(problem, estimate).planeResiduals;
         out.followed += residuals.followed / runs;
-        for (const PlaneResiduals::OfReference& of : residuals.references)
+        for (const ReferenceVariance& of : residuals.references)
         {
             out.variance += of.variance;
             out.dof = of.dof;

@@ -14,6 +14,7 @@
 #include "Solution.h"
 #include "SolutionAnalysis.h"
 #include "camera_information.h"
+#include "patch_residuals.h"
 #include "plane_residuals.h"
 #include "point_support.h"
 #include "sensitivity.h"
@@ -249,6 +250,7 @@ PoseAnalysis PoseSolver::analyse(const PoseProblem& problem, const PoseEstimate&
     out.pointVariance = equations.pointVariance();
     out.planeVariance = equations.planeVariance();
     out.planeResiduals = residualsOfPlanes(equations, problem);
+    out.patchResiduals = residualsOfPatches(solved, out.sensitivity);
     if (solved.points.size() + solved.planes.size() > 1)
     {
         out.pointDisagreement = disagreementOf(solved, solved.points, solution.motion.cov);

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 namespace pointplane
 {
@@ -56,6 +57,20 @@ double distanceOf(const ErrorModel::Measured& frame)
     return featureDistance(frame.estimate.infoPoints + frame.estimate.infoPlanes);
 }
 
+/** Of the scale of depth in a patch, what is expected to be new in each image, and as much to be
+ * the view's. */
+double expectedBend(const ErrorModel::Measured& frame) { return frame.bend * frame.bend / 2; }
+
+std::vector<ReferenceVariance> overExpectedBend(const ErrorModel::Measured& frame)
+{
+    std::vector<ReferenceVariance> out = frame.analysis.patchResiduals;
+    for (ReferenceVariance& of : out)
+    {
+        of.variance /= expectedBend(frame);
+    }
+    return out;
+}
+
 /** The symmetric R with R R^T = S. */
 Matrix6d rootOf(const Matrix6d& S)
 {
@@ -73,6 +88,7 @@ ErrorModel::ErrorModel(const OdometryParams& params)
       learns_(params.noiseScale.adaptive),
       noise_(params.noiseScale),
       planes_(params.noiseScale.timeConstant),
+      patches_(params.noiseScale.timeConstant),
       camera_(params.shutter, params.lens)
 {
 }
@@ -80,7 +96,7 @@ ErrorModel::ErrorModel(const OdometryParams& params)
 CameraMatrix ErrorModel::changeCamera(const PinholeCamera& camera)
 {
     noise_ = NoiseScale(noiseParams_);
-    planes_ = PlaneErrors(noiseParams_.timeConstant);
+    planes_ = patches_ = ErrorsByView(noiseParams_.timeConstant);
     camera_.start(camera);
     viewAngle_ = viewAngle(camera);
     const CameraVector learnt = camera_.cov().diagonal();
@@ -89,7 +105,7 @@ CameraMatrix ErrorModel::changeCamera(const PinholeCamera& camera)
 
 JointCovariance::Measurement ErrorModel::learn(const Measured& frame)
 {
-    const JointCovariance::Views views = viewsOf(frame, distanceOf(frame), viewAngle_);
+    JointCovariance::Views views = viewsOf(frame, distanceOf(frame), viewAngle_);
     std::map<int, double> correlation;  // of the planes, with the new frame
     for (size_t k = 0; k < views.frames.size(); ++k)
     {
@@ -98,10 +114,15 @@ JointCovariance::Measurement ErrorModel::learn(const Measured& frame)
     noise_.update(frame.analysis, frame.dt, frame.isMinimum);
     if (learns_ && frame.isMinimum)
     {
-        planes_.update(frame.analysis.planeResiduals, correlation, frame.dt);
+        const PlaneResiduals& ofPlanes = frame.analysis.planeResiduals;
+        planes_.update(ofPlanes.references, correlation, frame.dt, ofPlanes.followed);
+        patches_.update(overExpectedBend(frame), correlation, frame.dt);
     }
     JointCovariance::Measurement out = errorsOf(frame);
-    out.views = views;
+    views.ofPatches = patches_.byView() * views.ofPlanes;
+    views.ofPatches.diagonal().array() += patches_.own();
+    views.ofPatches /= patches_.own() + patches_.byView();
+    out.views = std::move(views);
     if (!frame.isMinimum)
     {
         return out;
@@ -127,7 +148,7 @@ JointCovariance::Measurement ErrorModel::errorsOf(const Measured& frame) const
     out.references = of.references;
     out.referencePoints = of.referencePoints;
     out.camera = of.camera;
-    out.bendVariance = frame.bend * frame.bend;
+    out.bendSigma = std::sqrt(expectedBend(frame) * (patches_.own() + patches_.byView()));
     out.patches = of.patches;
     out.referencePatches = of.referencePatches;
     out.noise = noise_.ofFrame() *

@@ -4,9 +4,9 @@
 #include <pointplane/odometry/OdometryParams.h>
 #include <pointplane/odometry/Reference.h>
 #include <pointplane/odometry/uncertainty/CameraCalibrator.h>
+#include <pointplane/odometry/uncertainty/ErrorsByView.h>
 #include <pointplane/odometry/uncertainty/JointCovariance.h>
 #include <pointplane/odometry/uncertainty/NoiseScale.h>
-#include <pointplane/odometry/uncertainty/PlaneErrors.h>
 #include <pointplane/pose/PoseSolver.h>
 
 #include <vector>
@@ -28,16 +28,17 @@ namespace pointplane
  *   view_errors. Its size follows the residuals of points: NoiseScale.
  * - z, z_r: what the planes of this frame, and of reference r, err by, because they are bent and
  *   cut out as the view is. A field like v; it moves the pose as the noise of planes does. Its size
- *   is learnt from how residuals grow between unlike views: PlaneErrors.
+ *   is learnt from how residuals grow between unlike views: ErrorsByView.
  * - s, s_r: smooth error of the depth images, by which neighbouring points err together: a scale of
- *   depth in each patch, new in each image. None with structured light.
+ *   depth in each patch. A part of it is new in each image, the rest is a field like z:
+ * ErrorsByView. None with structured light.
  * - Predicted motion: the previous pose and velocity, and white acceleration: MotionModel, which
  *   Track owns.
  * - k: errors of the camera that all frames share: vignetting, principal point, focal length,
  *   radial distortion, scale of depth, and the shutter. All are considered: camera_errors. The
  *   shutter's are learnt, and those of a lens that nobody calibrated: CameraCalibrator.
  * - e: noise of the frame's own points and planes, a part of what their residuals show:
- *   NoiseScale, PlaneErrors. And acceleration while the images are exposed: exposure_errors.
+ *   NoiseScale, ErrorsByView. And acceleration while the images are exposed: exposure_errors.
  *
  * e and v are larger in a frame whose image pulls the pose apart: NoiseScale::ofFrame().
  *
@@ -90,7 +91,7 @@ class ErrorModel
     NoiseScale::TParams noiseParams_;
     bool isJoint_, fuses_, learns_;
     NoiseScale noise_;
-    PlaneErrors planes_;
+    ErrorsByView planes_, patches_;
     CameraCalibrator camera_;
     double viewAngle_{1};  //!< of the camera [rad]
 };

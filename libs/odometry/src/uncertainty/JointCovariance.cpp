@@ -129,9 +129,15 @@ Eigen::MatrixXd JointCovariance::dependence(
     {
         addView(Kind::View, reference, change * measurement.viewSigma.asDiagonal());
     }
-    for (const auto& [reference, change] : measurement.referencePatches)
+    if (measurement.bendSigma > 0)
     {
-        A.middleCols<kNumPatches>(find(Kind::Bend, reference)) += change;
+        const auto addPatches = [&](int of, const MotionByPatches& change)
+        { A.middleCols<kNumPatches>(find(Kind::Bend, of)) += measurement.bendSigma * change; };
+        addPatches(frame, measurement.patches);
+        for (const auto& [reference, change] : measurement.referencePatches)
+        {
+            addPatches(reference, change);
+        }
     }
     A.middleCols<kNumCameraErrors>(find(Kind::Camera, 0)) += measurement.camera;
     A.topRows<kSize>() = (Ad * A.topRows<kSize>()).eval();
@@ -151,11 +157,12 @@ void JointCovariance::measure(
     {
         addViews(frame, Kind::PlaneView, views.frames, views.ofPlanes);
     }
-    addBends(measurement);
+    if (measurement.bendSigma > 0)
+    {
+        addViews(frame, Kind::Bend, views.frames, views.ofPatches);
+    }
 
-    // Pose and velocity, camera, and the smooth error of the depth image, if there is one.
-    constexpr Eigen::Index camera = 2 * kSize, bend = camera + kNumCameraErrors;
-    const Eigen::Index size = bend + (measurement.bendVariance > 0 ? kNumPatches : 0);
+    constexpr Eigen::Index camera = 2 * kSize, size = camera + kNumCameraErrors;
     Eigen::MatrixXd A = Eigen::MatrixXd::Zero(size, errors_.size());
     A.topRows<2 * kSize>() = dependence(frame, Ad, decayed, measurement);
     A.block<kNumCameraErrors, kNumCameraErrors>(camera, find(Kind::Camera, 0)) =
@@ -166,16 +173,7 @@ void JointCovariance::measure(
     Q.topLeftCorner<2 * kSize, 2 * kSize>() =
         propagate(toWorld, Matrix12d(measurement.noise + measurement.priorNoise));
     Q.block<kNumCameraErrors, kNumCameraErrors>(camera, camera) = measurement.cameraNoise;
-    std::vector<Block> added{{Kind::Pose, frame}, {Kind::Velocity, frame}, {Kind::Camera, 0}};
-    if (measurement.bendVariance > 0)
-    {
-        added.push_back({Kind::Bend, frame});
-        Eigen::MatrixXd ofBend = Eigen::MatrixXd::Zero(size, kNumPatches);
-        ofBend.topRows<2 * kSize>() = toWorld * measurement.patches;
-        ofBend.bottomRows<kNumPatches>().setIdentity();
-        Q += measurement.bendVariance * ofBend * ofBend.transpose();
-    }
-    errors_.prepend(added, A, Q);
+    errors_.prepend({{Kind::Pose, frame}, {Kind::Velocity, frame}, {Kind::Camera, 0}}, A, Q);
     // The camera's errors after the frame take the place of those before.
     int numCameras = 0;
     errors_.keepIf([&](const Block& block)
@@ -220,21 +218,6 @@ void JointCovariance::addViews(
         if (!has(kind, frames[k]))
         {
             addView(kind, frames, k, C);
-        }
-    }
-}
-
-/** Of references that were not measured: the first frame, and places that were recalled. */
-void JointCovariance::addBends(const Measurement& measurement)
-{
-    for (const auto& [frame, change] : measurement.referencePatches)
-    {
-        if (!has(Kind::Bend, frame))
-        {
-            errors_.prepend(
-                {{Kind::Bend, frame}},
-                Eigen::MatrixXd::Zero(kNumPatches, errors_.size()),
-                measurement.bendVariance * Eigen::MatrixXd::Identity(kNumPatches, kNumPatches));
         }
     }
 }

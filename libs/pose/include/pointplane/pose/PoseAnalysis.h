@@ -51,16 +51,18 @@ struct CameraInformation
     CameraVector gradient{CameraVector::Zero()};  //!< of half of the cost
 };
 
+/** How large residuals against one reference are. */
+struct ReferenceVariance
+{
+    int reference;
+    double variance;
+    double dof;  //!< of the residuals, without what poses follow
+};
+
 /** How large the residuals of planes are. */
 struct PlaneResiduals
 {
-    struct OfReference
-    {
-        int reference;
-        double variance;  //!< over the propagated one
-        double dof;       //!< of the residuals, without what poses follow
-    };
-    std::vector<OfReference> references;  //!< that tell
+    std::vector<ReferenceVariance> references;  //!< that tell; over the propagated variance
     /** What planes tell of the direction that they tell least, of what all features do; 1: nothing
      * else tells of the pose. */
     double followed{1};
@@ -78,6 +80,8 @@ struct PoseAnalysis
     double pointVariance{0};
     double planeVariance{0};  //!< the same of all planes
     PlaneResiduals planeResiduals;
+    /** Of the scale of depth in a patch of an image, as the points' residuals show it. */
+    std::vector<ReferenceVariance> patchResiduals;
     Disagreement pointDisagreement;  //!< of the references' points, with all other features
     Disagreement planeDisagreement;  //!< of their planes, likewise
     /** Of a turn about an axis, as points tell it: harmonic mean over axes, by the propagated noise

@@ -89,9 +89,10 @@ class JointCovariance
     {
         std::vector<int> frames;  //!< ids of the references
         /** Of these frames and, as the last row and column, of the new one: of what all points
-         * err by together, and of what the planes do. */
+         * err by together, of what the planes do, and of the scale of depth in a patch. */
         Eigen::MatrixXd correlation{Eigen::MatrixXd::Identity(1, 1)};
         Eigen::MatrixXd ofPlanes{Eigen::MatrixXd::Identity(1, 1)};
+        Eigen::MatrixXd ofPatches{Eigen::MatrixXd::Identity(1, 1)};
     };
 
     /** What pose (left perturbation in the previous measured frame) and velocity of a measured
@@ -107,7 +108,7 @@ class JointCovariance
         Vector12d viewSigma{Vector12d::Zero()};         //!< of errors by the view (viewSigma())
         Matrix6d planeViewRoot{Matrix6d::Zero()};  //!< those of the planes are this * unit noise
         Views views;
-        double bendVariance{0};  //!< of the scale of depth in each patch of an image
+        double bendSigma{0};  //!< of the scale of depth in each patch of an image
         MotionByPatches patches{MotionByPatches::Zero()};       //!< change with that of this image
         std::map<int, MotionByPatches> referencePatches;        //!< with that of the references
         std::optional<MotionModel::Smoothed> previousVelocity;  //!< of the previous frame, now
@@ -186,7 +187,6 @@ class JointCovariance
     [[nodiscard]] Matrix6d at(Eigen::Index row, Eigen::Index column) const;
     void addViews(
         int frame, Kind kind, const std::vector<int>& references, const Eigen::MatrixXd& C);
-    void addBends(const Measurement& measurement);
     void addView(
         Kind kind, const std::vector<int>& frames, std::size_t added, const Eigen::MatrixXd& C);
     [[nodiscard]] Eigen::MatrixXd dependence(

@@ -18,7 +18,7 @@ class JointGaussian
         Velocity,  //!< of a measured frame
         Coasting,  //!< velocity since the latest measured frame
         Camera,
-        Bend,      //!< of a reference: scale of depth in each patch of its image
+        Bend,      //!< of a reference: scale of depth in each patch; of unit variance
         View,      //!< of a reference: error by its view, of pose and velocity; of unit variance
         PlaneView  //!< likewise of its planes, of the pose alone
     };

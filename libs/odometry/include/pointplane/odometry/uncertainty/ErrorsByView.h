@@ -4,35 +4,42 @@
 #include <pointplane/pose/PoseAnalysis.h>
 
 #include <map>
+#include <vector>
 
 namespace pointplane
 {
-/** Learns how large the errors of planes are, as variances over the propagated one.
+/** Learns how large errors of a depth image are, as variances over those that are expected: of its
+ * planes, or of the scale of depth in its patches.
  *
  * Depth images are bent, and a plane is cut out differently from elsewhere. While the camera
- * stands, this error stays the same. It shows in the residuals against a reference that saw the
- * plane from elsewhere. So residuals grow with how unlike two views are:
+ * stands, a part of this error stays the same. It shows in the residuals against a reference that
+ * saw the scene from elsewhere. So residuals grow with how unlike two views are:
  *
  *     E(variance) = own + byView (1 - correlation of the views)
  *
  * A line through what all references show tells both. It is fitted by least squares with a fading
  * memory. Derivation: docs/theory.md, Window. */
-class PlaneErrors
+class ErrorsByView
 {
  public:
     /** \param timeConstant of the memory [s] */
-    explicit PlaneErrors(double timeConstant) : timeConstant_(timeConstant) {}
+    explicit ErrorsByView(double timeConstant) : timeConstant_(timeConstant) {}
 
     /** Learns from a measured frame, `dt` [s] after the one before.
-     * \param correlation of the views of frame and reference, by the reference's id */
+     * \param residuals over the expected variance
+     * \param correlation of the views of frame and reference, by the reference's id
+     * \param followed own() is at least this: where nothing but planes tells the pose, it follows
+     * them, and their residuals are small whatever their errors are (PlaneResiduals) */
     void update(
-        const PlaneResiduals& residuals, const std::map<int, double>& correlation, double dt);
+        const std::vector<ReferenceVariance>& residuals,
+        const std::map<int, double>& correlation,
+        double dt,
+        double followed = 0);
 
-    /** New in each frame. At least PlaneResiduals::followed: where nothing but planes tells the
-     * pose, it follows them, and their residuals are small whatever their errors are. */
+    /** New in each frame. */
     [[nodiscard]] double own() const { return raised_ * own_; }
 
-    /** Of planes whose views have nothing in common. */
+    /** Of frames whose views have nothing in common. */
     [[nodiscard]] double byView() const { return raised_ * byView_; }
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/odometry/uncertainty/ErrorsByView.h>
 #include <pointplane/odometry/uncertainty/NoiseScale.h>
-#include <pointplane/odometry/uncertainty/PlaneErrors.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,15 +13,18 @@ namespace
 constexpr double kMostChange = 10;
 }  // namespace
 
-void PlaneErrors::update(
-    const PlaneResiduals& residuals, const std::map<int, double>& correlation, double dt)
+void ErrorsByView::update(
+    const std::vector<ReferenceVariance>& residuals,
+    const std::map<int, double>& correlation,
+    double dt,
+    double followed)
 {
     const double kept = std::exp(-dt / timeConstant_);
     for (double* sum : {&sum_, &x_, &xx_, &y_, &xy_})
     {
         *sum *= kept;
     }
-    for (const PlaneResiduals::OfReference& of : residuals.references)
+    for (const ReferenceVariance& of : residuals)
     {
         const double x = 1 - correlation.at(of.reference);
         const double known = own_ + byView_ * x;
@@ -33,12 +36,12 @@ void PlaneErrors::update(
         xy_ += of.dof * x * y;
     }
     fit();
-    raised_ = std::max(1.0, residuals.followed / own_);
+    raised_ = std::max(1.0, followed / own_);
 }
 
 /** Before the first frame both are 1, which counts as the residuals of one plane. Neither is
  * negative. */
-void PlaneErrors::fit()
+void ErrorsByView::fit()
 {
     const double prior = PlanePair::dof();
     const double n = sum_ + prior, xx = xx_ + prior, y = y_ + prior, xy = xy_ + prior;
