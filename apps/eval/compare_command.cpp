@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/evaluation/compare.h>
 
+#include <algorithm>
 #include <memory>
 #include <ostream>
 
@@ -54,6 +55,24 @@ void CompareCommand::addTo(CLI::App& command)
         ->group("Output");
 }
 
+/** One --body-from-gt does not fit poses of a camera and of a robot. */
+std::string hintAtOtherBodies(const std::vector<Trajectory>& runs)
+{
+    const auto of = [&](Body body)
+    {
+        return std::find_if(
+            runs.begin(), runs.end(), [body](const Trajectory& t) { return t.body == body; });
+    };
+    const auto camera = of(Body::Camera), robot = of(Body::Robot);
+    return camera == runs.end() || robot == runs.end()
+               ? ""
+               : format(
+                     "the poses of '%s' are of the camera, those of '%s' of the robot: their "
+                     "errors cannot be compared",
+                     camera->name.c_str(),
+                     robot->name.c_str());
+}
+
 void CompareCommand::run(CommandContext& context)
 {
     OutputGuard guard;
@@ -79,6 +98,7 @@ void CompareCommand::run(CommandContext& context)
         checkOrder(truth, loaded.back(), context);
         checkTruthRate(truth, loaded.back(), context);
     }
+    context.hint(hintAtOtherBodies(loaded));
     const Comparison comparison = compareRuns(truth, loaded, resolved, ate, bootstrap);
     for (std::size_t k = 0; k < loaded.size(); ++k)
     {

@@ -88,10 +88,11 @@ std::optional<FrameMark> markOf(const std::string& comment)
     return std::nullopt;
 }
 
-/** pointplane-odometry writes a pose for every frame of the camera LABEL, labelled LABEL_pose. */
+/** pointplane-odometry writes a pose for every frame of the camera LABEL, labelled LABEL_pose.
+ * LABEL may be empty. */
 bool isOfOdometry(const std::string& label)
 {
-    return label.size() > kPoseEnding.size() &&
+    return label.size() >= kPoseEnding.size() &&
            label.compare(label.size() - kPoseEnding.size(), kPoseEnding.size(), kPoseEnding) == 0;
 }
 

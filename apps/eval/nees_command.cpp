@@ -238,6 +238,15 @@ void NeesCommand::checkFiles() const
         throw std::invalid_argument(
             "nees needs a ground truth for each estimate: GT EST [GT EST]...");
     }
+    for (std::size_t k = 3; k < files.size(); k += 2)
+    {
+        if (std::find(files.begin(), files.begin() + static_cast<long>(k), files[k]) !=
+            files.begin() + static_cast<long>(k))
+        {
+            throw std::invalid_argument(
+                "'" + files[k] + "' is given more than once: its increments would count twice");
+        }
+    }
     if (!html.directory.empty() && files.size() > 2)
     {
         throw std::invalid_argument("--report is of one run; give one ground truth and estimate");
@@ -294,6 +303,13 @@ void NeesCommand::run(CommandContext& context) const
     for (const std::string& name : intervals)
     {
         lengths.push_back(neesIntervalFromName(name));
+        const auto isSame = [&](const NeesInterval& other)
+        { return nameOf(other) == nameOf(lengths.back()); };
+        if (std::any_of(lengths.begin(), lengths.end() - 1, isSame))
+        {
+            throw std::invalid_argument(
+                "--interval: " + nameOf(lengths.back()) + " is given more than once");
+        }
     }
     std::vector<Pool> pools;
     ReportedRun reported;

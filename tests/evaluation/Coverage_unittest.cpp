@@ -77,6 +77,12 @@ TEST(Coverage, isOfTheRecordingNotOfGroundTruthThatRunsOn)
     EXPECT_NEAR(coverageOf(randomTrajectory(1001, 1), estimate, 0).share, 1, 1e-9);
     // Where ground truth ends early, the score speaks for that part only.
     EXPECT_NEAR(coverageOf(randomTrajectory(51, 1), estimate, 0).share, 0.5, 1e-9);
+    // A part of a recording looks like a whole one.
+    EXPECT_THAT(
+        describe(coverageOf(randomTrajectory(1001, 1), estimate, 0)),
+        testing::EndsWith("0 lost; 10.0 % of the ground truth's time"));
+    EXPECT_THAT(
+        describe(coverageOf(randomTrajectory(105, 1), estimate, 0)), testing::EndsWith("0 lost"));
     // Who wrote the file did not tell how long the recording is.
     Trajectory unmarked = estimate;
     unmarked.marksFrames = false;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/evaluation/trajectory_text.h>
 #include <pointplane/mrpt_io/RawlogWriter.h>
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/mrpt_poses.h>
@@ -482,12 +483,13 @@ TEST(MrptTrajectories, neesEndToEnd)
     EXPECT_THAT(r.out, HasSubstr("verdict: consistent"));
     EXPECT_EQ(evaluate({"nees", truthFile, dir / "a.rawlog", "--min-nees", "5"}).code, 1);
 
+    writeFormat2(dir / "b.rawlog", {"VO"});
     const test::AppRun pooled = evaluate(
         {"nees",
          truthFile,
          dir / "a.rawlog",
          truthFile,
-         dir / "a.rawlog",
+         dir / "b.rawlog",
          "--interval",
          "1f",
          "--csv",
@@ -592,19 +594,23 @@ TEST(MrptTrajectories, opticalGroundTruthOfAnEstimateInMrptAxes)
 namespace
 {
 /** As pointplane-odometry writes it: poses, motions since the frame before, and marks. */
-void writeOdometry(const std::string& path, bool withSince, const Eigen::Isometry3d& body)
+void writeOdometry(
+    const std::string& path,
+    bool withSince,
+    const Eigen::Isometry3d& body,
+    const std::string& camera = "RGBD")
 {
     RawlogWriter writer(path);
     for (std::size_t k = 0; k < estimate().size(); ++k)
     {
-        auto observation = observationOf(k, "RGBD_pose");
+        auto observation = observationOf(k, camera + "_pose");
         PoseGaussian pose = gaussianAt(k);
         pose.mean = pose.mean * body;
         observation.pose = toMrpt(pose);
         writer.write(observation);
         if (withSince && k > 0)
         {
-            auto since = observationOf(k, "RGBD_since_1");
+            auto since = observationOf(k, camera + "_since_1");
             since.pose = toMrpt({Eigen::Isometry3d::Identity(), incrementCov()});
             writer.write(since);
         }
@@ -612,7 +618,7 @@ void writeOdometry(const std::string& path, bool withSince, const Eigen::Isometr
         {
             mrpt::obs::CObservationComment comment;
             comment.timestamp = observation.timestamp;
-            comment.text = "pointplane-status label=RGBD frame=" + std::to_string(k) +
+            comment.text = "pointplane-status label=" + camera + " frame=" + std::to_string(k) +
                            (k < 20 ? " lost: no depth" : " predicted: no matches");
             writer.write(comment);
         }
@@ -649,6 +655,51 @@ TEST(MrptTrajectories, marksOfLostFramesInARawlogAreReadAndSaid)
             {"nees", truthFile, dir / "a.rawlog", "--interval", "1f", "--min-coverage", percent});
         EXPECT_EQ(gate.code, code) << gate.err;
     }
+}
+
+/** MRPT's default label is empty. */
+TEST(MrptTrajectories, framesOfACameraWithoutALabelAreMarkedToo)
+{
+    test::TempDir dir;
+    writeOdometry(dir / "a.rawlog", true, Eigen::Isometry3d::Identity(), "");
+    const Trajectory read = readRawlogTrajectory(dir / "a.rawlog", "");
+    EXPECT_TRUE(read.marksFrames);
+    ASSERT_EQ(read.status.size(), 40u);
+    EXPECT_EQ(read.status[10], FrameStatus::Lost);
+    EXPECT_FALSE(read.sinceCovs.empty());
+    EXPECT_EQ(evaluate({"ate", writeTruth(dir), dir / "a.rawlog", "--max-rmse", "1"}).code, 1);
+}
+
+TEST(MrptTrajectories, nothingIsTestedTwice)
+{
+    test::TempDir dir;
+    writeOdometry(dir / "a.rawlog", true, Eigen::Isometry3d::Identity());
+    const std::string truthFile = writeTruth(dir), run = dir / "a.rawlog";
+    for (const char* intervals : {"1f,1f", "1f,1e0f", "1s,1.0s", "start,1f,start"})
+    {
+        const test::AppRun r = evaluate({"nees", truthFile, run, "--interval", intervals});
+        EXPECT_EQ(r.code, 2) << intervals;
+        EXPECT_THAT(r.err, HasSubstr(" is given more than once"));
+    }
+    const test::AppRun twice = evaluate({"nees", truthFile, run, truthFile, run});
+    EXPECT_EQ(twice.code, 2);
+    EXPECT_THAT(twice.err, HasSubstr("a.rawlog' is given more than once"));
+}
+
+/** They would be a metre apart for another reason than their errors. */
+TEST(MrptTrajectories, runsOfCameraAndRobotAreNotComparedInSilence)
+{
+    test::TempDir dir;
+    writeOdometry(dir / "a.rawlog", true, Eigen::Isometry3d::Identity());
+    const std::string truthFile = writeTruth(dir);
+    std::string text = "# x right, y down\n";
+    text += test::readBytes(truthFile);
+    const std::string camera = writeFile(dir, "camera.txt", text);
+    ASSERT_EQ(readTrajectoryText(camera).body, Body::Camera);
+    const std::string hint = "hint: the poses of '" + camera + "' are of the camera";
+    EXPECT_THAT(evaluate({"compare", truthFile, dir / "a.rawlog", camera}).err, HasSubstr(hint));
+    EXPECT_THAT(
+        evaluate({"compare", truthFile, camera, camera}).err, testing::Not(HasSubstr(hint)));
 }
 
 TEST(MrptTrajectories, covariancesShowWhichIsTheEstimate)

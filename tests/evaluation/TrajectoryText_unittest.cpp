@@ -36,7 +36,7 @@ TEST(TrajectoryText, readsTumWithCommentsCommasTabsAndCarriageReturns)
     EXPECT_EQ(t.stamps[0], 0.5);                                                 // sorted
     EXPECT_TRUE(t.poses[0].linear().isApprox(so3Exp({0, 0, M_PI / 2}), 1e-12));  // normalised
     EXPECT_EQ(t.poses[1].translation(), Eigen::Vector3d(1, 2, 3));
-    EXPECT_TRUE(t.warnings.empty());
+    EXPECT_THAT(t.warnings, testing::ElementsAre(HasSubstr("go back in time")));
     EXPECT_TRUE(t.covs.empty());
 }
 
@@ -137,6 +137,24 @@ TEST(TrajectoryText, leavesOutNanZeroQuaternionsAndRepeatsButSaysSo)
             HasSubstr("1 pose(s) with a repeated stamp"),
             HasSubstr("NaN or infinity left out, the first is line 2"),
             HasSubstr("zero quaternion left out, the first is line 3")));
+}
+
+/** Two recordings in one file, or frames in the wrong order. */
+TEST(TrajectoryText, saysThatStampsGoBack)
+{
+    test::TempDir files;
+    const Trajectory t = readTrajectoryText(writeFile(
+        files,
+        "t.txt",
+        "1 0 0 0 0 0 0 1\n"
+        "2 1 0 0 0 0 0 1\n"
+        "1.5 7 0 0 0 0 0 1\n"
+        "2.5 8 0 0 0 0 0 1\n"));
+    EXPECT_EQ(t.stamps, (std::vector<double>{1, 1.5, 2, 2.5}));
+    EXPECT_THAT(
+        t.warnings,
+        testing::ElementsAre(
+            HasSubstr("1 stamp(s) go back in time, the first one from 2.000000 to 1.500000 s")));
 }
 
 TEST(TrajectoryText, hintsAtWhatIsOftenWrong)

@@ -85,10 +85,31 @@ void warnOfNanoseconds(Trajectory& trajectory)
             " s apart; are stamps in nanoseconds? They must be in seconds");
     }
 }
+/** Of poses in the order of their file. \return what to tell the user, or empty */
+std::string stampsThatGoBack(const std::string& name, const std::vector<StampedPose>& poses)
+{
+    std::size_t num = 0, first = 0;
+    for (std::size_t i = 1; i < poses.size(); ++i)
+    {
+        if (poses[i].stamp < poses[i - 1].stamp && num++ == 0)
+        {
+            first = i;
+        }
+    }
+    return num == 0 ? ""
+                    : name + ": " + std::to_string(num) +
+                          " stamp(s) go back in time, the first one from " +
+                          numberText(poses[first - 1].stamp, 6) + " to " +
+                          numberText(poses[first].stamp, 6) +
+                          " s: poses were sorted by time, which mixes parts that were not "
+                          "recorded together";
+}
+
 }  // namespace
 
 Trajectory makeTrajectory(std::string name, std::vector<StampedPose> poses)
 {
+    const std::string back = stampsThatGoBack(name, poses);
     std::stable_sort(
         poses.begin(),
         poses.end(),
@@ -101,6 +122,10 @@ Trajectory makeTrajectory(std::string name, std::vector<StampedPose> poses)
 
     Trajectory out;
     out.name = std::move(name);
+    if (!back.empty())
+    {
+        out.warnings.push_back(back);
+    }
     out.lostStamps = removeNotFinite(poses);
     if (!out.lostStamps.empty())
     {

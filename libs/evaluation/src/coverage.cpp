@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstring>
 #include <iterator>
 
 namespace pointplane
@@ -110,6 +111,7 @@ Coverage coverageOf(const Trajectory& groundTruth, const Trajectory& estimate, d
                              ? static_cast<double>(frames.size() + estimate.lostWithoutTime) - 1
                              : truth.whole();
     out.share = whole > 0 ? std::min(1.0, counted / whole) : 0;
+    out.ofTruth = truth.whole() > 0 ? std::min(1.0, seconds / truth.whole()) : 0;
     const auto count = [&](FrameStatus status)
     {
         return static_cast<std::size_t>(
@@ -124,7 +126,7 @@ Coverage coverageOf(const Trajectory& groundTruth, const Trajectory& estimate, d
 
 std::string describe(const Coverage& coverage)
 {
-    char out[160];
+    char out[200];
     if (coverage.ofRecording)
     {
         std::snprintf(
@@ -135,6 +137,16 @@ std::string describe(const Coverage& coverage)
             coverage.tracked,
             coverage.predicted,
             coverage.lost);
+        constexpr double kMuchLess = 0.9;
+        if (coverage.ofTruth < kMuchLess * coverage.share)
+        {
+            const std::size_t end = std::strlen(out);
+            std::snprintf(
+                out + end,
+                sizeof out - end,
+                "; %.1f %% of the ground truth's time",
+                100 * coverage.ofTruth);
+        }
     }
     else
     {

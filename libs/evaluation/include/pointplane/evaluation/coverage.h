@@ -15,6 +15,7 @@ struct Coverage
      * steps, as a share of the ground truth's. */
     double share{0};
     bool ofRecording{false};                        //!< Trajectory::marksFrames
+    double ofTruth{0};                              //!< share of the ground truth's time
     std::size_t tracked{0}, predicted{0}, lost{0};  //!< frames; all tracked if they are not marked
 };
 
@@ -25,6 +26,7 @@ struct Coverage
 [[nodiscard]] Coverage coverageOf(
     const Trajectory& groundTruth, const Trajectory& estimate, double offset);
 
-/** "coverage 38.7 % of the recording: 59 frames tracked, 0 predicted, 92 lost" */
+/** "coverage 38.7 % of the recording: 59 frames tracked, 0 predicted, 92 lost". Adds the share of
+ * the ground truth's time if the recording's is much more: it may be a part of a longer one. */
 [[nodiscard]] std::string describe(const Coverage& coverage);
 }  // namespace pointplane
