@@ -101,7 +101,7 @@ TEST(ParamsIni, mistakesAreNamedWithFileLineAndWhatWasMeant)
         errorOf("[Alpha]\nname = orb\n"),
         "x.ini:2: unknown key 'name' in [Alpha]; it belongs in [Beta]");
     EXPECT_EQ(errorOf("[Alhpa]\n"), "x.ini:1: unknown section [Alhpa]; did you mean [Alpha]?");
-    EXPECT_EQ(errorOf("[Alpha\n"), "x.ini:1: section without closing bracket: [Alpha");
+    EXPECT_EQ(errorOf("[Alpha\n"), "x.ini:1: expected [SECTION] alone, not [Alpha");
     EXPECT_EQ(errorOf("count = 1\n"), "x.ini:1: key 'count' before any [Section]");
     EXPECT_EQ(errorOf("[Alpha]\ncount\n"), "x.ini:2: expected 'key = value', found 'count'");
     EXPECT_EQ(

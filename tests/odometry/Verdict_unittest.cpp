@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "hell_frames.h"
+#include "monte_carlo.h"
 #include <gtest/gtest.h>
 
 namespace pointplane
@@ -45,7 +46,7 @@ class VerdictTest : public testing::Test
     }
 
     RgbdFrame current = desk().frame(50);
-    SurfaceSamples samples{desk().frame(40)};
+    SurfaceSamples samples{desk().frame(40), {}};
     Eigen::Isometry3d T_cur_ref = desk().sequence().trueMotion(50, 40);
 };
 
@@ -104,9 +105,34 @@ TEST_F(VerdictTest, thinThingsAreNotCounted)
     {
         reference.depth.colRange(u, u + 2) *= 0.5;
     }
-    samples = SurfaceSamples(reference);
+    samples = SurfaceSamples(reference, {});
     EXPECT_GT(samples.points_cam.size(), 500U);
     EXPECT_GT(at(Vector6d::Zero()).fraction(), 0.9);
+}
+
+/** Far away, depths of neighbours differ by more than distortion makes them: by noise. */
+TEST_F(VerdictTest, noiseIsNoDepthJump)
+{
+    test::GaussianSampler sampler(8);
+    DepthNoise stereo;
+    stereo.sigmaInverseDepth = 2 * DepthNoise().sigmaInverseDepth;
+    RgbdFrame far = current;
+    for (const double z : {3.0, 6.0, 9.0})
+    {
+        for (int v = 0; v < far.depth.rows; ++v)
+        {
+            for (int u = 0; u < far.depth.cols; ++u)
+            {
+                far.depth.at<float>(v, u) =
+                    static_cast<float>(z + stereo.sigmaZ(z) * sampler.normal());
+            }
+        }
+        RgbdFrame exact = far;
+        exact.depth = cv::Mat(far.depth.size(), CV_32FC1, cv::Scalar(z));
+        const auto all = static_cast<double>(SurfaceSamples(exact, stereo).points_cam.size());
+        const auto found = static_cast<double>(SurfaceSamples(far, stereo).points_cam.size());
+        EXPECT_GT(found, 0.7 * all) << z << " m";
+    }
 }
 
 TEST_F(VerdictTest, imagesTooSmallToSample)
@@ -115,7 +141,7 @@ TEST_F(VerdictTest, imagesTooSmallToSample)
     for (const int size : {0, 1, 2, 3})
     {
         tiny.depth = cv::Mat(size, size, CV_32FC1, cv::Scalar(1));
-        EXPECT_LE(SurfaceSamples(tiny).points_cam.size(), 1U);
+        EXPECT_LE(SurfaceSamples(tiny, {}).points_cam.size(), 1U);
     }
 }
 }  // namespace

@@ -189,7 +189,7 @@ void parse(
         {
             if (content.back() != ']')
             {
-                throw InputError(where + ": section without closing bracket: " + content);
+                throw InputError(where + ": expected [SECTION] alone, not " + content);
             }
             section = trimmed(content.substr(1, content.size() - 2));
             if (sectionsOf(table).count(section) == 0)

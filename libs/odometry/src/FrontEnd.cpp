@@ -124,7 +124,7 @@ std::shared_ptr<KeyframeImages> FrontEnd::keyframeImages(const Features& feature
     }
     auto out = std::make_shared<KeyframeImages>();
     out->frame = features.frame;
-    out->surface = SurfaceSamples(out->frame);
+    out->surface = SurfaceSamples(out->frame, depthNoise_.noise());
     out->described = features.described;
     return out;
 }

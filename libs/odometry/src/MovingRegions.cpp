@@ -68,7 +68,7 @@ MovingRegions findMovingRegions(
     {
         for (int column = 0; column < grid.size.width; ++column)
         {
-            const Eigen::Vector3f point = surfaceAt(current, grid.pixel(column, row));
+            const Eigen::Vector3f point = surfaceAt(current, grid.pixel(column, row), noise);
             cells(row, column) = point.z() > 0 ? cellAt(point, depths) : Untold;
             out.numCompared += cells(row, column) != Untold;
         }

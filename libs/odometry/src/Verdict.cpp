@@ -5,14 +5,14 @@
 
 namespace pointplane
 {
-SurfaceSamples::SurfaceSamples(const RgbdFrame& frame)
+SurfaceSamples::SurfaceSamples(const RgbdFrame& frame, const DepthNoise& noise)
 {
     const PixelGrid grid(frame.depth.size());
     for (int row = 0; row < grid.size.height; ++row)
     {
         for (int column = 0; column < grid.size.width; ++column)
         {
-            const Eigen::Vector3f point = surfaceAt(frame, grid.pixel(column, row));
+            const Eigen::Vector3f point = surfaceAt(frame, grid.pixel(column, row), noise);
             if (point.z() > 0)
             {
                 points_cam.push_back(point);

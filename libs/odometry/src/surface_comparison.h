@@ -140,13 +140,16 @@ struct PixelGrid
 
 /** The surface at a pixel, in the camera's frame [m]; at depth jumps and holes none (z = 0): the
  * readings there belong to neither side. \pre the pixel is not at the border */
-inline Eigen::Vector3f surfaceAt(const RgbdFrame& frame, const cv::Point& pixel)
+inline Eigen::Vector3f surfaceAt(
+    const RgbdFrame& frame, const cv::Point& pixel, const DepthNoise& noise)
 {
     const float z = frame.depth.at<float>(pixel);
     if (z > 0)
     {
         const DepthRange range = rangeAround(frame.depth, pixel.x, pixel.y);
-        if (range.farthest - range.nearest < static_cast<float>(2 * DepthNoise::kDistortion) * z)
+        const double depth = static_cast<double>(z);
+        const double most = std::max(2 * DepthNoise::kDistortion * depth, noise.sameDepth(depth));
+        if (range.farthest - range.nearest < static_cast<float>(most))
         {
             const Eigen::Vector2d xy = frame.camera.normalisedOfDepth(
                 {static_cast<double>(pixel.x), static_cast<double>(pixel.y)});

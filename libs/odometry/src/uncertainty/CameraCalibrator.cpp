@@ -59,7 +59,7 @@ void CameraCalibrator::TShutter::check() const
     checkRange("readoutColour", readoutColour, -kMaxTime, kMaxTime);
     checkRange("readoutDepth", readoutDepth, -kMaxTime, kMaxTime);
     checkRange("depthDelay", depthDelay, -kMaxTime, kMaxTime);
-    checkRange("sigmaPrior", sigmaPrior, 1e-5, 1);
+    checkRange("sigmaPrior", sigmaPrior, 1e-5, kMaxTime);
     checkRange("varianceFactor", varianceFactor, 0.01, 1000);
 }
 
@@ -210,5 +210,4 @@ Eigen::Vector3d CameraCalibrator::estimated(const ShutterModel& source)
         tellsExposure(source) ? 0.0 : 1.0};
 }
 
-double CameraCalibrator::sigmaPrior() const { return std::min(shutter_.sigmaPrior, kMaxTime); }
 }  // namespace pointplane

@@ -15,8 +15,9 @@ struct SurfaceSamples
 {
     SurfaceSamples() = default;
 
-    /** Depth jumps are left out: their readings belong to neither side. */
-    explicit SurfaceSamples(const RgbdFrame& frame);
+    /** Depth jumps are left out: their readings belong to neither side.
+     * \param noise of the depth camera */
+    SurfaceSamples(const RgbdFrame& frame, const DepthNoise& noise);
 
     std::vector<Eigen::Vector3f> points_cam;  //!< camera frame, optical axes [m]
 };

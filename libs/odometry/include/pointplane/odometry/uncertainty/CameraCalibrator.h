@@ -136,7 +136,7 @@ class CameraCalibrator
     [[nodiscard]] static Eigen::Vector3d estimated(const ShutterModel& source);
 
     /** How far the times of a source that does not know them may be off [s]. */
-    [[nodiscard]] double sigmaPrior() const;
+    [[nodiscard]] double sigmaPrior() const { return shutter_.sigmaPrior; }
 
  private:
     [[nodiscard]] CameraVector priorVariances(double bend) const;
