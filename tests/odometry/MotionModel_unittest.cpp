@@ -465,12 +465,37 @@ TEST(MotionModel, anyGapIsFinite)
     }
 }
 
-TEST(MotionModel, resetForgets)
+TEST(MotionModel, resetForgetsTheVelocity)
 {
     MotionModel model = moving();
     model.coast(0.1);
     model.reset();
-    EXPECT_EQ(model.predict(kFrame).cov, MotionModel({}).predict(kFrame).cov);
+    EXPECT_TRUE(model.predict(kFrame).mean.velocity.isZero(0));
+    MotionModel none({});
+    none.reset();
+    EXPECT_EQ(none.predict(kFrame).cov, MotionModel({}).predict(kFrame).cov);
+}
+
+/** After a long gap: a camera that was at 1 m/s may still be. */
+TEST(MotionModel, unknownVelocitiesAreNotMoreCertainThanKnownOnes)
+{
+    MotionModel model({});
+    const double speed = 1;
+    MotionGaussian motion;
+    motion.mean.T_prev_cur = Eigen::Translation3d(speed * kFrame, 0, 0);
+    motion.mean.velocity[0] = speed;
+    motion.cov = 1e-8 * Matrix12d::Identity();
+    for (int k = 0; k < 90; ++k)
+    {
+        (void)model.update(motion, kFrame);
+    }
+    model.reset();
+    for (const double gap : {0.1, 1.0, 3.0})
+    {
+        const MotionGaussian predicted = model.predict(gap);
+        const double sigma = std::sqrt(predicted.cov(0, 0));
+        EXPECT_LT(speed * gap, 2.5 * sigma) << gap;
+    }
 }
 
 TEST(MotionModel, refusesParametersOutOfRange)

@@ -254,11 +254,10 @@ void MotionModel::reset()
     velocity_.setZero();
     increments_.interrupt();
     elapsed_ = 0;
-    const Vector6d velocity = params_.accelerationTime * sudden();
+    learntDensity_ = learntDensity_.cwiseMax(perAxis(kFirstChange, kFirstTurn).cwiseAbs2());
+    speed2_ = speed2_.cwiseMax((params_.accelerationTime * sudden()).cwiseAbs2());
     cov_.setZero();
-    cov_.bottomRightCorner<6, 6>() = velocity.cwiseAbs2().asDiagonal();
-    learntDensity_ = perAxis(kFirstChange, kFirstTurn).cwiseAbs2();
-    speed2_ = velocity.cwiseAbs2();
+    cov_.bottomRightCorner<6, 6>() = speed2_.asDiagonal();
     measuredCov_.setZero();
 }
 }  // namespace pointplane

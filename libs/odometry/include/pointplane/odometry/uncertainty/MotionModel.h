@@ -139,8 +139,8 @@ class MotionModel
     /** IncrementVelocities::acceleration2() */
     [[nodiscard]] const Vector6d& acceleration2() const { return increments_.acceleration2(); }
 
-    /** Forgets the motion: the velocity, and how much it changes, are unknown again. Only
-     * acceleration2() stays: the camera is carried as before. */
+    /** Forgets the velocity. How fast the camera is, and how much that changes, are not less than
+     * they were or than at the start: what is unknown is not more certain than what was known. */
     void reset();
 
  private:
@@ -155,9 +155,10 @@ class MotionModel
     Vector6d velocity_;                 //!< at the latest measured frame
     Matrix12d cov_{Matrix12d::Zero()};  //!< of [pose of the latest measured frame; velocity_]
     Matrix12d measuredCov_{Matrix12d::Zero()};  //!< the same when it was measured
-    Vector6d learntDensity_;  //!< of the acceleration; density() is not below the least
-    Vector6d speed2_;         //!< mean square of the velocity, per axis
-    double elapsed_{0};       //!< since the latest measured frame [s]
+    Vector6d learntDensity_{
+        Vector6d::Zero()};               //!< of the acceleration; density() is not below the least
+    Vector6d speed2_{Vector6d::Zero()};  //!< mean square of the velocity, per axis
+    double elapsed_{0};                  //!< since the latest measured frame [s]
     IncrementVelocities increments_;
 };
 }  // namespace pointplane
