@@ -136,6 +136,28 @@ TEST(JointCovariance, backAtAReferencesViewNothingIsLeftOfItsError)
     EXPECT_THAT(joint.relative(2, kAtRest), isTimesIdentity(2 + 4));
 }
 
+/** Where features were far away, two views were almost the same; now that features are near, they
+ * are not. What is said of a third must not make its error larger than any. */
+TEST(JointCovariance, errorsByTheViewKeepTheirSizeWhenDistancesChange)
+{
+    JointCovariance joint = started();
+    JointCovariance::Measurement measurement = against(1);
+    measurement.noise.setZero();
+    measurement.viewSigma.setConstant(2);
+    measurement.views.frames = {1};
+    measurement.views.correlation.resize(2, 2);
+    measurement.views.correlation << 1, 0.99, 0.99, 1;
+    measurement.referencePoints = measurement.references;
+    joint.measure(2, kAtRest, kFrame, measurement);
+    joint.keep({1, 2});
+    measurement.views.frames = {1, 2};
+    measurement.views.correlation.resize(3, 3);
+    measurement.views.correlation << 1, 0.3, 0.9, 0.3, 1, 0.5, 0.9, 0.5, 1;
+    joint.measure(3, kAtRest, kFrame, measurement);
+    // Of frame 1's pose 1, and twice 4 if the views of frames 1 and 3 had nothing in common.
+    EXPECT_LT(joint.latest()(0, 0), 1 + 2 * 4);
+}
+
 /** References agree with each other about a frame that errs by its own view: two of them tell no
  * more than one. */
 TEST(JointCovariance, aFramesOwnErrorIsNotAveragedByManyReferences)

@@ -9,6 +9,7 @@
 #include <Eigen/Cholesky>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace pointplane
@@ -249,13 +250,16 @@ void JointCovariance::addView(
         {
             rows.push_back(find(kind, frames[k]));
         }
-        const Eigen::VectorXd weights = errors_.cov()(rows, rows).ldlt().solve(shared);
+        Eigen::VectorXd weights = errors_.cov()(rows, rows).ldlt().solve(shared);
+        // Views were alike by other distances then: no more can be known than all of an error.
+        const double told = weights.dot(shared);
+        weights /= std::sqrt(std::max(1.0, told));
+        isNew = std::max(0.0, 1 - told);
         for (std::size_t k = 0; k < known.size(); ++k)
         {
             A.middleCols(find(kind, frames[known[k]]), size) =
                 weights[static_cast<Eigen::Index>(k)] * I;
         }
-        isNew = std::max(0.0, 1 - weights.dot(shared));
     }
     errors_.prepend({block}, A, isNew * I);
 }
