@@ -8,6 +8,7 @@
 #include <cmath>
 #include <memory>
 #include <ostream>
+#include <set>
 
 #include "OutputGuard.h"
 #include "command.h"
@@ -238,10 +239,10 @@ void NeesCommand::checkFiles() const
         throw std::invalid_argument(
             "nees needs a ground truth for each estimate: GT EST [GT EST]...");
     }
-    for (std::size_t k = 3; k < files.size(); k += 2)
+    std::set<std::string> estimates;
+    for (std::size_t k = 1; k < files.size(); k += 2)
     {
-        if (std::find(files.begin(), files.begin() + static_cast<long>(k), files[k]) !=
-            files.begin() + static_cast<long>(k))
+        if (!estimates.insert(files[k]).second)
         {
             throw std::invalid_argument(
                 "'" + files[k] + "' is given more than once: its increments would count twice");

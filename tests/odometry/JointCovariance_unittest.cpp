@@ -99,6 +99,15 @@ TEST(JointCovariance, errorsFromFrameToFrameAddUp)
     }
 }
 
+/** How alike frame 1, the only reference, and the new one see the scene. */
+void setAlike(JointCovariance::Measurement& measurement, double correlation)
+{
+    measurement.views.frames = {1};
+    measurement.views.correlation.resize(2, 2);
+    measurement.views.correlation << 1, correlation, correlation, 1;
+    measurement.referencePoints = measurement.references;
+}
+
 /** Frames that see the scene alike err alike, and those of other views each for itself. */
 TEST(JointCovariance, framesErrByTheirViews)
 {
@@ -107,10 +116,7 @@ TEST(JointCovariance, framesErrByTheirViews)
         JointCovariance joint = started();
         JointCovariance::Measurement measurement = against(1);
         measurement.viewSigma.setConstant(2);
-        measurement.views.frames = {1};
-        measurement.views.correlation.resize(2, 2);
-        measurement.views.correlation << 1, correlation, correlation, 1;
-        measurement.referencePoints = measurement.references;
+        setAlike(measurement, correlation);
         joint.measure(2, kAtRest, kFrame, measurement);
         EXPECT_THAT(joint.latest(), isTimesIdentity(1 + 4 * 2 * (1 - correlation)));
     }
@@ -122,10 +128,7 @@ TEST(JointCovariance, backAtAReferencesViewNothingIsLeftOfItsError)
     JointCovariance joint = started();
     JointCovariance::Measurement measurement = against(1);
     measurement.viewSigma.setConstant(2);
-    measurement.views.frames = {1};
-    measurement.views.correlation.resize(2, 2);
-    measurement.views.correlation << 1, 0.5, 0.5, 1;
-    measurement.referencePoints = measurement.references;
+    setAlike(measurement, 0.5);
     joint.measure(2, kAtRest, kFrame, measurement);
     joint.keep({1});
     EXPECT_THAT(joint.latest(), isTimesIdentity(1 + 4));
@@ -144,10 +147,7 @@ TEST(JointCovariance, errorsByTheViewKeepTheirSizeWhenDistancesChange)
     JointCovariance::Measurement measurement = against(1);
     measurement.noise.setZero();
     measurement.viewSigma.setConstant(2);
-    measurement.views.frames = {1};
-    measurement.views.correlation.resize(2, 2);
-    measurement.views.correlation << 1, 0.99, 0.99, 1;
-    measurement.referencePoints = measurement.references;
+    setAlike(measurement, 0.99);
     joint.measure(2, kAtRest, kFrame, measurement);
     joint.keep({1, 2});
     measurement.views.frames = {1, 2};
@@ -168,10 +168,7 @@ TEST(JointCovariance, aFramesOwnErrorIsNotAveragedByManyReferences)
         JointCovariance::Measurement measurement = against(1);
         measurement.noise.setZero();
         measurement.viewSigma.setConstant(2);
-        measurement.views.frames = {1};
-        measurement.views.correlation.resize(2, 2);
-        measurement.views.correlation << 1, betweenReferences, betweenReferences, 1;
-        measurement.referencePoints = measurement.references;
+        setAlike(measurement, betweenReferences);
         joint.measure(2, kAtRest, kFrame, measurement);
         measurement.references[1] = ofPose(0.5 * Matrix6d::Identity());
         measurement.references[2] = measurement.references[1];

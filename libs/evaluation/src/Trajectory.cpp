@@ -101,8 +101,7 @@ std::string stampsThatGoBack(const std::string& name, const std::vector<StampedP
                           " stamp(s) go back in time, the first one from " +
                           numberText(poses[first - 1].stamp, 6) + " to " +
                           numberText(poses[first].stamp, 6) +
-                          " s: poses were sorted by time, which mixes parts that were not "
-                          "recorded together";
+                          " s: poses were sorted by time; score two recordings apart";
 }
 
 }  // namespace

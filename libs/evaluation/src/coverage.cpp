@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/number_text.h>
 #include <pointplane/evaluation/coverage.h>
 
 #include <algorithm>
 #include <cstdio>
-#include <cstring>
 #include <iterator>
 
 namespace pointplane
@@ -126,7 +126,7 @@ Coverage coverageOf(const Trajectory& groundTruth, const Trajectory& estimate, d
 
 std::string describe(const Coverage& coverage)
 {
-    char out[200];
+    char out[160];
     if (coverage.ofRecording)
     {
         std::snprintf(
@@ -137,16 +137,6 @@ std::string describe(const Coverage& coverage)
             coverage.tracked,
             coverage.predicted,
             coverage.lost);
-        constexpr double kMuchLess = 0.9;
-        if (coverage.ofTruth < kMuchLess * coverage.share)
-        {
-            const std::size_t end = std::strlen(out);
-            std::snprintf(
-                out + end,
-                sizeof out - end,
-                "; %.1f %% of the ground truth's time",
-                100 * coverage.ofTruth);
-        }
     }
     else
     {
@@ -156,6 +146,10 @@ std::string describe(const Coverage& coverage)
             "coverage %.1f %% of the ground truth's time, frames not marked",
             100 * coverage.share);
     }
-    return out;
+    // Ground truth often begins a little before the recording, and ends a little after it.
+    const bool isPart = coverage.ofRecording && coverage.ofTruth < 0.9 * coverage.share;
+    return out +
+           (isPart ? "; " + numberText(100 * coverage.ofTruth, 1) + " % of the ground truth's time"
+                   : std::string());
 }
 }  // namespace pointplane

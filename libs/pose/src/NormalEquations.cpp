@@ -16,9 +16,6 @@ namespace
 /** Sigma of unweighted residuals; sets only the balance with the prior. */
 constexpr double kUnweightedSigma = 0.01;
 
-/** Squared norm of a pair that is not usable. */
-constexpr double kUnusable = std::numeric_limits<double>::infinity();
-
 double tukeyWeight(double squaredNorm, double limit)
 {
     const double u = squaredNorm / (limit * limit);
@@ -87,7 +84,7 @@ double NormalEquations::costAt(const Motion& motion) const
     double cost = 0;
     for (size_t i = 0; i < points_.size() + planes_.size(); ++i)
     {
-        cost += gain(i) * robust(weighted(i, motion).squaredNorm, isPoint(i)).second;
+        cost += gain(i) * robust(i, weighted(i, motion).squaredNorm).second;
     }
     return cost;
 }
@@ -95,7 +92,7 @@ double NormalEquations::costAt(const Motion& motion) const
 Matrix123d NormalEquations::influence(size_t i) const
 {
     const auto& [residual, W, squaredNorm] = residuals_[i];
-    return gain(i) * robust(squaredNorm, isPoint(i)).first * jacobian(i).transpose() * W;
+    return gain(i) * robust(i, squaredNorm).first * jacobian(i).transpose() * W;
 }
 
 Matrix312d NormalEquations::jacobian(size_t i) const
@@ -118,7 +115,7 @@ NormalEquations::CameraColumns NormalEquations::cameraColumns(size_t i) const
 {
     CameraColumns out;
     const auto& [residual, W, squaredNorm] = residuals_[i];
-    const double w = robust(squaredNorm, isPoint(i)).first;
+    const double w = robust(i, squaredNorm).first;
     if (w > 0)
     {
         const ByCamera& K = residual.ofCamera;
@@ -135,7 +132,7 @@ NormalEquations::Weighted NormalEquations::weighted(size_t i, const Motion& moti
     Weighted out;
     if (!isUsable_[i])
     {
-        out.squaredNorm = kUnusable;
+        out.squaredNorm = std::numeric_limits<double>::infinity();
         return out;
     }
     if (isPoint(i))
@@ -168,19 +165,19 @@ NormalEquations::Weighted NormalEquations::weighted(size_t i, const Motion& moti
 }
 
 /** Weight and cost of a squared Mahalanobis norm [P17, after Eq. 10]. */
-std::pair<double, double> NormalEquations::robust(double squaredNorm, bool isPoint) const
+std::pair<double, double> NormalEquations::robust(size_t i, double squaredNorm) const
 {
-    if (squaredNorm == kUnusable)
+    if (!isUsable_[i])
     {
         return {0, 0};
     }
     const double limit = solver_.params.tukeySigmas * scale_;
     const double dof = solver_.params.planeStudentDof;
-    if (isPoint && limit > 0)
+    if (isPoint(i) && limit > 0)
     {
         return {tukeyWeight(squaredNorm, limit), tukeyCost(squaredNorm, limit)};
     }
-    if (!isPoint && dof > 0)
+    if (!isPoint(i) && dof > 0)
     {
         return {(dof + 3) / (dof + squaredNorm), (dof + 3) * std::log1p(squaredNorm / dof)};
     }
@@ -237,7 +234,7 @@ void NormalEquations::add(FeatureSum& sum, size_t i) const
         return;
     }
     const auto& [residual, W, squaredNorm] = residuals_[i];
-    const auto [w, cost] = robust(squaredNorm, isPoint(i));
+    const auto [w, cost] = robust(i, squaredNorm);
     const double noise = isPoint(i) ? noise_.points : noise_.planes;
     const double g = gain(i);
     sum.cost += g * cost;

@@ -68,7 +68,7 @@ class NormalEquations
     /** By the M-estimator. */
     [[nodiscard]] double weight(size_t i) const
     {
-        return robust(residuals_[i].squaredNorm, isPoint(i)).first;
+        return robust(i, residuals_[i].squaredNorm).first;
     }
 
     /** How far the surface that it is on agrees with the motion, in (0, 1]. */
@@ -96,11 +96,12 @@ class NormalEquations
     [[nodiscard]] CameraColumns cameraColumns(size_t i) const;
 
  private:
-    /** A residual, the weight matrix that it is given, and its squared norm by that. */
+    /** A residual, the weight matrix that it is given, and its squared norm by that. Of a pair that
+     * is not usable: zero, and infinity. */
     struct Weighted
     {
         Residual residual;
-        Eigen::Matrix3d W;
+        Eigen::Matrix3d W{Eigen::Matrix3d::Zero()};
         double squaredNorm{0};
     };
 
@@ -109,7 +110,7 @@ class NormalEquations
     [[nodiscard]] size_t surfaceOf(size_t i) const;
     [[nodiscard]] double gain(size_t i) const;
     [[nodiscard]] bool isPoint(size_t i) const { return i < points_.size(); }
-    [[nodiscard]] std::pair<double, double> robust(double squaredNorm, bool isPoint) const;
+    [[nodiscard]] std::pair<double, double> robust(size_t i, double squaredNorm) const;
     [[nodiscard]] int dof(size_t i) const;
     [[nodiscard]] double robustVariance() const;
     [[nodiscard]] double relativeMedian(size_t begin, size_t end) const;

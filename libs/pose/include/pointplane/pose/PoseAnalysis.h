@@ -56,7 +56,7 @@ struct ReferenceVariance
 {
     int reference;
     double variance;
-    double dof;  //!< of the residuals, without what poses follow
+    double dof;  //!< how much it counts: dimensions without what poses follow; patches
 };
 
 /** How large the residuals of planes are. */

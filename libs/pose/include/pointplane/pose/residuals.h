@@ -12,8 +12,8 @@ namespace pointplane
 struct Residual
 {
     Eigen::Vector3d r{Eigen::Vector3d::Zero()};
-    Eigen::Matrix3d cov{
-        Eigen::Matrix3d::Zero()};  //!< first-order propagation of both features' covariances
+    /** First-order propagation of both features' covariances. */
+    Eigen::Matrix3d cov{Eigen::Matrix3d::Zero()};
     Eigen::Matrix3d curCov{Eigen::Matrix3d::Zero()};   //!< the current feature's share of it
     Matrix36d J{Matrix36d::Zero()};                    //!< dr / dxi
     Matrix36d J_V{Matrix36d::Zero()};                  //!< dr / dV

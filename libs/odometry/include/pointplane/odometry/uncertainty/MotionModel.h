@@ -155,8 +155,8 @@ class MotionModel
     Vector6d velocity_;                 //!< at the latest measured frame
     Matrix12d cov_{Matrix12d::Zero()};  //!< of [pose of the latest measured frame; velocity_]
     Matrix12d measuredCov_{Matrix12d::Zero()};  //!< the same when it was measured
-    Vector6d learntDensity_{
-        Vector6d::Zero()};               //!< of the acceleration; density() is not below the least
+    /** Of the acceleration; density() is not below the least. */
+    Vector6d learntDensity_{Vector6d::Zero()};
     Vector6d speed2_{Vector6d::Zero()};  //!< mean square of the velocity, per axis
     double elapsed_{0};                  //!< since the latest measured frame [s]
     IncrementVelocities increments_;
