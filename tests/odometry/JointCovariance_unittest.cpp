@@ -158,6 +158,47 @@ TEST(JointCovariance, errorsByTheViewKeepTheirSizeWhenDistancesChange)
     EXPECT_LT(joint.latest()(0, 0), 1 + 2 * 4);
 }
 
+/** A camera that stands: its views are almost the same, and so are those of the references. */
+TEST(JointCovariance, errorsByTheViewOfACameraThatStandsStaySmall)
+{
+    for (const double step : {1e-3, 1e-7, 1e-9, 1e-12, 1e-15, 0.0})
+    {
+        test::GaussianSampler sampler(5);
+        JointCovariance joint = started();
+        std::vector<double> places{0, 0};  // of frames 0, 1, ..., in ways to another view
+        for (int frame = 2; frame <= 300; ++frame)
+        {
+            places.push_back(step * sampler.normal());
+            JointCovariance::Measurement measurement = against(1);
+            measurement.noise.setZero();
+            measurement.viewSigma.setConstant(2);
+            measurement.views.frames.assign({1, frame - 1, frame - 2});
+            measurement.views.frames.resize(static_cast<size_t>(std::min(frame - 1, 3)));
+            if (frame == 3)
+            {
+                measurement.views.frames = {1, 2};
+            }
+            std::vector<int> all = measurement.views.frames;
+            all.push_back(frame);
+            const auto n = static_cast<Eigen::Index>(all.size());
+            measurement.views.correlation.resize(n, n);
+            const double distance = 1 + 0.5 * std::sin(frame);  // of the features
+            for (Eigen::Index row = 0; row < n * n; ++row)
+            {
+                const double apart =
+                    places[static_cast<size_t>(all[static_cast<size_t>(row / n)])] -
+                    places[static_cast<size_t>(all[static_cast<size_t>(row % n)])];
+                measurement.views.correlation(row / n, row % n) =
+                    std::exp(-std::abs(apart) / distance);
+            }
+            measurement.referencePoints = measurement.references;
+            joint.measure(frame, kAtRest, kFrame, measurement);
+            joint.keep({1, frame - 1, frame});
+            ASSERT_LT(joint.latest()(0, 0), 0.1) << frame << ", " << step;
+        }
+    }
+}
+
 /** References agree with each other about a frame that errs by its own view: two of them tell no
  * more than one. */
 TEST(JointCovariance, aFramesOwnErrorIsNotAveragedByManyReferences)

@@ -9,7 +9,6 @@
 #include <Eigen/Cholesky>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace pointplane
@@ -223,8 +222,7 @@ void JointCovariance::addViews(
     }
 }
 
-/** What is known of the error at other views foretells a part of it (kriging); the rest is new. How
- * alike the known ones are stays as it was when they were added.
+/** What is known of the error at other views foretells a part of it (kriging); the rest is new.
  * \param C correlation of the errors of `frames` */
 void JointCovariance::addView(
     Kind kind, const std::vector<int>& frames, std::size_t added, const Eigen::MatrixXd& C)
@@ -250,11 +248,9 @@ void JointCovariance::addView(
         {
             rows.push_back(find(kind, frames[k]));
         }
-        Eigen::VectorXd weights = errors_.cov()(rows, rows).ldlt().solve(shared);
-        // Views were alike by other distances then: no more can be known than all of an error.
-        const double told = weights.dot(shared);
-        weights /= std::sqrt(std::max(1.0, told));
-        isNew = std::max(0.0, 1 - told);
+        const Eigen::VectorXd weights = C(known, known).ldlt().solve(shared);
+        // Views may have been alike by other distances then.
+        isNew = std::max(0.0, 1 - weights.dot(errors_.cov()(rows, rows) * weights));
         for (std::size_t k = 0; k < known.size(); ++k)
         {
             A.middleCols(find(kind, frames[known[k]]), size) =
