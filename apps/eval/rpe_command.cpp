@@ -112,6 +112,7 @@ ScoredResult RpeCommand::scored(
         {"pairs", result.translation.count},
         {"candidatePairs", result.candidatePairs},
         {"pairsOffDelta", result.pairsOffDelta},
+        {"pairsOfOtherTime", result.pairsOfOtherTime},
         {"coverage", toJson(result.coverage)},
         {"fixedDelta", rpe.fixedDelta},
         {"delta", rpe.delta},

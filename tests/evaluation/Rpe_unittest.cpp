@@ -301,6 +301,29 @@ TEST(Rpe, pairsThatAreFarOffTheirDeltaAreCounted)
         HasSubstr("1 of a pose with itself, as nothing is at its delta, coverage"));
 }
 
+/** As in the script: its last pose stands for those up to two intervals later. But it is told. */
+TEST(Rpe, pairsWithGroundTruthOfAnotherTimeAreCounted)
+{
+    const Trajectory truth = line({0, 1, 2, 3, 4, 5});
+    const Trajectory longer = line({0, 1, 2, 3, 4, 5, 6, 7, 8, 9});
+    for (const bool fixed : {true, false})
+    {
+        RpeOptions options;
+        options.fixedDelta = fixed;
+        const RpeResult result = relativePoseError(truth, longer, options);
+        EXPECT_EQ(result.translation.max, fixed ? 1 : 2);  // of an estimate without errors
+        EXPECT_EQ(result.pairsOfOtherTime, fixed ? 2U : 8 * 8U - 6 * 6U);
+        EXPECT_THAT(
+            describe(options, result),
+            HasSubstr(
+                fixed ? "7 of 8 pairs, 2 with ground truth an interval or more away, cov"
+                      : "64 of 100 pairs, 28 with ground truth an interval or more away"));
+        options.truthAt = TruthAt::Interpolated;
+        EXPECT_EQ(relativePoseError(truth, longer, options).pairsOfOtherTime, 0U);
+        EXPECT_EQ(relativePoseError(truth, line({0, 1, 2, 3, 4}, 0.5), {}).pairsOfOtherTime, 0U);
+    }
+}
+
 /** As in the script, over gaps; but it does not count for a measurement without a word. */
 TEST(Rpe, aPoseIsNotComparedWithItselfWithoutAWord)
 {

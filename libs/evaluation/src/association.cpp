@@ -107,6 +107,7 @@ SampledTruth sampleTruth(
     SampledTruth out;
     out.poses.assign(stamps.size(), Eigen::Isometry3d::Identity());
     out.valid.assign(stamps.size(), 0);
+    out.isOfOtherTime.assign(stamps.size(), 0);
     out.stamps.assign(stamps.size(), 0);
     out.maxTimeDifference = 2 * medianInterval(groundTruth.stamps);
     const std::vector<double>& truth = groundTruth.stamps;
@@ -118,6 +119,8 @@ SampledTruth sampleTruth(
         out.stamps[i] = truth[nearest];
         out.poses[i] = groundTruth.poses[nearest];
         out.valid[i] = std::abs(truth[nearest] - stamp) <= out.maxTimeDifference ? 1 : 0;
+        out.isOfOtherTime[i] =
+            std::abs(truth[nearest] - stamp) > 0.5 * out.maxTimeDifference - kSameTime ? 1 : 0;
         if (at == TruthAt::NearestStamp || out.valid[i] == 0 || truth[nearest] == stamp)
         {
             continue;
@@ -135,6 +138,7 @@ SampledTruth sampleTruth(
             continue;
         }
         out.stamps[i] = stamp;
+        out.isOfOtherTime[i] = 0;
         out.poses[i] = interpolated(
             groundTruth.poses[k - 1],
             groundTruth.poses[k],

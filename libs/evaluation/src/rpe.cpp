@@ -114,6 +114,8 @@ void evaluateListed(
             result.pairs.push_back({i, j, error.translation(i, j), error.rotation(i, j)});
             translations.push_back(result.pairs.back().translation);
             rotations.push_back(result.pairs.back().rotation);
+            result.pairsOfOtherTime +=
+                truth.isOfOtherTime[i] != 0 || truth.isOfOtherTime[j] != 0 ? 1 : 0;
         }
     }
     if (result.pairs.size() < 2)
@@ -150,13 +152,16 @@ Statistics statisticsOfAll(const std::vector<std::size_t>& poses, const ErrorOf&
 void evaluateAll(const SampledTruth& truth, const PairError& error, RpeResult& result)
 {
     std::vector<std::size_t> valid;
+    std::size_t ofTheirTime = 0;
     for (std::size_t i = 0; i < truth.valid.size(); ++i)
     {
         if (truth.valid[i] != 0)
         {
             valid.push_back(i);
+            ofTheirTime += truth.isOfOtherTime[i] == 0 ? 1 : 0;
         }
     }
+    result.pairsOfOtherTime = valid.size() * valid.size() - ofTheirTime * ofTheirTime;
     result.candidatePairs = truth.valid.size() * truth.valid.size();
     if (valid.size() < 2)
     {
@@ -312,6 +317,9 @@ std::string describe(const RpeOptions& options, const RpeResult& result)
                 ? std::to_string(alone) + " of a pose with itself, as nothing is at its delta, "
                 : "") +
            (off > 0 ? std::to_string(off) + " off by more than half of delta, " : "") +
+           (result.pairsOfOtherTime > 0 ? std::to_string(result.pairsOfOtherTime) +
+                                              " with ground truth an interval or more away, "
+                                        : "") +
            describe(result.coverage);
 }
 }  // namespace pointplane

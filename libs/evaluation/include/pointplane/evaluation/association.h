@@ -33,6 +33,7 @@ struct SampledTruth
 {
     std::vector<Eigen::Isometry3d> poses;  //!< one per stamp; identity where not valid
     std::vector<char> valid;               //!< 1 where ground truth is near enough
+    std::vector<char> isOfOtherTime;       //!< 1 where it is a median interval or more away
     std::vector<double> stamps;            //!< of the ground truth used [s]
     double maxTimeDifference{0};           //!< the bound that decided [s]
 };

@@ -62,6 +62,8 @@ struct RpeResult
     bool randomPairs{false};        //!< a random draw, not all of them
     /** Of a fixed delta: pairs whose distance differs from it by more than its half. */
     std::size_t pairsOffDelta{0};
+    /** With ground truth that is a median interval or more away, as beyond its end. */
+    std::size_t pairsOfOtherTime{0};
     Coverage coverage;
     std::vector<RpePair> pairs;  //!< empty when they were more than a million
 };
