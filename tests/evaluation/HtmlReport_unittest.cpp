@@ -151,11 +151,10 @@ TEST(TrajectoryCharts, showWhatTheyAreGiven)
         names.push_back(series.name);
     }
     // The ground truth is drawn after the estimate, so that it is seen.
-    EXPECT_THAT(
-        names, testing::ElementsAre("", "estimate", "3 sigma", "ground truth", "start", "end"));
-    EXPECT_EQ(paths[1].series[3].y[7], truth.poses[7].translation().z());
-    EXPECT_EQ(paths[1].series[1].level[7], 1000 * ate.errors[7].translation);
-    EXPECT_EQ(paths[1].series[5].y[0], truth.poses[59].translation().z());
+    EXPECT_THAT(names, testing::ElementsAre("estimate", "3 sigma", "ground truth", "start", "end"));
+    EXPECT_EQ(paths[1].series[2].y[7], truth.poses[7].translation().z());
+    EXPECT_EQ(paths[1].series[0].level[7], 1000 * ate.errors[7].translation);
+    EXPECT_EQ(paths[1].series[4].y[0], truth.poses[59].translation().z());
     EXPECT_TRUE(paths[0].equalScales);
     EXPECT_EQ(pathCharts(truth, {{"a", estimate, ate}, {"b", estimate, ate}})[0].series.size(), 5u);
 
@@ -252,13 +251,12 @@ TEST(TrajectoryCharts, linesEndAtLostFramesButThoseOfTheTruthDoNot)
     const AteResult ate = absoluteTrajectoryError(truth, estimate, {});
 
     const std::vector<ChartSeries> path = pathCharts(truth, {{"one", estimate, ate}})[0].series;
-    EXPECT_EQ(path[3].name, "ground truth");
-    EXPECT_EQ(path[3].y.size(), 120U);
-    EXPECT_EQ(path[3].y[60], truth.poses[60].translation().y());
-    EXPECT_EQ(holesIn(path[3]), 0U);
+    EXPECT_EQ(path[2].name, "ground truth");
+    EXPECT_EQ(path[2].y.size(), 120U);
+    EXPECT_EQ(path[2].y[60], truth.poses[60].translation().y());
+    EXPECT_EQ(holesIn(path[2]), 0U);
     for (const ChartSeries& series :
          {path[0],
-          path[1],
           pathCharts(truth, {{"a", estimate, ate}, {"b", estimate, ate}})[1].series[1],
           positionErrorChart(estimate, ate).series[0]})
     {
@@ -280,6 +278,49 @@ TEST(TrajectoryCharts, linesEndAtLostFramesButThoseOfTheTruthDoNot)
     options.fixedDelta = true;
     const RpeResult rpe = relativePoseError(truth, estimate, options);
     EXPECT_EQ(holesIn(relativeErrorCharts(estimate, options, rpe)[0].series[0]), 1U);
+}
+
+/** The estimate goes on where nobody knows how wrong it is. */
+TEST(TrajectoryCharts, linesEndWhereTheTruthDoes)
+{
+    const Trajectory whole = randomTrajectory(120, 1);
+    const Trajectory estimate = odometry(whole, 2);
+    Trajectory truth = withHole(whole, 90, 120);
+    truth = withHole(truth, 30, 60);
+    const AteResult ate = absoluteTrajectoryError(truth, estimate, {});
+    RpeOptions options;
+    options.fixedDelta = true;
+    const RpeResult rpe = relativePoseError(truth, estimate, options);
+    EXPECT_EQ(holesIn(relativeErrorCharts(estimate, options, rpe)[0].series[0]), 1U);
+    EXPECT_EQ(holesIn(positionErrorChart(estimate, ate).series[0]), 1U);
+
+    const std::vector<ChartSeries> one = pathCharts(truth, {{"a", estimate, ate}})[0].series;
+    EXPECT_EQ(one[0].y.size(), 60U + 1U);
+    EXPECT_TRUE(std::isnan(one[0].y[30]));
+    EXPECT_EQ(one[1].name, "no ground truth");
+    EXPECT_EQ(one[1].style, ChartSeries::Style::Dashed);
+    EXPECT_EQ(one[1].y.size(), 32U + 1U + 31U);  // with the poses that it joins
+    EXPECT_TRUE(std::isnan(one[1].y[32]));
+    EXPECT_EQ(one[1].y[0], one[0].y[29]);
+    EXPECT_EQ(one[1].y[33], one[0].y.back());
+
+    const std::vector<ChartSeries> two =
+        pathCharts(truth, {{"a", estimate, ate}, {"b", estimate, ate}})[0].series;
+    ASSERT_EQ(two.size(), 7U);
+    EXPECT_EQ(two[2].name, "no ground truth");
+    EXPECT_EQ(two[2].colour, "c0");
+    EXPECT_EQ(two[3].name, "");
+    EXPECT_EQ(two[3].colour, "c1");
+}
+
+/** Frames every half second have no pairs of 0.7 s. */
+TEST(TrajectoryCharts, lengthsThatNoPairHasAreNotJoined)
+{
+    const Trajectory truth = randomTrajectory(60, 1, 0.5);
+    const ChartSeries rmse = errorOverInterval(truth, odometry(truth, 2), {})[0].series[0];
+    EXPECT_EQ(rmse.x, (std::vector<double>{0.5, 0.5, 1, 1.5, 2, 3, 4, 5}));
+    EXPECT_TRUE(std::isnan(rmse.y[1]));
+    EXPECT_EQ(holesIn(rmse), 1U);
 }
 
 /** It may turn on while the estimate is lost. */

@@ -279,10 +279,12 @@ void checkPositions(const Trajectory& trajectory, double scale)
     }
 }
 
+double longestStep(const std::vector<double>& stamps) { return 5 * medianInterval(stamps); }
+
 std::vector<bool> holesBefore(const Trajectory& trajectory)
 {
     const std::vector<double>& stamps = trajectory.stamps;
-    const double longest = 5 * medianInterval(stamps);
+    const double longest = longestStep(stamps);
     std::vector<double> lost = trajectory.lostStamps;
     std::sort(lost.begin(), lost.end());
     std::vector<bool> out(trajectory.size(), false);

@@ -80,6 +80,7 @@ std::string chartStyle(bool dark)
     rule(".axis", std::string("stroke:") + theme.muted + ";stroke-width:1");
     rule(".line", "fill:none;stroke-width:1.6;stroke-linejoin:round");
     rule(".dashed", "stroke-dasharray:6 4");
+    rule(".alone", "stroke-width:4;stroke-linecap:round");
     rule(".level", "fill:none;stroke-width:4.5;stroke-linecap:round;stroke-linejoin:round");
     rule(".band", "fill-opacity:.25");
     rule(".mark", std::string("stroke:") + theme.ink + ";stroke-width:1.5");

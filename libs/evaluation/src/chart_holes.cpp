@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "chart_holes.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace pointplane
@@ -8,7 +10,7 @@ namespace pointplane
 void interrupt(ChartSeries& series)
 {
     constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-    if (series.x.empty())
+    if (series.x.empty() || std::isnan(series.y.back()))
     {
         return;
     }
@@ -23,15 +25,18 @@ void interrupt(ChartSeries& series)
     }
 }
 
-bool isHoleBetween(const std::vector<bool>& holes, std::size_t from, std::size_t to)
+ChartHoles::ChartHoles(const Trajectory& trajectory)
+    : trajectory_(trajectory),
+      holes_(holesBefore(trajectory)),
+      longestStep_(longestStep(trajectory.stamps))
 {
-    for (std::size_t k = from + 1; k <= to; ++k)
-    {
-        if (holes[k])
-        {
-            return true;
-        }
-    }
-    return false;
+}
+
+bool ChartHoles::isBetween(std::size_t from, std::size_t to) const
+{
+    const auto begin = holes_.begin() + static_cast<std::ptrdiff_t>(from) + 1;
+    const auto end = holes_.begin() + static_cast<std::ptrdiff_t>(to) + 1;
+    return trajectory_.stamps[to] - trajectory_.stamps[from] > longestStep_ ||
+           (from < to && std::find(begin, end, true) != end);
 }
 }  // namespace pointplane

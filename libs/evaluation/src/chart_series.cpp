@@ -21,14 +21,18 @@ std::string polylines(
     const ChartAxis& y = plot.yOf(series);
     std::string out;
     std::string points;
+    std::size_t count = 0;
     double before = 0;
     const auto finish = [&]
     {
-        if (!points.empty())
+        if (count > 0)
         {
-            out += "<polyline class=\"" + style + "\" points=\"" + points + "\"/>\n";
+            // A line of one point is a dot.
+            out += "<polyline class=\"" + style + (count == 1 ? " alone" : "") + "\" points=\"" +
+                   points + (count == 1 ? points : "") + "\"/>\n";
         }
         points.clear();
+        count = 0;
     };
     for (const std::size_t k : thinned(series.y))
     {
@@ -44,6 +48,7 @@ std::string polylines(
             points += point(px, before) + " ";
         }
         points += point(px, py) + " ";
+        ++count;
         before = py;
     }
     finish();
@@ -62,28 +67,30 @@ std::string levels(const ChartLayout& plot, const ChartSeries& series)
     const std::vector<std::size_t> keep = thinned(series.y);
     const auto isHole = [&](std::size_t n) { return !std::isfinite(series.y[keep[n]]); };
     std::string out;
-    for (std::size_t begin = 0; begin + 1 < keep.size();)
+    const auto isLast = [&](std::size_t n) { return n + 1 == keep.size() || isHole(n + 1); };
+    const auto isFirst = [&](std::size_t n) { return n == 0 || isHole(n - 1); };
+    for (std::size_t begin = 0; begin < keep.size();)
     {
-        if (isHole(begin) || isHole(begin + 1))
+        if (isHole(begin) || (isLast(begin) && !isFirst(begin)))
         {
             ++begin;
             continue;
         }
         const long bin = binOf(keep[begin]);
-        std::size_t end = begin + 1;
-        while (end + 1 < keep.size() && binOf(keep[end]) == bin && !isHole(end + 1))
+        std::size_t end = isLast(begin) ? begin : begin + 1;  // one point alone is a dot
+        while (!isLast(end) && binOf(keep[end]) == bin)
         {
             ++end;
         }
         out += "<polyline class=\"level\" stroke=\"" +
                levelColour(static_cast<double>(bin) / (kLevels - 1)) + "\" points=\"";
-        for (std::size_t k = begin; k <= end; ++k)
+        for (std::size_t n = begin; n <= std::max(end, begin + 1); ++n)
         {
-            out += point(plot.x->pixelsOf(series.x[keep[k]]), plot.y->pixelsOf(series.y[keep[k]])) +
-                   " ";
+            const std::size_t k = keep[std::min(n, end)];
+            out += point(plot.x->pixelsOf(series.x[k]), plot.y->pixelsOf(series.y[k])) + " ";
         }
         out += "\"/>\n";
-        begin = end;
+        begin = std::max(end, begin + 1);
     }
     return out;
 }

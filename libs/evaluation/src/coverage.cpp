@@ -89,7 +89,7 @@ Coverage coverageOf(const Trajectory& groundTruth, const Trajectory& estimate, d
         frames.end(),
         std::back_inserter(stamps),
         [](const Frame& frame) { return frame.stamp; });
-    const double longest = 5 * medianInterval(stamps);
+    const double longest = longestStep(stamps);
     const KnownTime truth(groundTruth);
     double seconds = 0;
     double steps = 0;

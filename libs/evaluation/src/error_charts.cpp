@@ -7,6 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "chart_holes.h"
+
 namespace pointplane
 {
 namespace
@@ -36,6 +38,18 @@ Chart histogram(std::vector<double> errors, const std::string& what)
     chart.yRightLabel = "smaller [%]";
     chart.series = {counts, share};
     return chart;
+}
+
+/** Whether most pairs are of this length, to a tenth: there may be no frames at such a distance. */
+bool areAbout(double seconds, const Trajectory& estimate, const RpeResult& result)
+{
+    const auto isAbout = [&](const RpePair& pair)
+    {
+        const double length = estimate.stamps[pair.j] - estimate.stamps[pair.i];
+        return std::abs(length - seconds) <= 0.1 * seconds;
+    };
+    const auto count = std::count_if(result.pairs.begin(), result.pairs.end(), isAbout);
+    return 2 * static_cast<std::size_t>(count) > result.pairs.size();
 }
 }  // namespace
 
@@ -87,6 +101,10 @@ std::vector<Chart> errorOverInterval(
         try
         {
             const RpeResult result = relativePoseError(groundTruth, estimate, over);
+            if (!areAbout(seconds, estimate, result))
+            {
+                throw std::runtime_error("pairs are of another length");
+            }
             translation.x.push_back(seconds);
             translation.y.push_back(1000 * result.translation.rmse);
             rotation.x.push_back(seconds);
@@ -94,10 +112,12 @@ std::vector<Chart> errorOverInterval(
         }
         catch (const std::runtime_error&)
         {
-            // no pairs of that length: no point in the chart
+            interrupt(translation);  // nobody measured this length
+            interrupt(rotation);
         }
     }
-    if (translation.x.size() < 2)
+    const auto isMeasured = [](double y) { return std::isfinite(y); };
+    if (std::count_if(translation.y.begin(), translation.y.end(), isMeasured) < 2)
     {
         return {};
     }

@@ -16,68 +16,104 @@ namespace
 {
 constexpr std::size_t kEllipses = 12;
 
-/** Positions with a hole before those that have one. */
-struct Path
+/** In two of the world's axes. */
+struct PathView
 {
-    std::vector<Eigen::Vector3d> positions;
-    std::vector<bool> holes;
+    int horizontal, vertical;
+
+    void add(ChartSeries& series, const Eigen::Vector3d& position) const
+    {
+        series.x.push_back(position[horizontal]);
+        series.y.push_back(position[vertical]);
+    }
 };
 
-/** In two of the world's axes. */
-ChartSeries pathSeries(
+ChartSeries markAt(
+    const Eigen::Vector3d& position,
+    const PathView& view,
     const std::string& name,
-    const Path& path,
-    int horizontal,
-    int vertical,
     const std::string& colour,
-    ChartSeries::Style style = ChartSeries::Style::Line)
+    ChartSeries::Style style)
 {
-    ChartSeries series;
-    series.name = name;
-    series.colour = colour;
-    series.style = style;
-    for (std::size_t k = 0; k < path.positions.size(); ++k)
+    ChartSeries series{name, {}, {}, style, false, colour};
+    view.add(series, position);
+    return series;
+}
+
+/** Only the part of the ground truth that the estimate covers. */
+ChartSeries truthOf(const Trajectory& groundTruth, const AteResult& ate, const PathView& view)
+{
+    const ChartHoles holes(groundTruth);
+    ChartSeries series{"ground truth", {}, {}, ChartSeries::Style::Line, false, "ink"};
+    for (std::size_t k = ate.errors.front().truth; k <= ate.errors.back().truth; ++k)
     {
-        if (path.holes[k])
+        if (holes.isBefore(k))
         {
             interrupt(series);
         }
-        series.x.push_back(path.positions[k][horizontal]);
-        series.y.push_back(path.positions[k][vertical]);
+        view.add(series, groundTruth.poses[k].translation());
     }
     return series;
 }
 
-/** In the ground truth's world. */
-Path pathOf(const DrawnPath& path)
+/** An estimate in the ground truth's world. */
+struct PathSeries
 {
-    Path out{{}, holesBefore(path.estimate)};
-    for (const Eigen::Isometry3d& pose : path.estimate.poses)
-    {
-        out.positions.push_back(path.ate.T_truth_estimate * (path.scale * pose.translation()));
-    }
-    return out;
-}
+    ChartSeries compared;   //!< where there is ground truth
+    ChartSeries remainder;  //!< the other parts, beyond its end for example
+};
 
-/** Only the part of the ground truth that the estimate covers. */
-Path truthOf(const Trajectory& groundTruth, const AteResult& ate)
+PathSeries pathSeries(const DrawnPath& path, const PathView& view)
 {
-    const std::vector<bool> holes = holesBefore(groundTruth);
-    Path out;
-    for (std::size_t k = ate.errors.front().truth; k <= ate.errors.back().truth; ++k)
+    const Trajectory& estimate = path.estimate;
+    const ChartHoles holes(estimate);
+    const auto placeOf = [&](std::size_t pose) -> Eigen::Vector3d
+    { return path.ate.T_truth_estimate * (path.scale * estimate.poses[pose].translation()); };
+    PathSeries out;
+    out.compared.name = path.name;
+    out.remainder.name = "no ground truth";
+    out.remainder.style = ChartSeries::Style::Dashed;
+    std::vector<bool> hasTruth(estimate.size(), false);
+    std::vector<bool> isCompared(estimate.size() + 1, false);  // the way to each pose
+    std::size_t before = path.ate.errors.front().estimate;
+    for (const AteError& error : path.ate.errors)
     {
-        out.positions.push_back(groundTruth.poses[k].translation());
-        out.holes.push_back(holes[k]);
+        if (holes.isBetween(before, error.estimate))
+        {
+            interrupt(out.compared);
+        }
+        else
+        {
+            for (std::size_t k = before + 1; k <= error.estimate; ++k)
+            {
+                isCompared[k] = true;
+            }
+        }
+        before = error.estimate;
+        hasTruth[before] = true;
+        view.add(out.compared, placeOf(before));
+        out.compared.level.push_back(1000 * error.translation);
+    }
+    const auto isWay = [&](std::size_t to)
+    { return to > 0 && to < estimate.size() && !isCompared[to] && !holes.isBefore(to); };
+    for (std::size_t k = 0; k < estimate.size(); ++k)
+    {
+        const bool isAlone = !hasTruth[k] && !isCompared[k] && !isCompared[k + 1];
+        if (!isWay(k))
+        {
+            interrupt(out.remainder);
+        }
+        if (isWay(k) || isWay(k + 1) || isAlone)
+        {
+            view.add(out.remainder, placeOf(k));
+        }
     }
     return out;
 }
 
 /** All ellipses as one line with gaps. */
 ChartSeries ellipseSeries(
-    const Trajectory& estimate,
-    const Eigen::Isometry3d& T_world_poses,
-    int horizontal,
-    int vertical)
+    const Trajectory& estimate, const Eigen::Isometry3d& T_world_poses, const PathView& view)
 {
     ChartSeries series;
     series.name = "3 sigma";
@@ -89,8 +125,8 @@ ChartSeries ellipseSeries(
         const auto contour = positionEllipse(
             T_world_poses * estimate.poses[k],
             propagate(Ad, estimate.covs[k]),
-            horizontal,
-            vertical);
+            view.horizontal,
+            view.vertical);
         for (const Eigen::Vector2d& p : contour)
         {
             series.x.push_back(p.x());
@@ -131,65 +167,53 @@ std::vector<Eigen::Vector2d> positionEllipse(
     return out;
 }
 
-namespace
-{
-/** One path: coloured by its error, with ellipses. */
-void addPath(Chart& chart, const DrawnPath& path, int horizontal, int vertical)
-{
-    const Path whole = pathOf(path);
-    chart.series.push_back(pathSeries("", whole, horizontal, vertical, "muted"));
-    ChartSeries coloured = pathSeries(path.name, {}, horizontal, vertical, "muted");
-    std::size_t before = 0;
-    for (const AteError& error : path.ate.errors)
-    {
-        if (isHoleBetween(whole.holes, before, error.estimate))
-        {
-            interrupt(coloured);
-        }
-        before = error.estimate;
-        coloured.x.push_back(whole.positions[error.estimate][horizontal]);
-        coloured.y.push_back(whole.positions[error.estimate][vertical]);
-        coloured.level.push_back(1000 * error.translation);
-    }
-    chart.levelLabel = "position error [mm]";
-    chart.series.push_back(std::move(coloured));
-    if (!path.estimate.covs.empty())
-    {
-        chart.series.push_back(
-            ellipseSeries(path.estimate, path.ate.T_truth_estimate, horizontal, vertical));
-    }
-}
-}  // namespace
-
 std::vector<Chart> pathCharts(const Trajectory& groundTruth, const std::vector<DrawnPath>& paths)
 {
-    const Path truth = truthOf(groundTruth, paths.front().ate);
+    using Style = ChartSeries::Style;
     std::vector<Chart> charts;
     for (const bool above : {true, false})
     {
-        const int vertical = above ? 1 : 2;
+        const PathView view{0, above ? 1 : 2};
         Chart chart;
         chart.title = above ? "Path from above" : "Path from the side";
         chart.xLabel = "x [m]";
         chart.yLabel = above ? "y [m]" : "z [m]";
         chart.equalScales = true;
+        const bool isSingle = paths.size() == 1;
+        std::vector<ChartSeries> remainders;
         for (const DrawnPath& path : paths)
         {
-            if (paths.size() == 1)
+            PathSeries series = pathSeries(path, view);
+            series.remainder.colour =
+                isSingle ? "muted" : "c" + std::to_string(chart.series.size() % 8);
+            if (!isSingle)
             {
-                addPath(chart, path, 0, vertical);
+                series.compared.level.clear();
             }
-            else
+            if (!series.remainder.x.empty())
             {
-                chart.series.push_back(pathSeries(path.name, pathOf(path), 0, vertical, ""));
+                series.remainder.name = remainders.empty() ? series.remainder.name : "";
+                remainders.push_back(std::move(series.remainder));
             }
+            chart.series.push_back(std::move(series.compared));
         }
-        using Style = ChartSeries::Style;
-        chart.series.push_back(pathSeries("ground truth", truth, 0, vertical, "ink"));
-        chart.series.push_back(pathSeries(
-            "start", {{truth.positions.front()}, {false}}, 0, vertical, "c2", Style::Start));
-        chart.series.push_back(pathSeries(
-            "end", {{truth.positions.back()}, {false}}, 0, vertical, "alarm", Style::End));
+        chart.series.insert(chart.series.end(), remainders.begin(), remainders.end());
+        const DrawnPath& first = paths.front();
+        if (isSingle)
+        {
+            chart.levelLabel = "position error [mm]";
+        }
+        if (isSingle && !first.estimate.covs.empty())
+        {
+            chart.series.push_back(ellipseSeries(first.estimate, first.ate.T_truth_estimate, view));
+        }
+        const auto placeOf = [&](const AteError& error)
+        { return groundTruth.poses[error.truth].translation(); };
+        chart.series.push_back(truthOf(groundTruth, first.ate, view));
+        chart.series.push_back(
+            markAt(placeOf(first.ate.errors.front()), view, "start", "c2", Style::Start));
+        chart.series.push_back(
+            markAt(placeOf(first.ate.errors.back()), view, "end", "alarm", Style::End));
         charts.push_back(std::move(chart));
     }
     return charts;

@@ -34,7 +34,7 @@ ChartSeries levels(
 std::vector<Chart> relativeErrorCharts(
     const Trajectory& estimate, const RpeOptions& options, const RpeResult& result)
 {
-    const std::vector<bool> holes = holesBefore(estimate);
+    const ChartHoles holes(estimate);
     std::vector<Chart> charts;
     for (const bool translation : {true, false})
     {
@@ -49,7 +49,7 @@ std::vector<Chart> relativeErrorCharts(
         std::size_t before = 0;
         for (const RpePair& pair : result.pairs)
         {
-            if (isHoleBetween(holes, before, pair.i))
+            if (holes.isBetween(before, pair.i))
             {
                 interrupt(series);
             }
@@ -80,11 +80,11 @@ Chart positionErrorChart(const Trajectory& estimate, const AteResult& result)
     chart.yLabel = "distance to the ground truth [mm]";
     ChartSeries series;
     series.name = "position error";
-    const std::vector<bool> holes = holesBefore(estimate);
+    const ChartHoles holes(estimate);
     std::size_t before = 0;
     for (const AteError& error : result.errors)
     {
-        if (isHoleBetween(holes, before, error.estimate))
+        if (holes.isBetween(before, error.estimate))
         {
             interrupt(series);
         }

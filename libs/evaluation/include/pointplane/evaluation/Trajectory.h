@@ -94,8 +94,11 @@ void checkOverlap(const Trajectory& groundTruth, const Trajectory& estimate, dou
  * positions \throws std::runtime_error naming file and stamp */
 void checkPositions(const Trajectory& trajectory, double scale = 1);
 
+/** Five median intervals: what is longer is a hole. */
+[[nodiscard]] double longestStep(const std::vector<double>& stamps);
+
 /** For each pose, whether the recording has a hole before it: a lost frame, or an interval longer
- * than five median ones. Nothing is known of the way there. The first pose has none. */
+ * than longestStep(). Nothing is known of the way there. The first pose has none. */
 [[nodiscard]] std::vector<bool> holesBefore(const Trajectory& trajectory);
 
 /** Median of the intervals between stamps [s]; 0 for fewer than two. */
