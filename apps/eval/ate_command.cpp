@@ -99,13 +99,8 @@ std::string singlesOf(const Trajectory& estimate, const AteResult& result)
     for (const AteError& error : result.errors)
     {
         const Eigen::Vector3d& d = error.difference;
-        out += format(
-            "%.9f,%.9g,%.9g,%.9g,%.9g\n",
-            estimate.stamps[error.estimate],
-            error.translation,
-            d.x(),
-            d.y(),
-            d.z());
+        out += savedStamp(estimate.stamps[error.estimate]) +
+               format(",%.6g,%.6g,%.6g,%.6g\n", error.translation, d.x(), d.y(), d.z());
     }
     return out;
 }

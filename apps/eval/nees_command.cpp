@@ -215,17 +215,18 @@ std::string savedIncrements(const std::string& file, const Trajectory& estimate,
     {
         for (const NeesIncrement& increment : tested.increments)
         {
-            out += csvField(file) + "," + nameOf(tested.interval) +
-                   format(",%.9f,%.9f", estimate.stamps[increment.i], estimate.stamps[increment.j]);
+            out += csvField(file) + "," + nameOf(tested.interval) + "," +
+                   savedStamp(estimate.stamps[increment.i]) + "," +
+                   savedStamp(estimate.stamps[increment.j]);
             for (Eigen::Index k = 0; k < 6; ++k)
             {
-                out += format(",%.9g", increment.error[k]);
+                out += format(",%.6g", increment.error[k]);
             }
             for (Eigen::Index k = 0; k < 6; ++k)
             {
-                out += format(",%.9g", std::sqrt(increment.cov(k, k)));
+                out += format(",%.6g", std::sqrt(increment.cov(k, k)));
             }
-            out += format(",%.9g\n", increment.nees);
+            out += format(",%.6g\n", increment.nees);
         }
     }
     return out;

@@ -5,6 +5,7 @@
 #include <pointplane/mrpt_io/errors.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cstdarg>
 #include <cstdio>
 #include <ostream>
@@ -107,6 +108,12 @@ std::string shownName(const std::string& name, std::size_t most)
 {
     const std::string dots = "...";
     return name.size() <= most ? name : dots + name.substr(name.size() - (most - dots.size()));
+}
+
+std::string savedStamp(double stamp)
+{
+    char text[400];  // holds every double
+    return {text, std::to_chars(text, text + sizeof text, stamp, std::chars_format::fixed).ptr};
 }
 
 std::string csvField(const std::string& text)

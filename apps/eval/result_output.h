@@ -77,10 +77,13 @@ void writeText(const std::string& text, const std::string& path, std::ostream& o
  * the file does not mark them). */
 [[nodiscard]] nlohmann::ordered_json toJson(const Coverage& coverage);
 
-/** Field of a CSV file, quoted where needed. */
 /** At most so many characters: of long ones the end, in which names of files differ. */
 [[nodiscard]] std::string shownName(const std::string& name, std::size_t most);
 
+/** A stamp for --save: the fewest decimals that read back as the same number. */
+[[nodiscard]] std::string savedStamp(double stamp);
+
+/** Field of a CSV file, quoted where needed. */
 [[nodiscard]] std::string csvField(const std::string& text);
 
 /** printf to a string. */

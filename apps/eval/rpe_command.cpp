@@ -87,12 +87,8 @@ std::string singlesOf(const Trajectory& estimate, const RpeResult& result)
     std::string out = "stamp_i,stamp_j,translation_m,rotation_deg\n";
     for (const RpePair& pair : result.pairs)
     {
-        out += format(
-            "%.9f,%.9f,%.9g,%.9g\n",
-            estimate.stamps[pair.i],
-            estimate.stamps[pair.j],
-            pair.translation,
-            pair.rotation * kDegreesPerRadian);
+        out += savedStamp(estimate.stamps[pair.i]) + "," + savedStamp(estimate.stamps[pair.j]) +
+               format(",%.6g,%.6g\n", pair.translation, pair.rotation * kDegreesPerRadian);
     }
     return out;
 }

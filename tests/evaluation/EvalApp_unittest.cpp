@@ -694,7 +694,7 @@ TEST_F(EvalApp, savesErrorsOneByOne)
     EXPECT_THAT(
         test::readBytes(files / "pairs.csv"),
         testing::StartsWith("stamp_i,stamp_j,translation_m,rotation_deg\n"
-                            "0.000000000,1.000000000,0.05,0\n"));
+                            "0,1,0.05,0\n"));
     // Few poses: all ordered pairs, too.
     const std::string all = run({"rpe", truth, estimate, "--max-pairs", "0", "--save", "-"}).out;
     EXPECT_EQ(std::count(all.begin(), all.end(), '\n'), 51 * 51 + 1);
@@ -703,7 +703,21 @@ TEST_F(EvalApp, savesErrorsOneByOne)
         run({"ate", truth, estimate, "--align", "none", "--save", files / "poses.csv"}).code, 0);
     const std::string poses = test::readBytes(files / "poses.csv");
     EXPECT_THAT(poses, testing::StartsWith("stamp,translation_m,x_m,y_m,z_m\n"));
-    EXPECT_THAT(poses, HasSubstr("\n1.000000000,0.05,0.05,0,0\n"));
+    EXPECT_THAT(poses, HasSubstr("\n1,0.05,0.05,0,0\n"));
+}
+
+/** 1305031102.160407 was 1305031102.160407066. */
+TEST_F(EvalApp, savesStampsThatReadBackAndValuesToSixDigits)
+{
+    const std::string fine = writeFile(
+        files,
+        "fine.txt",
+        "1305031102.160407 0 0 0 0 0 0 1\n1305031102.19433 0.1234567891 0 0 0 0 0 1\n"
+        "1500000000 0.2 0 0 0 0 0 1\n");
+    EXPECT_EQ(
+        run({"ate", fine, fine, "--scale", "2", "--align", "none", "--save", "-"}).out,
+        "stamp,translation_m,x_m,y_m,z_m\n1305031102.160407,0,0,0,0\n"
+        "1305031102.19433,0.123457,0.123457,0,0\n1500000000,0.2,0.2,0,0\n");
 }
 
 TEST_F(EvalApp, marksOfLostAndPredictedFramesAreReadAndSaid)
