@@ -105,6 +105,27 @@ std::string singlesOf(const Trajectory& estimate, const AteResult& result)
     return out;
 }
 
+/** If unaligned errors are rather those of where the world is: an odometry begins its own. */
+std::string hintAtWorlds(
+    const Trajectory& truth, const Trajectory& estimate, AteOptions options, double rmse)
+{
+    if (options.alignment != Alignment::None)
+    {
+        return "";
+    }
+    options.alignment = Alignment::FirstPose;
+    const double aligned = absoluteTrajectoryError(truth, estimate, options).translation.rmse;
+    return aligned < 0.5 * rmse
+               ? format(
+                     "with --align first the RMSE would be %.6g m instead of %.6g m; are the poses "
+                     "of '%s' in another world than the ground truth? (--body-from-gt does not "
+                     "change the world)",
+                     aligned,
+                     rmse,
+                     estimate.name.c_str())
+               : "";
+}
+
 void AteCommand::run(CommandContext& context) const
 {
     OutputGuard guard;
@@ -123,11 +144,15 @@ void AteCommand::run(CommandContext& context) const
     run.ate = options;
     run.nees.T_truth_body = input.T_truth_body();
     run.intervals = {{1, DeltaUnit::Frames}, {1, DeltaUnit::Seconds}};
-    run.hint = hintAtBodies(input, run.groundTruth, run.estimate);
-    context.hint(run.hint);
     const Trajectory measured = withoutLost(run.estimate);
-    const AteResult result = absoluteTrajectoryError(
-        withBody(run.groundTruth, run.nees.T_truth_body), measured, options);
+    const Trajectory truth = withBody(run.groundTruth, run.nees.T_truth_body);
+    const AteResult result = absoluteTrajectoryError(truth, measured, options);
+    run.hint = hintAtBodies(input, run.groundTruth, run.estimate);
+    if (run.hint.empty())
+    {
+        run.hint = hintAtWorlds(truth, measured, options, result.translation.rmse);
+    }
+    context.hint(run.hint);
 
     ScoredResult scored;
     scored.title = "Absolute trajectory error";

@@ -706,6 +706,30 @@ TEST_F(EvalApp, savesErrorsOneByOne)
     EXPECT_THAT(poses, HasSubstr("\n1,0.05,0.05,0,0\n"));
 }
 
+/** Its errors were those of where an odometry begins, without a word. */
+TEST_F(EvalApp, withoutAlignmentAteTellsOfWorldsThatDiffer)
+{
+    const std::string other = files / "other.txt";
+    const auto turned = [&](const std::string& quaternion)
+    {
+        std::ofstream out(other);
+        for (int i = 0; i <= 50; ++i)
+        {
+            out << 0.1 * i << " 7 " << 0.101 * i << " 0 " << quaternion << "\n";
+        }
+    };
+    const std::string hint =
+        "/other.txt' in another world than the ground truth? (--body-from-gt does not change";
+    turned("0 0 0.707106781 0.707106781");
+    EXPECT_THAT(run({"ate", truth, other, "--align", "none"}).err, HasSubstr(hint));
+    EXPECT_EQ(run({"ate", truth, other}).err, "");
+    EXPECT_EQ(run({"ate", truth, estimate, "--align", "none"}).err, "");
+    turned("0.707106781 0 0.707106781 0");
+    EXPECT_THAT(
+        run({"ate", truth, other, "--align", "none", "--body-from-gt", "optical"}).err,
+        HasSubstr(hint));
+}
+
 /** 1305031102.160407 was 1305031102.160407066. */
 TEST_F(EvalApp, savesStampsThatReadBackAndValuesToSixDigits)
 {
