@@ -211,6 +211,21 @@ TEST_F(ExternalImages, ofAnEarlierRawlogStayUntilTheNewOneIsComplete)
     EXPECT_EQ(RawlogReader(path_).externalsDirectory(), dir_ / "a_Images");
 }
 
+/** First beside the link: somebody may have put them there. */
+TEST_F(ExternalImages, areFoundThroughALink)
+{
+    writeComplete(10);
+    std::filesystem::create_directories(dir_ / "links");
+    const std::string link = dir_ / "links/b.rawlog";
+    std::filesystem::create_symlink("../a.rawlog", link);
+    EXPECT_EQ(RawlogReader(link).externalsDirectory(), dir_ / "a_Images");
+    std::filesystem::create_directories(dir_ / "links/b_Images");
+    EXPECT_EQ(RawlogReader(link).externalsDirectory(), dir_ / "links/b_Images");
+    std::filesystem::remove_all(dir_ / "links/b_Images");
+    std::filesystem::remove_all(dir_ / "a_Images");
+    EXPECT_EQ(RawlogReader(link).externalsDirectory(), dir_ / "links/b_Images");
+}
+
 TEST_F(ExternalImages, leaveNothingBehindWhereTheRunIsRefused)
 {
     ScanWriter writer(path_, "RGBD", true);

@@ -21,32 +21,51 @@
 
 namespace pointplane
 {
+namespace fs = std::filesystem;
+
 namespace
 {
-/** MRPT's rule. Its own CRawlog::detectImagesDirectory() (2.5.8) drops the slash between folder and
- * name, and so finds nothing for a path with a folder in it. Where there is no such folder, the
+/** Those beside a rawlog that are there, best first. MRPT's own CRawlog::detectImagesDirectory()
+ * (2.5.8) drops the slash between folder and name, and finds nothing for a path with a folder. */
+[[nodiscard]] std::optional<std::string> imagesBeside(const fs::path& rawlog)
+{
+    std::vector<std::string> names;
+    if (rawlog.extension() == ".partial")  // of a run that was killed, its images as well
+    {
+        const std::string folder = imagesFolderOf(fs::path(rawlog).replace_extension());
+        names = {partialFolderOf(folder), folder};
+    }
+    else
+    {
+        const std::string stem = fs::path(rawlog).replace_extension().string();
+        names = {
+            stem + "_Images",
+            stem + "_images",
+            stem + "_IMAGES",
+            (rawlog.parent_path() / "Images").string()};
+    }
+    const auto isFolder = [](const std::string& name)
+    {
+        std::error_code error;
+        return fs::is_directory(name, error);
+    };
+    const auto found = std::find_if(names.begin(), names.end(), isFolder);
+    return found == names.end() ? std::nullopt : std::optional<std::string>(*found);
+}
+
+/** MRPT's rule, of a link beside the file that it leads to, too. Where there is no such folder, the
  * first name is the one to tell. */
 [[nodiscard]] std::string imagesDirectory(const std::string& rawlog)
 {
-    const std::filesystem::path path(rawlog);
-    if (path.extension() == ".partial")  // of a run that was killed, its images as well
+    std::error_code error;
+    const fs::path path(rawlog);
+    auto found = imagesBeside(path);
+    if (!found && fs::is_symlink(path, error))
     {
-        const std::string folder = imagesFolderOf(std::filesystem::path(path).replace_extension());
-        const std::string partial = partialFolderOf(folder);
-        std::error_code error;
-        return std::filesystem::is_directory(partial, error) ? partial : folder;
+        found = imagesBeside(fs::weakly_canonical(path, error));
     }
-    const std::string stem = std::filesystem::path(path).replace_extension().string();
-    const std::string shared = (path.parent_path() / "Images").string();
-    for (const std::string& name : {stem + "_Images", stem + "_images", stem + "_IMAGES", shared})
-    {
-        std::error_code error;
-        if (std::filesystem::is_directory(name, error))
-        {
-            return name;
-        }
-    }
-    return stem + "_Images";
+    const bool isPartial = path.extension() == ".partial";
+    return found.value_or(imagesFolderOf(isPartial ? fs::path(path).replace_extension() : path));
 }
 
 /** As by `gzip a.rawlog`, although rawlogs are compressed. */

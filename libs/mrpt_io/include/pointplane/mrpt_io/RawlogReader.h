@@ -86,7 +86,8 @@ class RawlogReader
     [[nodiscard]] const std::string& path() const;
 
     /** Folder of external images and ranges, by MRPT's rule: NAME_Images or a variant of it, else
-     * Images, beside the rawlog; NAME_Images where none of them is there. */
+     * Images, beside the rawlog, or beside the file that a link leads to; NAME_Images where none of
+     * them is there. */
     [[nodiscard]] const std::string& externalsDirectory() const;
 
  private:
