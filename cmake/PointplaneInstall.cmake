@@ -17,8 +17,11 @@ install(
 
 install(FILES config.ini config-fast.ini config-paper.ini
         DESTINATION ${CMAKE_INSTALL_DATADIR}/pointplane COMPONENT tools)
-install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/pointplane-doc
-        COMPONENT doc)
-install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/pointplane-doc COMPONENT doc
+# With all that they link to.
+set(doc_dir ${CMAKE_INSTALL_DATADIR}/doc/pointplane-doc)
+install(FILES README.md CHANGELOG.md CONTRIBUTING.md LICENSE DESTINATION ${doc_dir} COMPONENT doc)
+install(FILES tests/consumer/main.cpp tests/consumer/CMakeLists.txt
+        DESTINATION ${doc_dir}/tests/consumer COMPONENT doc)
+install(DIRECTORY docs DESTINATION ${doc_dir} COMPONENT doc
         FILES_MATCHING PATTERN "*.md" PATTERN "*.ini" PATTERN "*.jpg" PATTERN "*.png" PATTERN "*.svg")
 include(cmake/PointplanePackages.cmake)
