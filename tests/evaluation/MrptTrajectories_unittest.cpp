@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/evaluation/nees.h>
 #include <pointplane/evaluation/trajectory_text.h>
 #include <pointplane/mrpt_io/RawlogWriter.h>
 #include <pointplane/mrpt_io/errors.h>
@@ -158,6 +159,82 @@ TEST(MrptTrajectories, motionsSinceEarlierFramesBelongToTheirPoses)
         EXPECT_THAT(
             read.sinceCovs[20][n - 1], test::IsMatrixNear(expected, 1e-9 + 1e-6 * expected.norm()));
     }
+}
+
+namespace
+{
+/** Three of its frames repeat a stamp, so the odometry lost them. Covariances of poses do not grow
+ * after the first. \param numSince motions that are told for each frame */
+void writeRepeatedStamps(const std::string& path, std::size_t numSince)
+{
+    RawlogWriter writer(path);
+    std::size_t frame = 0;
+    const auto writeFrame = [&](std::size_t k)
+    {
+        auto pose = observationOf(k, "RGBD_pose");
+        pose.pose = toMrpt({estimate().poses[k], estimate().covs[k == 0 ? 0 : 39]});
+        writer.write(pose);
+        for (std::size_t n = 1; n <= std::min(frame, numSince); ++n)
+        {
+            auto since = observationOf(k, "RGBD_since_" + std::to_string(n));
+            since.pose = toMrpt(gaussianAt(n));
+            writer.write(since);
+        }
+        ++frame;
+    };
+    for (std::size_t k = 0; k < estimate().size(); ++k)
+    {
+        writeFrame(k);
+        for (int repeated = 0; k == 20 && repeated < 3; ++repeated)
+        {
+            writeFrame(k);
+            mrpt::obs::CObservationComment mark;
+            mark.text =
+                "pointplane-status label=RGBD frame=" + std::to_string(frame) + " lost: late";
+            writer.write(mark);
+        }
+    }
+    writer.close();
+}
+}  // namespace
+
+/** All increments were taken for untold, and the advice was --since 1. */
+TEST(MrptTrajectories, motionsSinceEarlierFramesCountLostFramesWithoutATime)
+{
+    test::TempDir dir;
+    const std::string path = dir / "a.rawlog", truthFile = writeTruth(dir);
+    writeRepeatedStamps(path, 5);
+    const Trajectory read = readRawlogTrajectory(path, "");
+    ASSERT_EQ(read.size(), 40U);
+    EXPECT_EQ(read.lostWithoutTime, 3U);
+    EXPECT_THAT(read.poses[20], test::IsNearPose(estimate().poses[20], 1e-9, 1e-9));
+    EXPECT_THAT(
+        read.warnings,
+        testing::ElementsAre(
+            path + ": 3 lost frame(s) with a stamp that is not after the one before "
+                   "have no pose"));
+    EXPECT_THAT(incrementCovariance(read, 19, 20), test::IsMatrixNear(estimate().covs[1], 1e-9));
+    EXPECT_THAT(incrementCovariance(read, 20, 21), test::IsMatrixNear(estimate().covs[4], 1e-9));
+    EXPECT_THAT(incrementCovariance(read, 24, 25), test::IsMatrixNear(estimate().covs[1], 1e-9));
+    const test::AppRun told = evaluate({"nees", truthFile, path, "--interval", "1f"});
+    EXPECT_THAT(told.out, HasSubstr("increments of 1f: 39"));
+    EXPECT_THAT(told.out, HasSubstr("40 frames tracked, 0 predicted, 3 lost"));
+
+    writeRepeatedStamps(path, 3);
+    EXPECT_THAT(
+        evaluate({"nees", truthFile, path, "--interval", "1f"}).err,
+        HasSubstr("Write them by pointplane-odometry --since 4."));
+}
+
+/** Where the camera was at that time, the pose of a lost frame does not tell. */
+TEST(MrptTrajectories, lateFramesHaveNoPose)
+{
+    std::vector<StampedPose> poses(4);
+    poses[1].stamp = 2;
+    poses[2].stamp = 1;
+    poses[2].status = FrameStatus::Lost;
+    poses[3].stamp = 3;
+    EXPECT_THAT(makeTrajectory("late", poses).stamps, testing::ElementsAre(0, 2, 3));
 }
 
 TEST(MrptTrajectories, rawlogOfActionsAndFramesIsComposed)

@@ -85,6 +85,26 @@ void warnOfNanoseconds(Trajectory& trajectory)
             " s apart; are stamps in nanoseconds? They must be in seconds");
     }
 }
+/** Numbers poses in the order of their file, and removes those of lost frames whose stamp is not
+ * after that of the pose before: where the camera was at that time, they do not tell.
+ * \return how many */
+std::size_t removeLate(std::vector<StampedPose>& poses)
+{
+    std::vector<StampedPose> kept;
+    for (std::size_t i = 0; i < poses.size(); ++i)
+    {
+        poses[i].number = i;
+        if (kept.empty() || poses[i].status != FrameStatus::Lost ||
+            poses[i].stamp > kept.back().stamp)
+        {
+            kept.push_back(std::move(poses[i]));
+        }
+    }
+    const std::size_t removed = poses.size() - kept.size();
+    poses = std::move(kept);
+    return removed;
+}
+
 /** Of poses in the order of their file. \return what to tell the user, or empty */
 std::string stampsThatGoBack(const std::string& name, const std::vector<StampedPose>& poses)
 {
@@ -108,6 +128,8 @@ std::string stampsThatGoBack(const std::string& name, const std::vector<StampedP
 
 Trajectory makeTrajectory(std::string name, std::vector<StampedPose> poses)
 {
+    Trajectory out;
+    out.lostWithoutTime = removeLate(poses);
     const std::string back = stampsThatGoBack(name, poses);
     std::stable_sort(
         poses.begin(),
@@ -119,8 +141,13 @@ Trajectory makeTrajectory(std::string name, std::vector<StampedPose> poses)
             return key(a) < key(b);
         });
 
-    Trajectory out;
     out.name = std::move(name);
+    if (out.lostWithoutTime > 0)
+    {
+        out.warnings.push_back(
+            out.name + ": " + std::to_string(out.lostWithoutTime) +
+            " lost frame(s) with a stamp that is not after the one before have no pose");
+    }
     if (!back.empty())
     {
         out.warnings.push_back(back);
@@ -155,12 +182,9 @@ Trajectory makeTrajectory(std::string name, std::vector<StampedPose> poses)
         if (withCov)
         {
             out.covs.push_back(*poses[i].cov);
+            out.numbers.push_back(poses[i].number);
             out.sinceCovs.push_back(std::move(poses[i].sinceCovs));
         }
-    }
-    if (repeated > 0 || !out.lostStamps.empty())
-    {
-        out.sinceCovs.clear();  // which count all poses
     }
     if (repeated > 0)
     {
@@ -201,6 +225,7 @@ Trajectory withoutLost(Trajectory trajectory)
     out.poses.clear();
     out.covs.clear();
     out.sinceCovs.clear();
+    out.numbers.clear();
     out.status.clear();
     for (std::size_t i = 0; i < trajectory.size(); ++i)
     {

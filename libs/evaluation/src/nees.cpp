@@ -59,9 +59,18 @@ bool isMap(const Trajectory& estimate)
     return estimate.name.find(".simplemap") != std::string::npos;
 }
 
+/** Poses of the file from one to a later one, with those that are left out here; 0 if it is not
+ * later in the file. */
+std::size_t posesBetween(const Trajectory& estimate, std::size_t i, std::size_t j)
+{
+    const std::vector<std::size_t>& numbers = estimate.numbers;
+    return numbers.empty() ? j - i : std::max(numbers[i], numbers[j]) - numbers[i];
+}
+
 bool isTold(const Trajectory& estimate, std::size_t i, std::size_t j)
 {
-    return j < estimate.sinceCovs.size() && j - i <= estimate.sinceCovs[j].size();
+    const std::size_t n = posesBetween(estimate, i, j);
+    return n > 0 && j < estimate.sinceCovs.size() && n <= estimate.sinceCovs[j].size();
 }
 }  // namespace
 
@@ -69,7 +78,7 @@ Matrix6d incrementCovariance(const Trajectory& estimate, std::size_t i, std::siz
 {
     if (isTold(estimate, i, j))
     {
-        return estimate.sinceCovs[j][j - i - 1];
+        return estimate.sinceCovs[j][posesBetween(estimate, i, j) - 1];
     }
     const Matrix6d Ad = adjoint(estimate.poses[i].inverse());
     return propagate(Ad, (estimate.covs[j] - estimate.covs[i]).eval());
@@ -154,7 +163,7 @@ NeesRun neesRun(
             names += (names.empty() ? "" : ", ") + nameOf(interval);
             for (const auto& [i, j] : endsOf(estimate, interval))
             {
-                longest = std::max(longest, interval.sinceStart ? 1 : j - i);
+                longest = std::max(longest, interval.sinceStart ? 1 : posesBetween(estimate, i, j));
             }
         }
     }

@@ -33,6 +33,7 @@ struct StampedPose
     std::optional<Matrix6d> cov{};                          //!< see Trajectory::covs
     std::vector<Matrix6d> sinceCovs{};                      //!< see Trajectory::sinceCovs
     FrameStatus status{FrameStatus::Tracked};
+    std::size_t number{0};  //!< see Trajectory::numbers; makeTrajectory() counts them
 };
 
 /** Poses of a moving body, ordered by strictly increasing stamps. */
@@ -45,10 +46,11 @@ struct Trajectory
     /** Empty, or one 6x6 covariance per pose: left perturbation (expressed in the world frame),
      * tangent order [translation; rotation], units m and rad, as in PoseGaussian. */
     std::vector<Matrix6d> covs;
-    /** Empty, or for each pose i those of the motions from poses i-1, i-2, ... to it (left
-     * perturbation, in the body frame of i-1, i-2, ...), as far back as they were told. */
+    /** Empty, or for each pose those of the motions to it from 1, 2, ... poses before it in the
+     * file (left perturbation, in the body frame of those), as far back as they were told. */
     std::vector<std::vector<Matrix6d>> sinceCovs;
-    std::vector<FrameStatus> status;  //!< empty (all tracked), or one per pose
+    std::vector<std::size_t> numbers;  //!< of the poses in the file; empty: they are all here
+    std::vector<FrameStatus> status;   //!< empty (all tracked), or one per pose
     /** The file says of every frame of the recording whether it was tracked. Lost frames without a
      * pose are in lostStamps or, if their stamp is of no use, in lostWithoutTime. */
     bool marksFrames{false};
@@ -62,9 +64,10 @@ struct Trajectory
     [[nodiscard]] double duration() const { return empty() ? 0 : stamps.back() - stamps.front(); }
 };
 
-/** Sorts poses by stamp. Of equal stamps the last one wins, as in the TUM scripts, but a lost frame
- * never wins over a pose; a warning counts the others. Poses that are NaN or infinite are left out
- * with a warning; their frames count as lost. Covariances are kept only if every pose has one. */
+/** Sorts poses by stamp. Of equal stamps the last one wins, as in the TUM scripts; a warning counts
+ * the others. Another one counts lost frames whose stamp is not after the one before: their poses
+ * are left out, because they are of another time. Poses that are NaN or infinite are left out with
+ * a warning; their frames count as lost. Covariances are kept only if every pose has one. */
 [[nodiscard]] Trajectory makeTrajectory(std::string name, std::vector<StampedPose> poses);
 
 /** Path length from the first pose to each pose [m]. */
