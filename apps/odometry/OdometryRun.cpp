@@ -5,6 +5,9 @@
 #include <pointplane/mrpt_io/VisualOdometry.h>
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/image_file.h>
+#include <pointplane/odometry/robot_mask.h>
+
+#include <opencv2/core.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -116,6 +119,7 @@ class Run
         {
             const cv::Mat mask = readMask(options.mask);
             maskSize_ = mask.size();
+            leftOut_ = withoutRobot(mask) == 0;
             odometry_.setMask(mask);
         }
         odometry_.setMinLoggingLevel(mrpt::system::LVL_ERROR);  // the summary says it
@@ -242,6 +246,10 @@ class Run
         checkMask(item.source);
         FrameRecord& record = item.frame.emplace();
         record.motion = odometry_.process(*item.source.converted);
+        if (summary_.numTracked == 0 && record.motion.status == TrackingStatus::Lost)
+        {
+            record.motion.reason += effectOfMask(item.source.converted->frame);
+        }
         if (keepFeatures_)
         {
             record.features = odometry_.features();
@@ -264,6 +272,21 @@ class Run
                 options_.mask, maskSize_, frame.depth.size(), item.observation->sensorLabel);
             maskSize_ = {};
         }
+    }
+
+    /** What to add to the reason if a frame has enough depth, but not beside the robot. */
+    [[nodiscard]] std::string effectOfMask(RgbdFrame frame) const
+    {
+        if (leftOut_.size() != frame.depth.size() || leftOut_.empty() || !hasDepth(frame))
+        {
+            return "";
+        }
+        frame.depth = frame.depth.clone();
+        frame.depth.setTo(0, leftOut_);
+        return hasDepth(frame) ? ""
+                               : " (" + options_.mask + " leaves depth at " +
+                                     std::to_string(cv::countNonZero(frame.depth > 0)) + " of " +
+                                     std::to_string(frame.depth.total()) + " pixels)";
     }
 
     void write(const OutputItem& item)
@@ -326,6 +349,7 @@ class Run
     bool keepFeatures_;
     VisualOdometry odometry_;
     cv::Size maskSize_;  //!< until it is known to be that of the images
+    cv::Mat leftOut_;    //!< by the mask
     std::optional<ProgressBar> bar_;
     RunSummary summary_;
 };

@@ -285,6 +285,22 @@ TEST_F(OdometryApp, aMaskLeavesOutTheRobot)
         HasSubstr("is an input"));
 }
 
+/** Else one would look for depth in the recording. */
+TEST_F(OdometryApp, aMaskThatLeavesNoDepthIsNamed)
+{
+    test::writeObservations(in_, 3);
+    cv::Mat mask(24, 32, CV_8UC1, cv::Scalar(0));
+    mask.at<std::uint8_t>(12, 16) = 255;
+    cv::imwrite(dir_ / "one.png", mask);
+    const Outcome outcome = run({in_, "--mask", dir_ / "one.png", "-o", out_});
+    EXPECT_EQ(outcome.code, kExitIncomplete);
+    EXPECT_THAT(
+        outcome.err, HasSubstr(" (" + (dir_ / "one.png") + " leaves depth at 1 of 768 pixels)\n"));
+    EXPECT_THAT(
+        runOn(3, [](int, CObservation3DRangeScan& scan) { scan.rangeUnits = 1e-6F; }).err,
+        testing::Not(HasSubstr("leaves depth")));
+}
+
 /** As one that was drawn for another camera. What an earlier run wrote stays. */
 TEST_F(OdometryApp, aMaskOfAnotherSizeEndsTheRunAtTheFirstFrame)
 {
