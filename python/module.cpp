@@ -24,6 +24,7 @@
 #include <mutex>
 #include <sstream>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -328,6 +329,38 @@ class SharedOdometry
     Odometry odometry_;
 };
 
+template <class T>
+constexpr bool kIsOfModule =
+    std::is_same_v<T, PinholeCamera> || std::is_same_v<T, OdometryResult> ||
+    std::is_same_v<T, ConvertedFrame> || std::is_same_v<T, SharedOdometry> ||
+    std::is_same_v<T, RawlogFrames>;
+}  // namespace
+}  // namespace pointplane
+
+/** Of an object whose __init__() never ran, as Frame.__new__(Frame), pybind11 (2.10) would use
+ * memory that nobody initialised. */
+template <class T>
+struct pybind11::detail::type_caster<T, std::enable_if_t<pointplane::kIsOfModule<T>>>
+    : type_caster_base<T>
+{
+    bool load(handle source, bool convert)
+    {
+        if (isinstance<T>(source) &&
+            reinterpret_cast<instance*>(source.ptr())->get_value_and_holder().value_ptr() ==
+                nullptr)
+        {
+            throw type_error(
+                cast<std::string>(str(type::of(source).attr("__name__"))) +
+                ": its __init__() was not called");
+        }
+        return type_caster_base<T>::load(source, convert);
+    }
+};
+
+namespace pointplane
+{
+namespace
+{
 /** \param given numbers, or an array of any shape: OpenCV's is 1x5
  * \throws value_error for more than is known here */
 std::array<double, 5> distortionOf(const py::object& given)

@@ -242,6 +242,26 @@ class Odometry(unittest.TestCase):
         with self.assertRaisesRegex(TypeError, "^depth: expected float32"):
             odometry.process(frame.depth.astype(">f4"), None, frame.camera, 1.0)
 
+    def test_objects_that_were_not_initialised_are_refused(self):
+        new = {
+            name: getattr(pointplane, name).__new__(getattr(pointplane, name))
+            for name in ("VisualOdometry", "Camera", "Frame", "Result", "RawlogFrames")
+        }
+        camera = pointplane.Camera(fx=9, fy=9, cx=2, cy=2, width=4, height=4)
+        depth = np.ones((4, 4), np.float32)
+        for name, use in (
+            ("VisualOdometry", lambda: new["VisualOdometry"].process(depth, None, camera, 1.0)),
+            ("VisualOdometry", lambda: new["VisualOdometry"].reset()),
+            ("Camera", lambda: new["Camera"].fx),
+            ("Camera", lambda: pointplane.VisualOdometry().process(depth, None, new["Camera"], 1.0)),
+            ("Frame", lambda: new["Frame"].depth),
+            ("Frame", lambda: pointplane.VisualOdometry().process(new["Frame"])),
+            ("Result", lambda: new["Result"].pose),
+            ("RawlogFrames", lambda: next(new["RawlogFrames"])),
+        ):
+            with self.assertRaisesRegex(TypeError, name + r": its __init__\(\) was not called"):
+                use()
+
     def test_masked_arrays_are_refused_because_their_mask_would_be_lost(self):
         frame = next(iter(pointplane.read_rawlog(RAWLOG)))
         odometry = pointplane.VisualOdometry()
