@@ -408,6 +408,35 @@ TEST(OdometryFailures, motionsAfterDaysAreAsCertainAsBefore)
     }
 }
 
+/** A frame of an earlier time is not where the camera will be next, and does not move it on. */
+TEST(OdometryFailures, aLateFrameLeavesTheCameraWhereItIs)
+{
+    RgbdFrame blank = good(kBad + 1);
+    blank.depth = cv::Mat(blank.depth.size(), CV_32FC1, kNaN);
+    blank.gray = cv::Mat::zeros(blank.gray.size(), CV_8UC1);
+    CheckedOdometry plain, late;
+    (void)plain.run(0, kBad - 1);
+    (void)late.run(0, kBad - 1);
+    for (const double stamp : {good(kBad - 3).stamp, static_cast<double>(kNaN)})
+    {
+        RgbdFrame frame = good(kBad);
+        frame.stamp = stamp;
+        const OdometryResult result = late.process(frame);
+        EXPECT_EQ(result.status, TrackingStatus::Lost);
+        EXPECT_TRUE(result.increment.mean.isApprox(Eigen::Isometry3d::Identity()));
+        if (std::isfinite(stamp))
+        {
+            const Vector6d way =
+                se3Log(CachedSequence::corner().sequence().trueMotion(kBad - 1, kBad - 3));
+            EXPECT_LT(way.dot(result.increment.cov.ldlt().solve(way)), 9);
+        }
+    }
+    const OdometryResult expected = plain.process(blank), found = late.process(blank);
+    EXPECT_EQ(found.status, TrackingStatus::Predicted);
+    EXPECT_TRUE(found.increment.mean.isApprox(expected.increment.mean, 1e-9));
+    EXPECT_TRUE(found.increment.cov.isApprox(expected.increment.cov, 1e-6));
+}
+
 TEST(OdometryFailures, clockSetBackByAnHour)
 {
     CheckedOdometry odometry;

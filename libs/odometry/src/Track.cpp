@@ -2,6 +2,7 @@
 #include "Track.h"
 
 #include <pointplane/core/covariance.h>
+#include <pointplane/core/se3.h>
 
 #include <Eigen/Cholesky>
 
@@ -117,7 +118,7 @@ PoseGaussian Track::restart(Reference frame)
     PoseGaussian increment;
     if (started_ || wasLost_)
     {
-        increment = predict(frame.stamp);
+        increment = coast(frame.stamp);
     }
     else
     {
@@ -187,6 +188,40 @@ std::optional<MotionModel::Smoothed> Track::follow(const MotionGaussian& motion,
 
 PoseGaussian Track::predict(double stamp, std::optional<Reference> unmatched)
 {
+    const bool goesOn = !started_ || (std::isfinite(stamp) && stamp >= latestStamp_);
+    const PoseGaussian increment = goesOn ? coast(stamp) : stay(stamp);
+    if (unmatched)
+    {
+        unmatched_ = std::move(unmatched);
+        unmatched_->id = history_.latestFrame();
+        unmatched_->T_world_cam = history_.latest();
+    }
+    if (started_)
+    {
+        forgetOthers();
+    }
+    return increment;
+}
+
+PoseGaussian Track::stay(double stamp)
+{
+    const double dt =
+        std::isfinite(stamp) ? stepBetween(stamp, latestStamp_) : MotionModel::kUsualStep;
+    const PoseGaussian way = motion_.predict(dt).pose();
+    const Vector6d mean = se3Log(way.mean);
+    PoseGaussian increment;
+    increment.cov =
+        strictlyPositive(Matrix6d(way.cov + motion_.jerk(dt) + mean * mean.transpose()));
+    JointCovariance::Prediction errors;
+    errors.motion = increment.cov;
+    errors.velocity = motion_.velocityCov();
+    errors.after = motion_.after(0);
+    history_.predict(increment.mean, errors);
+    return increment;
+}
+
+PoseGaussian Track::coast(double stamp)
+{
     const bool known = started_ && stamp >= latestStamp_ && std::isfinite(stamp);
     const double dt = known ? stepBetween(latestStamp_, stamp) : MotionModel::kUsualStep;
     JointCovariance::Prediction errors;
@@ -211,13 +246,6 @@ PoseGaussian Track::predict(double stamp, std::optional<Reference> unmatched)
     {
         latestStamp_ = std::max(latestStamp_, stamp);
     }
-    if (unmatched)
-    {
-        unmatched_ = std::move(unmatched);
-        unmatched_->id = history_.latestFrame();
-        unmatched_->T_world_cam = history_.latest();
-    }
-    forgetOthers();
     return increment;
 }
 
