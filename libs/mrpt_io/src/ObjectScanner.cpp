@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ObjectScanner.h"
 
+#include <mrpt/io/CMemoryStream.h>
+#include <mrpt/obs/CObservationComment.h>
+#include <mrpt/serialization/CArchive.h>
+
 #include <algorithm>
 #include <cstring>
 
@@ -12,6 +16,17 @@ constexpr std::uint8_t kEndFlag = 0x88;
 constexpr std::uint64_t kMaxString = 1ULL << 26U;
 constexpr std::uint64_t kMaxObjects = 1ULL << 16U;
 constexpr int kMaxDepth = 4;
+
+/** That this MRPT reads: of 2.5 it is 0, of 2.14 it is 1. */
+std::uint8_t commentVersion()
+{
+    mrpt::io::CMemoryStream stream;
+    auto archive = mrpt::serialization::archiveFrom(stream);
+    archive << mrpt::obs::CObservationComment();
+    const auto* bytes = static_cast<const std::uint8_t*>(stream.getRawBufferData());
+    const std::size_t nameSize = bytes[0] & 0x7FU;
+    return bytes[1 + nameSize];
+}
 
 using scanning::kMaxPixels;
 using scanning::require;
@@ -171,6 +186,7 @@ void ObjectScanner::copyObjects(int depth)
 
 void ObjectScanner::copyBody(const Header& header, int depth)
 {
+    static const std::uint8_t kCommentVersion = commentVersion();
     const std::string& name = header.className;
     const int version = header.version;
     if (name == "CObservation3DRangeScan" && (version == 9 || version == 10))
@@ -206,10 +222,14 @@ void ObjectScanner::copyBody(const Header& header, int depth)
         copy(sizeof(std::uint64_t));
         copyObject("CPose3D");
     }
-    else if (name == "CObservationComment" && version == 0)
+    else if (name == "CObservationComment" && version <= std::min<int>(kCommentVersion, 1))
     {
         copyString();
         copy(sizeof(std::uint64_t));
+        if (version == 1)
+        {
+            copyString();  // label
+        }
     }
     else if (name == "CPose3DPDFGaussian" && version == 1)
     {
