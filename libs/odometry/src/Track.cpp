@@ -205,8 +205,8 @@ PoseGaussian Track::predict(double stamp, std::optional<Reference> unmatched)
 
 PoseGaussian Track::stay(double stamp)
 {
-    const double dt =
-        std::isfinite(stamp) ? stepBetween(stamp, latestStamp_) : MotionModel::kUsualStep;
+    const bool tells = latestStamp_ - stamp <= maxGap_;  // else the clock was set, or it is NaN
+    const double dt = tells ? stepBetween(stamp, latestStamp_) : MotionModel::kUsualStep;
     const PoseGaussian way = motion_.predict(dt).pose();
     const Vector6d mean = se3Log(way.mean);
     PoseGaussian increment;

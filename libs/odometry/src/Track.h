@@ -126,7 +126,7 @@ class Track
     /** To a frame whose motion was not measured. */
     PoseGaussian coast(double stamp);
     /** A late frame does not move the camera on. How far it was then from where it is now is not
-     * known: as far as a camera gets in that time. */
+     * known: as far as a camera gets in that time, if the stamp tells it. */
     PoseGaussian stay(double stamp);
     [[nodiscard]] MotionPrior priorFrom(
         const MotionGaussian& motion, const PoseGaussian& pose) const;
