@@ -68,7 +68,7 @@ void FolderFrames::pairImages(const FolderOptions& options)
     if (hasStamps_)
     {
         checkStamps();
-        checkOrderOfList();
+        checkOrderOfList(options.evenStamps);
         if (options.evenStamps)
         {
             evenOutStamps();
@@ -175,22 +175,23 @@ void FolderFrames::leaveOutUnlisted()
     }
 }
 
-/** Names are in order of their stamps, a list need not be. */
-void FolderFrames::checkOrderOfList() const
+/** Names are in order of their stamps, a list need not be. \param mayRepeat one after the other */
+void FolderFrames::checkOrderOfList(bool mayRepeat) const
 {
     for (const auto* images : {&colour_, &depth_})
     {
         const auto back = std::adjacent_find(
             images->begin(),
             images->end(),
-            [](const ImageRef& a, const ImageRef& b)
-            { return a.key < b.key && *a.stamp >= *b.stamp; });
+            [&](const ImageRef& a, const ImageRef& b)
+            { return a.key < b.key && (mayRepeat ? *a.stamp > *b.stamp : *a.stamp >= *b.stamp); });
         if (!stampList_.empty() && back != images->end())
         {
             std::ostringstream out;
             out << std::setprecision(15) << stampList_ << ": the stamp of frame " << (back + 1)->key
                 << ", " << *(back + 1)->stamp << " s, is not after that of frame " << back->key
-                << ", " << *back->stamp << " s; correct it, or give a rate by --fps";
+                << ", " << *back->stamp << " s; correct it, or give a rate by --fps"
+                << (*back->stamp == *(back + 1)->stamp ? ", or use --even-stamps" : "");
             throw InputError(out.str());
         }
     }

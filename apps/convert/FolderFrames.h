@@ -45,7 +45,7 @@ class FolderFrames
     void checkStamps() const;
     void leaveOutDoubles(std::vector<ImageRef>& images);
     void leaveOutUnlisted();
-    void checkOrderOfList() const;
+    void checkOrderOfList(bool mayRepeat) const;
     void evenOutStamps();
     void pairByStamp(double maxDifference);
     void pairByNumber();

@@ -25,6 +25,9 @@ constexpr double kReach = 0.5;
 // counted, and what a single one may.
 constexpr double kMostJitter = 0.25, kFarthest = 1;
 
+/** The same, over the step that stamps are rounded to, if it is so coarse that they repeat. */
+constexpr double kReachOverRounding = 10;
+
 /** Intervals on either side that tell the usual one: a rate may change. */
 constexpr std::ptrdiff_t kAround = 15;
 
@@ -62,18 +65,59 @@ struct Frame
     for (std::size_t i = 1; i < stamps.size(); ++i)
     {
         out.push_back(stamps[i] - stamps[i - 1]);
-        if (!(out.back() > 0))
+        if (!(out.back() >= 0))
         {
-            throw InputError("the stamps do not ascend, so they cannot be evened out");
+            throw InputError("the stamps go back, so they cannot be evened out");
         }
     }
     return out;
 }
 
-/** Numbers of frames that follow each other. \throws InputError */
-[[nodiscard]] std::vector<Frame> numbered(const std::vector<double>& stamps)
+/** The step that stamps are rounded to, if they repeat because of that, else 0 [s]. */
+[[nodiscard]] double roundingOf(const std::vector<double>& intervals)
 {
-    const std::vector<double> intervals = intervalsOf(stamps);
+    double least = HUGE_VAL;
+    for (const double interval : intervals)
+    {
+        least = interval > 0 ? std::min(least, interval) : least;
+    }
+    const bool repeat = std::find(intervals.begin(), intervals.end(), 0.0) != intervals.end();
+    if (repeat && std::isinf(least))
+    {
+        throw InputError("all stamps are the same, so they cannot be evened out");
+    }
+    return repeat ? least : 0;
+}
+
+/** The same for stamps that repeat. Nothing tells which frames are missing, unless a whole step is.
+ */
+[[nodiscard]] std::vector<Frame> numberedInOrder(
+    const std::vector<double>& stamps, const std::vector<double>& intervals, double rounding)
+{
+    double sum = 0, count = 0;
+    for (const double interval : intervals)
+    {
+        if (interval < 1.5 * rounding)
+        {
+            sum += interval;
+            ++count;
+        }
+    }
+    std::vector<Frame> out{{0, 0, stamps.front(), sum / count}};
+    for (std::size_t i = 0; i < intervals.size(); ++i)
+    {
+        const bool isPause = intervals[i] > 1.5 * rounding;
+        const Frame& last = out.back();
+        out.push_back(
+            {last.piece + (isPause ? 1 : 0), last.number + 1, stamps[i + 1], last.interval});
+    }
+    return out;
+}
+
+/** Numbers of frames that follow each other. \throws InputError */
+[[nodiscard]] std::vector<Frame> numbered(
+    const std::vector<double>& stamps, const std::vector<double>& intervals)
+{
     std::vector<Frame> out{{0, 0, stamps.front(), intervalAround(intervals, 0)}};
     std::vector<double> deviations;  // over the interval
     for (std::size_t i = 0; i < intervals.size(); ++i)
@@ -157,16 +201,20 @@ std::vector<double> evenStamps(const std::vector<double>& stamps)
     {
         return stamps;
     }
-    const std::vector<Frame> frames = numbered(stamps);
+    const std::vector<double> intervals = intervalsOf(stamps);
+    const double rounding = roundingOf(intervals);
+    const double reach = std::max(kReach, kReachOverRounding * rounding);
+    const std::vector<Frame> frames =
+        rounding > 0 ? numberedInOrder(stamps, intervals, rounding) : numbered(stamps, intervals);
     std::vector<double> out;
     std::size_t begin = 0, end = 0;
     for (const Frame& frame : frames)
     {
-        while (frame.stamp - frames[begin].stamp > kReach || frames[begin].piece < frame.piece)
+        while (frame.stamp - frames[begin].stamp > reach || frames[begin].piece < frame.piece)
         {
             ++begin;
         }
-        while (end < frames.size() && frames[end].stamp - frame.stamp <= kReach &&
+        while (end < frames.size() && frames[end].stamp - frame.stamp <= reach &&
                frames[end].piece == frame.piece)
         {
             ++end;
@@ -175,7 +223,7 @@ std::vector<double> evenStamps(const std::vector<double>& stamps)
         out.push_back(onLine(
             {first + static_cast<std::ptrdiff_t>(begin), first + static_cast<std::ptrdiff_t>(end)},
             frame));
-        if (std::abs(out.back() - frame.stamp) > kFarthest * frame.interval)
+        if (std::abs(out.back() - frame.stamp) > kFarthest * std::max(frame.interval, rounding))
         {
             throw InputError(
                 "evened out, a stamp would move by " +

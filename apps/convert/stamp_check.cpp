@@ -31,15 +31,23 @@ std::string problemOfStamps(const std::vector<double>& stamps)
 {
     std::ostringstream out;
     std::vector<double> intervals;
-    std::size_t numBack = 0;
+    std::size_t numBack = 0, numRepeated = 0;
     for (std::size_t i = 1; i < stamps.size(); ++i)
     {
         intervals.push_back(stamps[i] - stamps[i - 1]);
-        numBack += intervals.back() <= 0 ? 1 : 0;
+        numBack += intervals.back() < 0 ? 1 : 0;
+        numRepeated += intervals.back() == 0 ? 1 : 0;
     }
     if (numBack > 0)
     {
-        out << numBack << " of them are not after the one before";
+        out << numBack << " of them are before the one before";
+        return out.str();
+    }
+    if (numRepeated > 0)
+    {
+        out << numRepeated
+            << " of them repeat the one before: odometry cannot use these frames (tum and folder "
+               "have --even-stamps)";
         return out.str();
     }
     if (intervals.size() < kLeastIntervals)

@@ -232,6 +232,22 @@ TEST_F(ConvertFolder, stampsOfAListThatGoBackAreRefused)
     expectFrames(10);
 }
 
+TEST_F(ConvertFolder, stampsOfAListThatRepeatCanBeEvenedOut)
+{
+    writeFrames("in/rgb/%d.jpg", "in/depth/%d.png");
+    write(
+        "in/metadata.json",
+        R"({"w": 64, "h": 48, "K": [60, 0, 0, 0, 60, 0, 31.5, 23.5, 1],
+            "frameTimestamps": [5.2, 5.2, 5.3]})");
+    EXPECT_EQ(run({"folder", in_}), kExitBadInput);
+    EXPECT_THAT(text_, HasSubstr("or give a rate by --fps, or use --even-stamps\n"));
+    ASSERT_EQ(run({"folder", in_, "--even-stamps"}), kExitOk) << text_;
+    const auto found = frames();
+    ASSERT_EQ(found.size(), 3U);
+    EXPECT_NEAR(found[1].stamp - found[0].stamp, 0.05, 1e-6);
+    EXPECT_NEAR(found[2].stamp - found[1].stamp, 0.05, 1e-6);
+}
+
 TEST_F(ConvertFolder, framesWithoutAStampInTheListAreLeftOut)
 {
     const auto expectTwo = [this](const std::string& list)
@@ -572,11 +588,12 @@ TEST_F(ConvertFolder, aTownInThePathIsNoCamera)
 
 TEST(ProblemOfStamps, saysWhatIsWrong)
 {
-    std::vector<double> even, rounded, jittering, back, gaps;
+    std::vector<double> even, rounded, repeated, jittering, back, gaps;
     for (int i = 0; i < 60; ++i)
     {
         const double t = 1000 + i / 30.0;
         even.push_back(t);
+        repeated.push_back(std::floor(10 * t) / 10);
         rounded.push_back(std::round(100 * t) / 100);
         jittering.push_back(t + 0.008 * std::sin(7.0 * i));
         back.push_back(i == 30 ? t - 1 : t);
@@ -590,7 +607,9 @@ TEST(ProblemOfStamps, saysWhatIsWrong)
     EXPECT_EQ(problemOfStamps(gaps), "");
     EXPECT_THAT(problemOfStamps(rounded), HasSubstr("rounded to 0.01 s"));
     EXPECT_THAT(problemOfStamps(jittering), HasSubstr("jitter"));
-    EXPECT_THAT(problemOfStamps(back), HasSubstr("not after"));
+    EXPECT_THAT(problemOfStamps(repeated), HasSubstr("40 of them repeat the one before"));
+    EXPECT_THAT(problemOfStamps(repeated), HasSubstr("--even-stamps"));
+    EXPECT_EQ(problemOfStamps(back), "1 of them are before the one before");
 }
 
 /** Standard deviation of the stamps' errors. */
@@ -629,6 +648,31 @@ TEST(EvenStamps, areThoseOfTheCamerasClock)
     }
 }
 
+TEST(EvenStamps, mayRepeatIfTheyAreRoundedCoarsely)
+{
+    for (const double step : {0.1, 1.0})
+    {
+        std::vector<double> truth, stamps;
+        for (int i = 0; i < 600; ++i)
+        {
+            if (i > 200 && i < 215 + 60 * step)
+            {
+                continue;  // a pause
+            }
+            truth.push_back(1.3e9 + 0.037 + i / 30.0);
+            stamps.push_back(std::floor(truth.back() / step) * step);
+        }
+        const std::vector<double> even = evenStamps(stamps);
+        EXPECT_LT(scatter(even, truth), 0.1 * scatter(stamps, truth)) << step;
+        double most = 0;
+        for (size_t i = 1; i < even.size(); ++i)
+        {
+            most = std::max(most, std::abs(even[i] - even[i - 1] - (truth[i] - truth[i - 1])));
+        }
+        EXPECT_LT(most, 0.05 * step);
+    }
+}
+
 TEST(EvenStamps, followARateThatChanges)
 {
     std::vector<double> truth{100};
@@ -643,7 +687,8 @@ TEST(EvenStamps, areRefusedWithoutASteadyRate)
 {
     EXPECT_TRUE(evenStamps({}).empty());
     EXPECT_EQ(evenStamps({5}), std::vector<double>{5});
-    EXPECT_THROW((void)evenStamps({1, 2, 2, 3}), InputError);
+    EXPECT_THROW((void)evenStamps({1, 2, 1.5, 3}), InputError);
+    EXPECT_THROW((void)evenStamps({1, 1, 1, 1}), InputError);
     std::mt19937 random(1);
     std::uniform_real_distribution<double> interval(0.02, 0.2);
     std::vector<double> stamps{100};
