@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Aligner.h"
 
-#include <pointplane/core/se3.h>
-
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
 
 #include "Stopwatch.h"
+#include "depth_motion.h"
+#include "image_motions.h"
 #include "points_in_view.h"
 #include "surfaces.h"
 
@@ -19,41 +19,6 @@ namespace
 /** When too little is found again around the prediction: radius in which points are searched for,
  * and residual up to which they count at the start, over the usual ones. */
 constexpr double kWideSearch = 5;
-
-/** The camera's motion while it waited for the depth image. */
-Eigen::Isometry3d untilDepth(const Vector6d& velocity, double delay)
-{
-    return se3Exp(std::isfinite(delay) ? Vector6d(delay * velocity) : Vector6d::Zero());
-}
-
-/** How the depth image of a reference lies to the current one's. */
-struct DepthMotion
-{
-    Eigen::Isometry3d T_cur_ref;  //!< between the cameras when their depth images were exposed
-    double slack_m;               //!< by stamps that are off, of surfaces across the view
-    double slackShare;            //!< and of surfaces aslant, in proportion to depth
-};
-
-DepthMotion depthMotion(
-    const Track& track,
-    const Reference& reference,
-    const RgbdFrame& current,
-    const Motion& motion,
-    const CameraCalibrator& camera)
-{
-    const Eigen::Isometry3d T_cur_ref = motion.T_prev_cur.inverse() *
-                                        track.previous().T_world_cam.inverse() *
-                                        reference.T_world_cam;
-    const Eigen::Isometry3d T_depth_cur =
-        untilDepth(motion.velocity, camera.complete(current.shutter).depthDelay).inverse();
-    const Vector6d ofReference = reference.velocity.value_or(motion.velocity);
-    const Eigen::Isometry3d T_ref_depth =
-        untilDepth(ofReference, camera.complete(reference.shutter).depthDelay);
-    const double speed = motion.velocity.head<3>().norm() + ofReference.head<3>().norm();
-    const double rate = motion.velocity.tail<3>().norm() + ofReference.tail<3>().norm();
-    const double time = camera.sigmaPrior();
-    return {T_depth_cur * T_cur_ref * T_ref_depth, time * speed, time * rate};
-}
 
 void tell(const Alignment& alignment, FrameDiagnostics& diagnostics)
 {
@@ -242,12 +207,19 @@ void Aligner::distrustPoints(const Scene& scene, Alignment& alignment) const
  * found already: by their points, and where these tell none, by their planes. */
 void Aligner::searchImages(const Scene& scene, Alignment& best) const
 {
-    for (const auto& motionOf : {&Aligner::motionOfPoints, &Aligner::motionOfPlanes})
+    for (const bool byPoints : {true, false})
     {
         bool isFound = false;
         for (const Reference* reference : scene.track.references())
         {
-            const auto T_prev_cur = motionOf(scene, *reference);
+            const auto T_prev_cur =
+                byPoints ? motionOfPoints(scene.frontEnd, scene.current, scene.track, *reference)
+                         : motionOfPlanes(
+                               scene.frontEnd,
+                               scene.current,
+                               scene.track,
+                               *reference,
+                               scene.predicted.pose);
             if (!T_prev_cur)
             {
                 continue;
@@ -267,61 +239,6 @@ void Aligner::searchImages(const Scene& scene, Alignment& best) const
             return;
         }
     }
-}
-
-std::optional<Eigen::Isometry3d> Aligner::motionOfPoints(
-    const Scene& scene, const Reference& reference)
-{
-    const auto motion = scene.frontEnd.alignImages(reference, scene.current);
-    return motion ? std::optional(toCurrent(scene, reference, motion->T_cur_ref)) : std::nullopt;
-}
-
-/** Where planes lie alike in several places, only one may be near the prediction. */
-std::optional<Eigen::Isometry3d> Aligner::motionOfPlanes(
-    const Scene& scene, const Reference& reference)
-{
-    std::optional<Eigen::Isometry3d> out;
-    for (const Eigen::Isometry3d& T_cur_ref : scene.frontEnd.alignPlanes(reference, scene.current))
-    {
-        const Eigen::Isometry3d T_prev_cur = toCurrent(scene, reference, T_cur_ref);
-        if (Judge::isSurprising(T_prev_cur, scene.predicted.pose))
-        {
-            continue;
-        }
-        if (out)
-        {
-            return {};
-        }
-        out = T_prev_cur;
-    }
-    return out;
-}
-
-/** T_prev_cur of a motion from a reference. */
-Eigen::Isometry3d Aligner::toCurrent(
-    const Scene& scene, const Reference& reference, const Eigen::Isometry3d& T_cur_ref)
-{
-    return scene.track.previous().T_world_cam.inverse() * reference.T_world_cam *
-           T_cur_ref.inverse();
-}
-
-std::optional<int> Aligner::recognise(
-    const FrontEnd& frontEnd, const Features& current, const Track& track) const
-{
-    if (!params_.searchImages)
-    {
-        return {};
-    }
-    for (auto place = track.places().rbegin(); place != track.places().rend(); ++place)
-    {
-        const auto motion = frontEnd.alignImages(*place, current);
-        if (motion && frontEnd.compare(*place, current, motion->T_cur_ref, 0).fraction() >
-                          Judge::kConvincingSurfaces)
-        {
-            return place->id;
-        }
-    }
-    return {};
 }
 
 /** T_cur_world of a motion. */
@@ -384,29 +301,5 @@ void Aligner::verify(const Scene& scene, Alignment& alignment)
                 scene.frontEnd.compare(*reference, scene.current, depth.T_cur_ref, depth.slack_m);
         }
     }
-}
-
-MovingRegions Aligner::findMoving(
-    const FrontEnd& frontEnd,
-    const Features& current,
-    const Track& track,
-    const ErrorModel& errors,
-    const Alignment& alignment)
-{
-    std::vector<EarlierView> earlier;
-    for (const Reference* reference : track.references())
-    {
-        if (reference->images)
-        {
-            const DepthMotion depth = depthMotion(
-                track, *reference, current.frame, alignment.estimate.motion.mean, errors.camera());
-            earlier.push_back(
-                {&reference->images->frame,
-                 depth.T_cur_ref.inverse(),
-                 depth.slack_m,
-                 depth.slackShare});
-        }
-    }
-    return frontEnd.findMoving(current, earlier);
 }
 }  // namespace pointplane

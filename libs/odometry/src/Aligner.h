@@ -2,12 +2,10 @@
 #pragma once
 
 #include <pointplane/odometry/Features.h>
-#include <pointplane/odometry/MovingRegions.h>
 #include <pointplane/odometry/OdometryParams.h>
 #include <pointplane/odometry/OdometryResult.h>
 #include <pointplane/pose/PoseSolver.h>
 
-#include <optional>
 #include <vector>
 
 #include "Alignment.h"
@@ -36,18 +34,6 @@ class Aligner
         const ErrorModel& errors,
         FrameDiagnostics& diagnostics) const;
 
-    /** The older key frame (Track::places()) that the camera sees again, or nothing. */
-    [[nodiscard]] std::optional<int> recognise(
-        const FrontEnd& frontEnd, const Features& current, const Track& track) const;
-
-    /** What has moved in front of the camera since its references. \pre the alignment holds */
-    [[nodiscard]] static MovingRegions findMoving(
-        const FrontEnd& frontEnd,
-        const Features& current,
-        const Track& track,
-        const ErrorModel& errors,
-        const Alignment& alignment);
-
     [[nodiscard]] PoseAnalysis analyse(const Alignment& alignment) const
     {
         return solver_.analyse(alignment.problem, alignment.estimate);
@@ -71,12 +57,6 @@ class Aligner
     void settleRivals(const Scene& scene, Alignment& alignment) const;
     void distrustPoints(const Scene& scene, Alignment& alignment) const;
     void searchImages(const Scene& scene, Alignment& best) const;
-    [[nodiscard]] static std::optional<Eigen::Isometry3d> motionOfPoints(
-        const Scene& scene, const Reference& reference);
-    [[nodiscard]] static std::optional<Eigen::Isometry3d> motionOfPlanes(
-        const Scene& scene, const Reference& reference);
-    [[nodiscard]] static Eigen::Isometry3d toCurrent(
-        const Scene& scene, const Reference& reference, const Eigen::Isometry3d& T_cur_ref);
     [[nodiscard]] static Eigen::Isometry3d fromWorld(
         const Scene& scene, const Eigen::Isometry3d& T_prev_cur);
     [[nodiscard]] static std::vector<Association> associate(

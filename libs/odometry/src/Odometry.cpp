@@ -12,7 +12,9 @@
 #include "LatestImages.h"
 #include "Stopwatch.h"
 #include "Track.h"
+#include "depth_motion.h"
 #include "frame_checks.h"
+#include "image_motions.h"
 #include "shown_features.h"
 #include "surfaces.h"
 #include "uncertainty/ErrorModel.h"
@@ -181,7 +183,9 @@ Alignment Odometry::Impl::align(const Features& current, FrameDiagnostics& diagn
         // What cannot be told in this frame, later frames may tell with the same references.
         return out;
     }
-    if (const auto place = aligner.recognise(frontEnd, current, track))
+    const auto place =
+        params.pipeline.searchImages ? recognise(frontEnd, current, track) : std::nullopt;
+    if (place)
     {
         const Track before = track;
         track.recall(*place);
@@ -258,7 +262,8 @@ void Odometry::Impl::measure(const Features& current, Alignment& alignment, Odom
          current.bend,
          !alignment.isOfDoubtedPoints});
     showPairs(alignment.associations, &analysis, shown);
-    shown.moving = Aligner::findMoving(frontEnd, current, track, errors, alignment);
+    shown.moving = frontEnd.findMoving(
+        current, earlierViews(track, current.frame, motion.mean, errors.camera()));
     // Without depth, it shows nothing that others could be compared with.
     const bool isKeyframe =
         current.hasDepth &&
