@@ -335,7 +335,7 @@ TEST_F(OdometryApp, aRunThatMeasuresNothingIsNotWell)
     { return [units](int, CObservation3DRangeScan& scan) { scan.rangeUnits = units; }; };
     const Outcome outcome = runOn(5, unitsOf(1e-6F));
     EXPECT_THAT(outcome.out, HasSubstr("5 frames: 0 tracked, 0 predicted, 5 lost"));
-    EXPECT_THAT(outcome.out, HasSubstr("none from PointLifter.minDepth to maxDepth"));
+    EXPECT_THAT(outcome.out, HasSubstr("nearer than PointLifter.minDepth (0.02 m)"));
     EXPECT_EQ(outcome.code, kExitIncomplete);
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
     EXPECT_EQ(runOn(5, unitsOf(1e-3F)).code, kExitOk);
