@@ -233,6 +233,15 @@ TEST(OdometryFailures, itIsToldWhyThereIsNoPoint)
         {
             EXPECT_EQ(reasonOf(shine(2)), few + "its colour image is black");
             EXPECT_EQ(reasonOf(shine(120)), few + "its colour image has no texture");
+            // A lamp beside a white wall.
+            const auto shade = [](cv::Mat& gray)
+            {
+                for (int u = 0; u < gray.cols; ++u)
+                {
+                    gray.col(u).setTo(80 + 120 * u / gray.cols);
+                }
+            };
+            EXPECT_EQ(reasonOf(shade), few + "no point is found in its colour image");
         }
         EXPECT_EQ(
             reasonOf([](cv::Mat& gray) { gray.setTo(255); }),

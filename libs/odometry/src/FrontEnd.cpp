@@ -123,9 +123,8 @@ std::string FrontEnd::whyNoPoint(const RgbdFrame& frame) const
         return "";
     }
     return frame.gray.empty()              ? "it has no colour image"
-           : pointStage_.hasTexture(frame) ? ""
-           : isBlack(frame.gray)           ? "its colour image is black"
-                                           : "its colour image has no texture";
+           : pointStage_.findsPoint(frame) ? ""
+                                           : pointplane::whyNoPoint(frame.gray);
 }
 
 std::shared_ptr<KeyframeImages> FrontEnd::keyframeImages(const Features& features) const

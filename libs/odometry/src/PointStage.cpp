@@ -58,7 +58,7 @@ PointReference PointStage::makeReference(
     return tracks_ ? tracker_.makeReference(frame) : prepared.described;
 }
 
-bool PointStage::hasTexture(const RgbdFrame& frame) const
+bool PointStage::findsPoint(const RgbdFrame& frame) const
 {
     if (!tracks_)
     {

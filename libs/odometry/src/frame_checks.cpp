@@ -2,6 +2,7 @@
 #include "frame_checks.h"
 
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -103,9 +104,16 @@ std::string whyNoDepth(const cv::Mat& depth, const PointLifter::TParams& range)
     return out.str();
 }
 
-bool isBlack(const cv::Mat& gray)
+std::string whyNoPoint(const cv::Mat& gray)
 {
     constexpr double kDarkest = 10;  // more than what sensors add to no light
-    return cv::mean(gray)[0] < kDarkest;
+    constexpr double kFlat = 4;      // more than what is left of their noise
+    cv::Mat smooth;
+    cv::blur(gray, smooth, {5, 5});
+    cv::Scalar mean, deviation;
+    cv::meanStdDev(smooth, mean, deviation);
+    return mean[0] < kDarkest     ? "its colour image is black"
+           : deviation[0] < kFlat ? "its colour image has no texture"
+                                  : "no point is found in its colour image";
 }
 }  // namespace pointplane

@@ -21,6 +21,6 @@ namespace pointplane
  * empty. */
 [[nodiscard]] std::string whyNoDepth(const cv::Mat& depth, const PointLifter::TParams& range);
 
-/** A covered lens, or a room without light. */
-[[nodiscard]] bool isBlack(const cv::Mat& gray);
+/** Why an image in which no point is found has none. Small or blurred ones have texture, too. */
+[[nodiscard]] std::string whyNoPoint(const cv::Mat& gray);
 }  // namespace pointplane

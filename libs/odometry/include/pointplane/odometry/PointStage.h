@@ -62,8 +62,8 @@ class PointStage
     [[nodiscard]] PointReference makeReference(
         const RgbdFrame& frame, const PreparedPoints& prepared) const;
 
-    /** Whether the image has a point, if depth is of no concern. Takes time. */
-    [[nodiscard]] bool hasTexture(const RgbdFrame& frame) const;
+    /** Whether it finds a point in the image, if depth is of no concern. Takes time. */
+    [[nodiscard]] bool findsPoint(const RgbdFrame& frame) const;
 
     /** Points of the reference found in the current frame.
      * \param prepared of that frame \param T_cur_ref predicted motion
