@@ -451,6 +451,16 @@ TEST_F(OdometryApp, whatNoFrameToldIsNotInTheSummary)
         testing::Not(HasSubstr("depth noise")));
 }
 
+/** A motion of two frames tells less of the lens than is known before. */
+TEST_F(OdometryApp, aLensOfWhichNothingWasLearntIsNotInTheSummary)
+{
+    test::writeObservations(in_, 2);
+    const Outcome outcome =
+        run({in_, "--set", "Lens.nominal=true", "--trajectory", dir_ / "poses.txt"});
+    EXPECT_THAT(outcome.out, HasSubstr("2 frames: 2 tracked"));
+    EXPECT_THAT(outcome.out, testing::Not(HasSubstr("learnt from the motion")));
+}
+
 TEST_F(OdometryApp, otherCamerasAreNamed)
 {
     const Outcome outcome = runOn(
