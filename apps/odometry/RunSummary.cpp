@@ -112,7 +112,17 @@ void RunSummary::add(const OutputItem& item)
     {
         sum.depthNoise = d.depthNoise;
         sum.lens = d.lens;
+        lensPrior = lensPrior.cwiseMax(d.lens.sigmas);
     }
+}
+
+/** Where the motion told less than was known before, nothing was learnt. */
+LearntLens RunSummary::learntLens() const
+{
+    constexpr double kLearnt = 0.7;  // of the standard deviation: as much information again
+    LearntLens out = sum.lens;
+    out.sigmas = (out.sigmas.array() < kLearnt * lensPrior.array()).select(out.sigmas, 0);
+    return out;
 }
 
 void RunSummary::print(std::ostream& out, bool profile) const
@@ -173,7 +183,7 @@ void RunSummary::print(std::ostream& out, bool profile) const
     {
         out << "depth noise: " << describe(sum.depthNoise) << "\n";
     }
-    if (const std::string lens = describe(sum.lens); hasMotion && !lens.empty())
+    if (const std::string lens = describe(learntLens()); hasMotion && !lens.empty())
     {
         out << "lens, learnt from the motion: " << lens << "\n";
     }

@@ -3,6 +3,8 @@
 
 #include <mrpt/core/Clock.h>
 
+#include <Eigen/Core>
+
 #include <cstddef>
 #include <iosfwd>
 #include <string>
@@ -35,10 +37,12 @@ struct RunSummary
     bool hasMotion{false};             //!< one at least was measured
     double pathLength{0};              //!< of the robot [m]
     double seconds{0};                 //!< wall time, without that of frames that were skipped
-    FrameDiagnostics sum;              //!< of the times per stage; the latest depthNoise
+    FrameDiagnostics sum;              //!< of the times per stage; the latest noise and lens
     std::vector<std::string> notes;    //!< lines about the input
     std::string damage;                //!< where the input ended early, or empty
     std::vector<std::string> outputs;  //!< descriptions
+    /** The largest standard deviations of the lens: before anything was learnt. */
+    Eigen::Vector4d lensPrior{0, 0, 0, 0};
 
     void add(const OutputItem& item);
 
@@ -55,5 +59,6 @@ struct RunSummary
     [[nodiscard]] bool isMostlyUnmeasured() const;
     void addUntracked(const OutputItem& item);
     void addInPart(const OutputItem& item);
+    [[nodiscard]] LearntLens learntLens() const;
 };
 }  // namespace pointplane

@@ -335,7 +335,7 @@ TEST_F(OdometryApp, aRunThatMeasuresNothingIsNotWell)
     { return [units](int, CObservation3DRangeScan& scan) { scan.rangeUnits = units; }; };
     const Outcome outcome = runOn(5, unitsOf(1e-6F));
     EXPECT_THAT(outcome.out, HasSubstr("5 frames: 0 tracked, 0 predicted, 5 lost"));
-    EXPECT_THAT(outcome.out, HasSubstr("none from PointLifter.minDepth to maxDepth"));
+    EXPECT_THAT(outcome.out, HasSubstr("nearer than PointLifter.minDepth (0.02 m)"));
     EXPECT_EQ(outcome.code, kExitIncomplete);
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
     EXPECT_EQ(runOn(5, unitsOf(1e-3F)).code, kExitOk);
@@ -449,6 +449,16 @@ TEST_F(OdometryApp, whatNoFrameToldIsNotInTheSummary)
     EXPECT_THAT(
         runOn(2, [](int, CObservation3DRangeScan& scan) { scan.hasRangeImage = false; }).out,
         testing::Not(HasSubstr("depth noise")));
+}
+
+/** A motion of two frames tells less of the lens than is known before. */
+TEST_F(OdometryApp, aLensOfWhichNothingWasLearntIsNotInTheSummary)
+{
+    test::writeObservations(in_, 2);
+    const Outcome outcome =
+        run({in_, "--set", "Lens.nominal=true", "--trajectory", dir_ / "poses.txt"});
+    EXPECT_THAT(outcome.out, HasSubstr("2 frames: 2 tracked"));
+    EXPECT_THAT(outcome.out, testing::Not(HasSubstr("learnt from the motion")));
 }
 
 TEST_F(OdometryApp, otherCamerasAreNamed)

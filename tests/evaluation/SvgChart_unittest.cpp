@@ -69,6 +69,25 @@ TEST(ChartAxis, logarithmicTicks)
     EXPECT_THAT(labelsOf(wide, 40), Not(testing::Contains("0.02")));
 }
 
+/** Without them, nobody could read how large a value is. */
+TEST(ChartAxis, thereAreTwoLabelsAtLeast)
+{
+    EXPECT_THAT(
+        labelsOf(ChartAxis({-0.0497, 0.0497, false}, false, 0, 118), 40),
+        testing::ElementsAre("-0.04", "-0.02", "0.00", "0.02", "0.04"));
+    EXPECT_THAT(
+        labelsOf(ChartAxis({0.21, 0.45, false}, true, 0, 118), 40),
+        testing::ElementsAre("0.3", "0.4"));
+    for (const double width : {1e-9, 1e-3, 0.3, 0.9, 1.7, 40.0})
+    {
+        for (const bool logarithmic : {false, true})
+        {
+            const ChartAxis axis({7.123, 7.123 + width, false}, logarithmic, 0, 60);
+            EXPECT_GE(labelsOf(axis, 60).size(), 2U) << width;
+        }
+    }
+}
+
 TEST(ChartAxis, constantAndMissingDataHaveAnAxis)
 {
     for (const ChartRange& range : {ChartRange{}, ChartRange{3, 3, false}, ChartRange{0, 0, false}})

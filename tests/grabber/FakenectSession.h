@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,8 @@ namespace pointplane::test
 {
 /** A recorded session for fakenect, libfreenect's player: INDEX.txt and a PPM or PGM file per
  * image, their names carrying the time of arrival and the Kinect's 60 MHz stamp. Depth is stored as
- * the Kinect's raw 11-bit disparities. */
+ * the Kinect's raw 11-bit disparities. The player's time stands still while it works
+ * (played_time.cpp), so that the machine's load does not matter. */
 class FakenectSession
 {
  public:
@@ -48,7 +50,13 @@ class FakenectSession
 
     [[nodiscard]] ChildProcess::Environment environment() const
     {
-        return {{"LD_LIBRARY_PATH", FAKENECT_FOLDER}, {"FAKENECT_PATH", dir_ / ""}};
+        const char* options = std::getenv("ASAN_OPTIONS");
+        return {
+            {"LD_LIBRARY_PATH", FAKENECT_FOLDER},
+            {"FAKENECT_PATH", dir_ / ""},
+            {"LD_PRELOAD", PLAYED_TIME},
+            {"ASAN_OPTIONS",
+             std::string(options == nullptr ? "" : options) + ":verify_asan_link_order=0"}};
     }
 
     /** The disparity that a Kinect would report, and 2047 for no reading. */

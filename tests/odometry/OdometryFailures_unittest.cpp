@@ -4,7 +4,9 @@
 #include <Eigen/Cholesky>
 
 #include <algorithm>
+#include <functional>
 #include <limits>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -143,7 +145,8 @@ TEST(OdometryFailures, sequenceThatBeginsWithoutDepth)
         frame.depth.setTo(kNaN);
         const OdometryResult result = odometry.process(frame);
         EXPECT_EQ(result.status, TrackingStatus::Lost);
-        EXPECT_THAT(result.reason, testing::HasSubstr("no depth yet"));
+        EXPECT_EQ(
+            result.reason, "its depth image has no reading; a path cannot begin without depth");
         EXPECT_GT(result.pose.cov(0, 0), 1e-5) << "nobody knows where that was";
     }
     // The path begins here. How the camera came here is not known.
@@ -153,6 +156,110 @@ TEST(OdometryFailures, sequenceThatBeginsWithoutDepth)
     EXPECT_GT(first.increment.cov(0, 0), 1e-5);
     EXPECT_EQ(odometry.process(good(4)).status, TrackingStatus::Tracked);
     EXPECT_EQ(odometry.process(good(5)).status, TrackingStatus::Tracked);
+}
+
+/** In the first frame, and later where there is nothing else. */
+TEST(OdometryFailures, itIsToldWhyThereIsNoDepth)
+{
+    const auto noDepth = [](cv::Mat& depth) { depth.setTo(kNaN); };
+    const auto infinite = [](cv::Mat& depth) { depth.setTo(kInf); };
+    const auto sparse = [](cv::Mat& depth)
+    {
+        depth.setTo(kNaN);
+        depth.row(10).setTo(1);  // of 240
+    };
+    const auto millimetres = [](cv::Mat& depth) { depth *= 1000; };
+    const auto kilometres = [](cv::Mat& depth) { depth *= 0.001; };
+    const auto both = [](cv::Mat& depth)
+    {
+        depth.setTo(0.001);
+        depth.rowRange(0, 60).setTo(200);
+    };
+    const std::vector<std::pair<std::function<void(cv::Mat&)>, std::string>> cases{
+        {noDepth, "its depth image has no reading"},
+        {infinite, "its depth image has no reading"},
+        {sparse, "its depth image has readings in only 0.42 % of its pixels"},
+        {millimetres, "% of its depth pixels are farther than PointLifter.maxDepth (100 m)"},
+        {kilometres, "% of its depth pixels are nearer than PointLifter.minDepth (0.02 m)"},
+        {both, "75 % of its depth pixels are nearer than PointLifter.minDepth (0.02 m)"}};
+    for (const auto& [change, reason] : cases)
+    {
+        RgbdFrame frame = good(0);
+        change(frame.depth);
+        const OdometryResult first = CheckedOdometry().process(frame);
+        EXPECT_EQ(first.status, TrackingStatus::Lost);
+        EXPECT_THAT(
+            first.reason, testing::EndsWith(reason + "; a path cannot begin without depth"));
+
+        frame = good(kBad);
+        change(frame.depth);
+        frame.gray.setTo(0);
+        const OdometryResult later = Outcome(frame).at;
+        EXPECT_EQ(later.status, TrackingStatus::Predicted);
+        EXPECT_THAT(
+            later.reason,
+            testing::StartsWith("too few points and planes are found again: 0; "
+                                "its colour image is black; "));
+        EXPECT_THAT(later.reason, testing::EndsWith(reason));
+    }
+}
+
+TEST(OdometryFailures, itIsToldWhyThereIsNoPoint)
+{
+    for (const char* method : {"track", "match"})
+    {
+        OdometryParams params;
+        params.points.method = method;
+        params.pipeline.usePlanes = false;
+        const auto reasonOf = [&](const std::function<void(cv::Mat&)>& change)
+        {
+            RgbdFrame frame = good(kBad);
+            change(frame.gray);
+            const OdometryResult result = Outcome(frame, params).at;
+            EXPECT_EQ(result.status, TrackingStatus::Predicted) << result.reason;
+            return result.reason;
+        };
+        // As of a sensor: the noise that it adds is no texture.
+        const auto shine = [](double mean)
+        {
+            return [mean](cv::Mat& gray)
+            {
+                cv::RNG random(1);
+                random.fill(gray, cv::RNG::NORMAL, mean, 1);
+            };
+        };
+        const std::string few = "too few points and planes are found again: 0; ";
+        if (params.points.tracks())
+        {
+            EXPECT_EQ(reasonOf(shine(2)), few + "its colour image is black");
+            EXPECT_EQ(reasonOf(shine(120)), few + "its colour image has no texture");
+            // A lamp beside a white wall.
+            const auto shade = [](cv::Mat& gray)
+            {
+                for (int u = 0; u < gray.cols; ++u)
+                {
+                    gray.col(u).setTo(80 + 120 * u / gray.cols);
+                }
+            };
+            EXPECT_EQ(reasonOf(shade), few + "no point is found in its colour image");
+        }
+        EXPECT_EQ(
+            reasonOf([](cv::Mat& gray) { gray.setTo(255); }),
+            few + "its colour image has no texture");
+        EXPECT_EQ(reasonOf([](cv::Mat& gray) { gray.release(); }), few + "it has no colour image");
+    }
+}
+
+TEST(OdometryFailures, aMaskThatLeavesNoDepthIsTold)
+{
+    Odometry odometry;
+    const RgbdFrame frame = good(0);
+    cv::Mat mask(frame.depth.size(), CV_8UC1, cv::Scalar(0));
+    mask.at<std::uint8_t>(0, 0) = 255;
+    odometry.setMask(mask);
+    EXPECT_EQ(
+        odometry.process(frame).reason,
+        "nearly all of its depth is of the robot itself; a path cannot begin without depth");
 }
 
 TEST(OdometryFailures, depthThatIsNoiseIsNone)

@@ -104,6 +104,19 @@ TEST_F(DepthNoiseLearnerTest, constantNoiseIsTimeOfFlight)
     EXPECT_LT(noise.sigmaInverseDepth, 2e-4);
 }
 
+/** A table top tells nothing of the noise at 3 m. */
+TEST_F(DepthNoiseLearnerTest, itIsToldAtWhichDistancesItWasLearnt)
+{
+    const auto camera = [&](double z) { return inMillimetres(z + 1e-3 * normal()); };
+    const DepthNoise noise = learnt(0.3, 0.6, camera, {});
+    EXPECT_NEAR(noise.learntFrom, 0.3, 0.06);  // half an octave
+    EXPECT_NEAR(noise.learntTo, 0.6, 0.12);
+    EXPECT_EQ(learnt(0.5, 4, camera, DepthNoise()).learntTo, 4);
+    DepthNoise given;
+    given.kind = "given";
+    EXPECT_EQ(learnt(0.5, 4, camera, given).learntTo, 0);
+}
+
 TEST_F(DepthNoiseLearnerTest, muchNoiseInInverseDepthIsActiveStereo)
 {
     const DepthNoise noise =

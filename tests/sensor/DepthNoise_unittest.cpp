@@ -50,6 +50,13 @@ TEST(DepthNoise, ofOtherKindsByHand)
     EXPECT_EQ(
         describe(noise),
         "timeOfFlight, 2.2 mm at 1 m, 9.2 mm at 3 m; surfaces bent by 0.3 % of their depth");
+    noise.learntFrom = 0.2;
+    noise.learntTo = 2;
+    EXPECT_EQ(
+        describe(noise), "timeOfFlight, 2.2 mm at 1 m; surfaces bent by 0.3 % of their depth");
+    noise.learntTo = 0.8;
+    EXPECT_EQ(
+        describe(noise), "timeOfFlight, 2 mm at 0.4 m; surfaces bent by 0.3 % of their depth");
     EXPECT_EQ(DepthNoise{}.weight(0.5), 1);
 }
 

@@ -31,6 +31,24 @@ std::string shortLabel(double value)
     std::snprintf(text, sizeof text, "%g", value);
     return text;
 }
+
+std::vector<ChartTick> evenTicks(double min, double max, double step)
+{
+    std::vector<ChartTick> out;
+    const int decimals = std::max(0, static_cast<int>(-std::floor(std::log10(step) + 1e-9)));
+    for (double k = std::ceil(min / step - 1e-9); k * step <= max + 1e-9 * step; ++k)
+    {
+        out.push_back({k == 0 ? 0 : k * step, numberText(k == 0 ? 0 : k * step, decimals)});
+    }
+    return out;
+}
+
+/** One label tells no scale. */
+bool tellScale(const std::vector<ChartTick>& ticks)
+{
+    const auto isLabelled = [](const ChartTick& tick) { return !tick.label.empty(); };
+    return std::count_if(ticks.begin(), ticks.end(), isLabelled) >= 2;
+}
 }  // namespace
 
 void ChartRange::add(double value)
@@ -73,17 +91,22 @@ std::vector<ChartTick> ChartAxis::ticks(double spacing) const
 {
     const double pixels = std::abs(pixelsAtMax_ - pixelsAtMin_);
     std::vector<ChartTick> out;
-    if (!logarithmic_)
+    if (logarithmic_)
     {
-        const double step = roundStep((max_ - min_) * spacing / pixels);
-        const int decimals = std::max(0, static_cast<int>(-std::floor(std::log10(step) + 1e-9)));
-        for (double k = std::ceil(min_ / step - 1e-9); k * step <= max_ + 1e-9 * step; ++k)
-        {
-            out.push_back({k == 0 ? 0 : k * step, numberText(k == 0 ? 0 : k * step, decimals)});
-        }
-        return out;
+        out = decadeTicks(spacing / pixels);
     }
-    const bool many = std::log10(max_ / min_) * spacing * 3 > pixels;  // decades alone get labels
+    for (double step = roundStep((max_ - min_) * spacing / pixels); !tellScale(out);
+         step = roundStep(0.4 * step))
+    {
+        out = evenTicks(min_, max_, step);
+    }
+    return out;
+}
+
+std::vector<ChartTick> ChartAxis::decadeTicks(double spacing) const
+{
+    std::vector<ChartTick> out;
+    const bool many = std::log10(max_ / min_) * spacing * 3 > 1;  // decades alone get labels
     for (double power = std::pow(10, std::floor(std::log10(min_))); power <= max_; power *= 10)
     {
         for (int k = 1; k < 10; ++k)

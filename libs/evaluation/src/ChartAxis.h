@@ -33,11 +33,13 @@ class ChartAxis
     [[nodiscard]] double max() const { return max_; }
     [[nodiscard]] bool logarithmic() const { return logarithmic_; }
     /** At round values (1, 2 or 5 times a power of ten, zero among them if it is in the range), not
-     * closer than `spacing` pixels. */
+     * closer than `spacing` pixels unless two labels need it. */
     [[nodiscard]] std::vector<ChartTick> ticks(double spacing) const;
 
  private:
     [[nodiscard]] double position(double value) const;
+    /** \param spacing as a fraction of the axis */
+    [[nodiscard]] std::vector<ChartTick> decadeTicks(double spacing) const;
 
     double min_, max_;
     bool logarithmic_;

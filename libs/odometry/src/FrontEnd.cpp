@@ -116,6 +116,17 @@ PointReference FrontEnd::pointReference(const Features& features, const RgbdFram
     return params_.usePoints ? pointStage_.makeReference(part, features.points) : PointReference();
 }
 
+std::string FrontEnd::whyNoPoint(const RgbdFrame& frame) const
+{
+    if (!params_.usePoints)
+    {
+        return "";
+    }
+    return frame.gray.empty()              ? "it has no colour image"
+           : pointStage_.findsPoint(frame) ? ""
+                                           : pointplane::whyNoPoint(frame.gray);
+}
+
 std::shared_ptr<KeyframeImages> FrontEnd::keyframeImages(const Features& features) const
 {
     if (params_.leastAgreement == 0 && !params_.searchImages)

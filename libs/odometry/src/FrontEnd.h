@@ -11,6 +11,7 @@
 #include <pointplane/sensor/DepthNoiseLearner.h>
 
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace pointplane
@@ -35,6 +36,9 @@ class FrontEnd
      * all of them. */
     [[nodiscard]] PointReference pointReference(
         const Features& features, const RgbdFrame& part) const;
+
+    /** Why the image has no point, or empty. Takes time. */
+    [[nodiscard]] std::string whyNoPoint(const RgbdFrame& frame) const;
 
     /** What is kept of the frame's images when it becomes a key frame. */
     [[nodiscard]] std::shared_ptr<KeyframeImages> keyframeImages(const Features& features) const;

@@ -35,6 +35,7 @@ struct Odometry::Impl
 
     OdometryResult process(const RgbdFrame& frame);
     void place(const RgbdFrame& frame, OdometryResult& result);
+    [[nodiscard]] std::string whyNoDepth(const RgbdFrame& frame, const Features& current) const;
     Alignment align(const Features& current, FrameDiagnostics& diagnostics);
     void restart(const Features& current, const std::string& reason, OdometryResult& result);
     void measure(const Features& current, Alignment& alignment, OdometryResult& result);
@@ -152,9 +153,10 @@ void Odometry::Impl::place(const RgbdFrame& frame, OdometryResult& result)
         track.isEmpty() ? "" : track.interruption(frame.stamp, frame.camera);
     if (track.isEmpty() && !current.hasDepth)
     {
+        addReason(whyNoDepth(frame, current), result);
         addReason(
-            "no depth yet, or none from PointLifter.minDepth to maxDepth: nothing to begin with",
-            result);
+            result.reason.empty() ? "nearly all of its depth is of the robot itself" : "", result);
+        addReason("a path cannot begin without depth", result);
         return lose(frame.stamp, result.reason, result);
     }
     if (track.isEmpty() || !interruption.empty())
@@ -172,6 +174,17 @@ void Odometry::Impl::place(const RgbdFrame& frame, OdometryResult& result)
         showPairs(alignment.associations, nullptr, shown);
         predict(current, alignment.reason, result);
     }
+    if (!alignment.reason.empty() && alignment.problem.points.empty())
+    {
+        addReason(frontEnd.whyNoPoint(frame), result);
+        addReason(whyNoDepth(frame, current), result);
+    }
+}
+
+/** Of the frame as it came. What was left out of it has been told already, but for the robot. */
+std::string Odometry::Impl::whyNoDepth(const RgbdFrame& frame, const Features& current) const
+{
+    return current.hasDepth ? "" : pointplane::whyNoDepth(frame.depth, params.pointLifter);
 }
 
 /** With the references, with an older key frame, or with the latest frame that matched none. */

@@ -58,6 +58,17 @@ PointReference PointStage::makeReference(
     return tracks_ ? tracker_.makeReference(frame) : prepared.described;
 }
 
+bool PointStage::findsPoint(const RgbdFrame& frame) const
+{
+    if (!tracks_)
+    {
+        return !detector_.detect(frame.gray).uv_px.empty();
+    }
+    RgbdFrame wall = frame;
+    wall.depth = cv::Mat(frame.depth.size(), frame.depth.type(), 1.0);
+    return !tracker_.makeReference(wall).points.empty();
+}
+
 double PointStage::searchRadius_px(const RgbdFrame& frame) const
 {
     return tracks_ ? tracker_.searchRadius_px(frame.gray) : matcher_.searchRadius_px();

@@ -2,8 +2,11 @@
 #include "frame_checks.h"
 
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace pointplane
@@ -65,5 +68,52 @@ std::string problemOf(const RgbdFrame& frame)
             << ") does not fit the camera (" << size.width << "x" << size.height << ")";
     }
     return out.str();
+}
+
+std::string whyNoDepth(const cv::Mat& depth, const PointLifter::TParams& range)
+{
+    const auto least = static_cast<float>(range.minDepth);
+    const auto most = static_cast<float>(range.maxDepth);
+    const cv::Mat readings = (depth > 0) & (depth <= std::numeric_limits<float>::max());
+    const double numReadings = cv::countNonZero(readings);
+    const double numNear = cv::countNonZero(readings & (depth < least));
+    const double numFar = cv::countNonZero(readings & (depth > most));
+    const double needed = kLeastDepthShare * static_cast<double>(depth.total());
+    const auto percent = [&](double count)
+    { return 100 * count / static_cast<double>(depth.total()); };
+    std::ostringstream out;
+    out.precision(2);
+    if (numReadings == 0)
+    {
+        out << "its depth image has no reading";
+    }
+    else if (numReadings < needed)
+    {
+        out << "its depth image has readings in only " << percent(numReadings)
+            << " % of its pixels";
+    }
+    else if (numReadings - numNear - numFar < needed)
+    {
+        const bool areNear = numNear > numFar;
+        out.precision(3);
+        out << percent(std::max(numNear, numFar)) << " % of its depth pixels are "
+            << (areNear ? "nearer than PointLifter.minDepth ("
+                        : "farther than PointLifter.maxDepth (")
+            << (areNear ? range.minDepth : range.maxDepth) << " m)";
+    }
+    return out.str();
+}
+
+std::string whyNoPoint(const cv::Mat& gray)
+{
+    constexpr double kDarkest = 10;  // more than what sensors add to no light
+    constexpr double kFlat = 4;      // more than what is left of their noise
+    cv::Mat smooth;
+    cv::blur(gray, smooth, {5, 5});
+    cv::Scalar mean, deviation;
+    cv::meanStdDev(smooth, mean, deviation);
+    return mean[0] < kDarkest     ? "its colour image is black"
+           : deviation[0] < kFlat ? "its colour image has no texture"
+                                  : "no point is found in its colour image";
 }
 }  // namespace pointplane

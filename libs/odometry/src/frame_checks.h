@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pointplane/points/PointLifter.h>
 #include <pointplane/sensor/RgbdFrame.h>
 
 #include <string>
@@ -15,4 +16,11 @@ namespace pointplane
 
 /** Why a mask does not fit a frame, or empty. \param maskSize empty: there is none */
 [[nodiscard]] std::string problemOf(const cv::Size& maskSize, const RgbdFrame& frame);
+
+/** Why hasDepth() is false of a frame's depth once readings that are out of range are left out, or
+ * empty. */
+[[nodiscard]] std::string whyNoDepth(const cv::Mat& depth, const PointLifter::TParams& range);
+
+/** Why an image in which no point is found has none. Small or blurred ones have texture, too. */
+[[nodiscard]] std::string whyNoPoint(const cv::Mat& gray);
 }  // namespace pointplane

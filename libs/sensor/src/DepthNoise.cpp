@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iomanip>
+#include <vector>
 
 namespace pointplane
 {
@@ -28,9 +30,23 @@ std::string describe(const DepthNoise& noise)
 {
     DepthNoise unbent = noise;
     unbent.sigmaRelative = 0;
+    std::vector<double> distances{1, 3};
+    if (noise.learntTo > 0)
+    {
+        const auto isUnseen = [&](double z) { return z < noise.learntFrom || z > noise.learntTo; };
+        distances.erase(
+            std::remove_if(distances.begin(), distances.end(), isUnseen), distances.end());
+        if (distances.empty())
+        {
+            distances.push_back(std::sqrt(noise.learntFrom * noise.learntTo));
+        }
+    }
     std::ostringstream out = numberStream();
-    out << std::setprecision(2) << noise.kind << ", " << 1e3 * unbent.sigmaZ(1) << " mm at 1 m, "
-        << 1e3 * unbent.sigmaZ(3) << " mm at 3 m";
+    out << std::setprecision(2) << noise.kind;
+    for (const double z : distances)
+    {
+        out << ", " << 1e3 * unbent.sigmaZ(z) << " mm at " << z << " m";
+    }
     if (noise.sigmaRelative > 0)
     {
         out << "; surfaces bent by " << 100 * noise.sigmaRelative << " % of their depth";

@@ -263,6 +263,8 @@ void DepthNoiseLearner::decide()
                                  : quantile(counts_.residuals[i], kPlanarCells, counts_.cells[i]);
         if (sigma > 0)
         {
+            noise_.learntFrom = noise_.learntTo > 0 ? noise_.learntFrom : depthOfBin(bin, 0);
+            noise_.learntTo = depthOfBin(bin, 1);
             const double z = depthOfBin(bin);
             // Near readings alone tell nothing of how the noise grows.
             const double fourth = z > kNearestStep ? z * z * z * z : 0;

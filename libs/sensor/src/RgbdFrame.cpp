@@ -3,15 +3,9 @@
 
 namespace pointplane
 {
-namespace
-{
-/** Of the image. With fewer readings, there is no plane, and hardly a point. */
-constexpr double kLeastShare = 0.01;
-}  // namespace
-
 bool hasDepth(const RgbdFrame& frame)
 {
-    const double needed = kLeastShare * static_cast<double>(frame.depth.total());
+    const double needed = kLeastDepthShare * static_cast<double>(frame.depth.total());
     int numReadings = 0;
     for (int v = 0; v < frame.depth.rows && numReadings < needed; ++v)
     {

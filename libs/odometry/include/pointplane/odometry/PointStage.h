@@ -62,6 +62,9 @@ class PointStage
     [[nodiscard]] PointReference makeReference(
         const RgbdFrame& frame, const PreparedPoints& prepared) const;
 
+    /** Whether it finds a point in the image, if depth is of no concern. Takes time. */
+    [[nodiscard]] bool findsPoint(const RgbdFrame& frame) const;
+
     /** Points of the reference found in the current frame.
      * \param prepared of that frame \param T_cur_ref predicted motion
      * \param radiusFactor widens the search (tracking only) */

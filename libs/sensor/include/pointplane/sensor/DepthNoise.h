@@ -25,6 +25,7 @@ struct DepthNoise
     double sigmaDepth{0};                //!< [m]
     double sigmaRelative{0};             //!< of the depth
     std::string kind{"learn"};           //!< what to do about the three; see visit()
+    double learntFrom{0}, learntTo{0};   //!< distances [m] that told it; 0: it is given
 
     /** Standard deviation of a depth reading. \param z [m] \return [m] */
     [[nodiscard]] double sigmaZ(double z) const
@@ -110,7 +111,8 @@ struct DepthNoise
     void check() const;
 };
 
-/** One line for users: kind, and noise at 1 m and at 3 m. */
+/** One line for users: kind, and noise at 1 m and at 3 m. What was learnt is told only of distances
+ * at which it was learnt. */
 [[nodiscard]] std::string describe(const DepthNoise& noise);
 
 /** Point at depth z behind a raw pixel, P = z (x, y, 1) [P17 Eq. 1], with its first-order

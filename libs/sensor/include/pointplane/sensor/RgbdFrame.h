@@ -38,6 +38,9 @@ struct RgbdFrame
     ShutterModel shutter;  //!< as far as the source knows it
 };
 
-/** Whether the depth image has readings: in a hundredth of its pixels at least. */
+/** Fewer readings are none, as a fraction of the image: there is no plane, and hardly a point. */
+constexpr double kLeastDepthShare = 0.01;
+
+/** Whether the depth image has readings: in kLeastDepthShare of its pixels at least. */
 [[nodiscard]] bool hasDepth(const RgbdFrame& frame);
 }  // namespace pointplane
