@@ -2,6 +2,7 @@
 #include "nees_output.h"
 
 #include <pointplane/core/number_text.h>
+#include <pointplane/evaluation/scored_trajectories.h>
 #include <pointplane/evaluation/units.h>
 
 #include <array>

@@ -3,6 +3,7 @@
 #include <pointplane/core/read_errors.h>
 #include <pointplane/evaluation/FrameTable.h>
 #include <pointplane/evaluation/association.h>
+#include <pointplane/evaluation/stamp_intervals.h>
 
 #include <algorithm>
 #include <cerrno>
