@@ -36,15 +36,15 @@ namespace fs = std::filesystem;
 bool OutputGuard::writes(const Output& output, const FileIdentity& file)
 {
     const fs::path path(file.path);
+    const bool isFolder = output.kind == Kind::Folder;
     const bool isOfFolder =
-        output.isFolder && (output.extension.empty() || path.extension() == output.extension);
+        isFolder && (output.extension.empty() || path.extension() == output.extension);
     return std::any_of(
         output.files.begin(),
         output.files.end(),
-        [&](const FileIdentity& written)
-        {
-            return output.isFolder ? isOfFolder && path.parent_path() == written.path
-                                   : written.isSame(file);
+        [&](const FileIdentity& written) {
+            return isFolder ? isOfFolder && path.parent_path() == written.path
+                            : written.isSame(file);
         });
 }
 
@@ -61,7 +61,7 @@ void OutputGuard::keepApart(const Output& output, const Input& input)
         throw InputError(
             where + ": would write over the input " + input.file.path + "; give another name");
     }
-    if (input.isFolder && first.isIn(input.file))
+    if (input.kind == Kind::Folder && first.isIn(input.file))
     {
         throw InputError(
             where + ": is in the folder of the inputs, " + input.file.path + "; give another one");
@@ -86,7 +86,7 @@ void OutputGuard::checkInputFolder(const std::string& path) const
 {
     if (!outputs_.empty() && !path.empty())
     {
-        check({FileIdentity(path), true});
+        check({FileIdentity(path), Kind::Folder});
     }
 }
 
@@ -94,7 +94,7 @@ void OutputGuard::checkInput(const std::string& path) const
 {
     if (!outputs_.empty() && !path.empty())
     {
-        check({FileIdentity(path), false});
+        check({FileIdentity(path), Kind::File});
     }
 }
 
@@ -102,7 +102,7 @@ void OutputGuard::addInput(const std::string& path)
 {
     if (!path.empty())
     {
-        add({FileIdentity(path), false});
+        add({FileIdentity(path), Kind::File});
     }
 }
 
@@ -110,7 +110,7 @@ void OutputGuard::addInputFolder(const std::string& path)
 {
     if (!path.empty())
     {
-        add({FileIdentity(path), true});
+        add({FileIdentity(path), Kind::Folder});
     }
 }
 
@@ -136,9 +136,9 @@ void OutputGuard::add(const Output& output)
         {
             const FileIdentity& first = other.files.front();
             const bool isFileAndFolder =
-                output.isFolder != other.isFolder && output.files.front().isSame(first);
+                output.kind != other.kind && output.files.front().isSame(first);
             if (isFileAndFolder || writes(other, file) ||
-                (output.isFolder && writes(output, first)))
+                (output.kind == Kind::Folder && writes(output, first)))
             {
                 throw InputError(
                     output.option + " " + output.name + ": would write over what " + other.option +
@@ -160,7 +160,7 @@ void OutputGuard::addOutput(const std::string& option, const std::string& path)
     {
         return;  // /dev/null takes any number of outputs
     }
-    Output output{option, path, {FileIdentity(path)}, false, ""};
+    Output output{option, path, {FileIdentity(path)}, Kind::File, ""};
     if (const OutputTarget target = outputTarget(path); target.isReplaced)
     {
         output.files.emplace_back(target.writtenPath());
@@ -202,7 +202,7 @@ void OutputGuard::addOutputFolder(
     if (!path.empty())
     {
         requireWritableFolder(option, path);
-        add({option, path, {FileIdentity(path)}, true, extension});
+        add({option, path, {FileIdentity(path)}, Kind::Folder, extension});
     }
 }
 
@@ -252,6 +252,6 @@ void OutputGuard::addFolderBeside(
     }
     requireWritableFolder(option, folder);
     const FileIdentity partial(partialFolderOf(folder));
-    add({option, folder, {FileIdentity(folder), partial}, true, ""});
+    add({option, folder, {FileIdentity(folder), partial}, Kind::Folder, ""});
 }
 }  // namespace pointplane

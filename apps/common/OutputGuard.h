@@ -62,16 +62,21 @@ class OutputGuard
         const std::string& option, const std::string& rawlog, const std::string& folder);
 
  private:
+    enum class Kind
+    {
+        File,
+        Folder
+    };
     struct Input
     {
         FileIdentity file;
-        bool isFolder{false};
+        Kind kind;
     };
     struct Output
     {
         std::string option, name;         //!< as given
         std::vector<FileIdentity> files;  //!< itself and the partial one, if there is one
-        bool isFolder{false};
+        Kind kind;
         std::string extension;  //!< of what is written into the folder
     };
 
