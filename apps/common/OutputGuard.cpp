@@ -76,41 +76,21 @@ void OutputGuard::check(const Input& input) const
     }
 }
 
-void OutputGuard::add(const Input& input)
-{
-    check(input);
-    inputs_.push_back(input);
-}
-
-void OutputGuard::checkInputFolder(const std::string& path) const
+void OutputGuard::check(const std::string& path, Kind kind) const
 {
     if (!outputs_.empty() && !path.empty())
     {
-        check({FileIdentity(path), Kind::Folder});
+        check({FileIdentity(path), kind});
     }
 }
 
-void OutputGuard::checkInput(const std::string& path) const
-{
-    if (!outputs_.empty() && !path.empty())
-    {
-        check({FileIdentity(path), Kind::File});
-    }
-}
-
-void OutputGuard::addInput(const std::string& path)
+void OutputGuard::add(const std::string& path, Kind kind)
 {
     if (!path.empty())
     {
-        add({FileIdentity(path), Kind::File});
-    }
-}
-
-void OutputGuard::addInputFolder(const std::string& path)
-{
-    if (!path.empty())
-    {
-        add({FileIdentity(path), Kind::Folder});
+        const Input input{FileIdentity(path), kind};
+        check(input);
+        inputs_.push_back(input);
     }
 }
 

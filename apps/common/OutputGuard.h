@@ -18,19 +18,19 @@ class OutputGuard
 {
  public:
     /** A file. Need not be there, and may be something else: its reader reports that. */
-    void addInput(const std::string& path);
+    void addInput(const std::string& path) { add(path, Kind::File); }
 
     /** A rawlog, and its ground truth if that is beside it. */
     void addInputRawlog(const std::string& path);
 
     /** A folder and all that is in it. */
-    void addInputFolder(const std::string& path);
+    void addInputFolder(const std::string& path) { add(path, Kind::Folder); }
 
     /** As addInput() and addInputFolder(), when all outputs are known: check and keep nothing.
      * Thread-safe.
      * @{ */
-    void checkInput(const std::string& path) const;
-    void checkInputFolder(const std::string& path) const;
+    void checkInput(const std::string& path) const { check(path, Kind::File); }
+    void checkInputFolder(const std::string& path) const { check(path, Kind::Folder); }
     /** @} */
 
     /** \param option that names it, e.g. "--trajectory" */
@@ -83,7 +83,8 @@ class OutputGuard
     [[nodiscard]] static bool writes(const Output& output, const FileIdentity& file);
     static void keepApart(const Output& output, const Input& input);
     void check(const Input& input) const;
-    void add(const Input& input);
+    void check(const std::string& path, Kind kind) const;
+    void add(const std::string& path, Kind kind);
     void add(const Output& output);
 
     std::vector<Output> outputs_;
