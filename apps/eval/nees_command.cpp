@@ -5,7 +5,6 @@
 #include <pointplane/evaluation/units.h>
 
 #include <algorithm>
-#include <memory>
 #include <ostream>
 #include <set>
 
@@ -319,10 +318,10 @@ void NeesCommand::run(CommandContext& context) const
 
 void addNeesCommand(CLI::App& app, CommandContext& context)
 {
-    CLI::App& command = *app.add_subcommand(
-        "nees", "Are the covariances true? Normalised estimation error squared of increments");
-    const auto options = std::make_shared<NeesCommand>();
-    options->addTo(command);
-    command.callback([options, &context] { options->run(context); });
+    addCommand<NeesCommand>(
+        app,
+        context,
+        "nees",
+        "Are the covariances true? Normalised estimation error squared of increments");
 }
 }  // namespace pointplane

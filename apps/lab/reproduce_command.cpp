@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <filesystem>
 #include <iterator>
-#include <memory>
 #include <ostream>
 
 #include "LabApp.h"
@@ -253,11 +252,10 @@ void ReproduceCommand::run(CommandContext& context) const
 
 void addReproduceCommand(CLI::App& app, CommandContext& context)
 {
-    CLI::App& command = *app.add_subcommand(
+    addCommand<ReproduceCommand>(
+        app,
+        context,
         "reproduce",
         "The paper's Tables 1 and 2, Fig. 3 and Fig. 5, on the TUM sequences of a folder");
-    const auto options = std::make_shared<ReproduceCommand>();
-    options->addTo(command);
-    command.callback([options, &context] { options->run(context); });
 }
 }  // namespace pointplane
