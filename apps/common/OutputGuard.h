@@ -4,21 +4,13 @@
 #include <string>
 #include <vector>
 
-#include <sys/types.h>
+#include "FileIdentity.h"
 
 namespace pointplane
 {
-/** How ground truth begins that the programs wrote, which can be made again: that of
- * pointplane-simulate, that of pointplane-convert.
- * @{ */
-constexpr const char* kRenderedTruth = "# exact pose in the world of the ";
-constexpr const char* kCopiedTruth = "# copied by pointplane-convert\n";
-/** @} */
-
 /** Keeps apart what a run reads and what it writes, before anything is opened. A program tells it
  * every file, also those that it opens itself (listings, images, ground truth, configuration); in
- * any order, and further inputs while it runs. Two names are the same file if they lead to the same
- * inode, through symbolic or hard links, or will.
+ * any order, and further inputs while it runs. Files are told apart by FileIdentity.
  *
  * All members throw InputError, in one line that names option and file; EnvironmentError if a file
  * cannot be written. Empty paths are ignored. */
@@ -26,19 +18,19 @@ class OutputGuard
 {
  public:
     /** A file. Need not be there, and may be something else: its reader reports that. */
-    void addInput(const std::string& path);
+    void addInput(const std::string& path) { add(path, Kind::File); }
 
     /** A rawlog, and its ground truth if that is beside it. */
     void addInputRawlog(const std::string& path);
 
     /** A folder and all that is in it. */
-    void addInputFolder(const std::string& path);
+    void addInputFolder(const std::string& path) { add(path, Kind::Folder); }
 
     /** As addInput() and addInputFolder(), when all outputs are known: check and keep nothing.
      * Thread-safe.
      * @{ */
-    void checkInput(const std::string& path) const;
-    void checkInputFolder(const std::string& path) const;
+    void checkInput(const std::string& path) const { check(path, Kind::File); }
+    void checkInputFolder(const std::string& path) const { check(path, Kind::Folder); }
     /** @} */
 
     /** \param option that names it, e.g. "--trajectory" */
@@ -70,34 +62,32 @@ class OutputGuard
         const std::string& option, const std::string& rawlog, const std::string& folder);
 
  private:
-    /** A file, or what will be one. */
-    struct File
+    enum class Kind
     {
-        std::string path;  //!< absolute, without links
-        dev_t device{0};
-        ino_t inode{0};           //!< 0: is not there
-        bool holdsInputs{false};  //!< a folder
+        File,
+        Folder
+    };
+    struct Input
+    {
+        FileIdentity file;
+        Kind kind;
     };
     struct Output
     {
-        std::string option, name;  //!< as given
-        std::vector<File> files;   //!< itself and the partial one, if there is one
-        bool isFolder{false};
+        std::string option, name;         //!< as given
+        std::vector<FileIdentity> files;  //!< itself and the partial one, if there is one
+        Kind kind;
         std::string extension;  //!< of what is written into the folder
     };
 
-    [[nodiscard]] static File fileAt(const std::string& path);
-    [[nodiscard]] static File inputFolderAt(const std::string& path);
-    [[nodiscard]] static Output folderAt(
-        const std::string& option, const std::string& path, const std::string& extension);
-    [[nodiscard]] static bool same(const File& a, const File& b);
-    [[nodiscard]] static bool isIn(const File& file, const File& folder);
-    [[nodiscard]] static bool writes(const Output& output, const File& file);
-    static void keepApart(const Output& output, const File& input);
-    void check(const File& input) const;
+    [[nodiscard]] static bool writes(const Output& output, const FileIdentity& file);
+    static void keepApart(const Output& output, const Input& input);
+    void check(const Input& input) const;
+    void check(const std::string& path, Kind kind) const;
+    void add(const std::string& path, Kind kind);
     void add(const Output& output);
 
     std::vector<Output> outputs_;
-    std::vector<File> inputs_;
+    std::vector<Input> inputs_;
 };
 }  // namespace pointplane

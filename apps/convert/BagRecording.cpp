@@ -27,20 +27,33 @@ struct Picture
     cv::Mat image;
 };
 
-[[nodiscard]] Picture readPicture(const rosbag::MessageInstance& message, bool onlyStamp)
+/** \return what `read` makes of the message \throws BadFrame if it is no image */
+template <class Read>
+[[nodiscard]] auto readImage(const rosbag::MessageInstance& message, const Read& read)
 {
-    const auto read = [&](const auto& m) {
-        return Picture{m->header.stamp.toSec(), onlyStamp ? cv::Mat() : toMat(*m)};
-    };
     if (const auto image = message.instantiate<Image>())
     {
-        return read(image);
+        return read(*image);
     }
     if (const auto image = message.instantiate<CompressedImage>())
     {
-        return read(image);
+        return read(*image);
     }
     throw BadFrame("is not an image");
+}
+
+[[nodiscard]] double readStamp(const rosbag::MessageInstance& message)
+{
+    return readImage(message, [](const auto& image) { return image.header.stamp.toSec(); });
+}
+
+[[nodiscard]] Picture readPicture(const rosbag::MessageInstance& message)
+{
+    return readImage(
+        message,
+        [](const auto& image) {
+            return Picture{image.header.stamp.toSec(), toMat(image)};
+        });
 }
 
 class BagRecording : public Recording
@@ -112,8 +125,8 @@ class BagRecording : public Recording
 void BagRecording::chooseTopics()
 {
     const std::vector<ImageTopic> topics = imageTopics(bag_);
-    colour_ = chosenTopic(topics, options_.colourTopic, false, options_.file);
-    depth_ = chosenTopic(topics, options_.depthTopic, true, options_.file);
+    colour_ = chosenTopic(topics, options_.colourTopic, ImageKind::Colour, options_.file);
+    depth_ = chosenTopic(topics, options_.depthTopic, ImageKind::Depth, options_.file);
     notes_.push_back(
         "colour: " + colour_.name + " (" + colour_.encoding + "), depth: " + depth_.name + " (" +
         depth_.encoding + ")");
@@ -137,7 +150,7 @@ void BagRecording::pair()
     {
         for (const rosbag::MessageInstance& message : view)
         {
-            const double stamp = readPicture(message, true).stamp;
+            const double stamp = readStamp(message);
             (message.getTopic() == depth_.name ? depth : colour).push_back(stamp);
         }
     }
@@ -217,7 +230,7 @@ std::optional<RecordedFrame> BagRecording::take(const rosbag::MessageInstance& m
         if (other == waiting_.end())
         {
             std::optional<Picture>& own = waiting_[{isDepth, number}];  // empty if it is bad
-            own = readPicture(message, false);
+            own = readPicture(message);
             return {};
         }
         const std::optional<Picture> first = other->second;
@@ -226,7 +239,7 @@ std::optional<RecordedFrame> BagRecording::take(const rosbag::MessageInstance& m
         {
             return {};  // that was told when it came
         }
-        const Picture second = readPicture(message, false);
+        const Picture second = readPicture(message);
         return isDepth ? frame(*first, second) : frame(second, *first);
     }
     catch (const BadFrame& bad)

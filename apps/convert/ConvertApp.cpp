@@ -17,6 +17,7 @@
 #include "convert_recording.h"
 #include "label_check.h"
 #include "number_checks.h"
+#include "own_ground_truth.h"
 #include "run_program.h"
 #include <CLI/CLI.hpp>
 

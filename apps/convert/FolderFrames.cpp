@@ -5,7 +5,6 @@
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/mrpt_poses.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <iomanip>
 #include <limits>
@@ -32,43 +31,27 @@ constexpr double kUnknownDelay = std::numeric_limits<double>::quiet_NaN();
     }
     return out;
 }
-
-[[nodiscard]] std::string folderOf(const std::vector<ImageRef>& images)
-{
-    return fs::path(images.front().path).parent_path().string();
-}
-
-[[nodiscard]] bool areStamped(const std::vector<ImageRef>& images)
-{
-    return std::all_of(
-        images.begin(), images.end(), [](const ImageRef& image) { return image.stamp; });
-}
 }  // namespace
 
 FolderFrames::FolderFrames(const FolderLayout& layout, const FolderOptions& options)
     : folder_(options.folder),
-      stampList_(layout.stampList),
-      otherSources_(layout.otherSources),
-      colour_(layout.colour),
-      depth_(layout.depth),
+      images_(layout),
       fps_(options.fps > 0 ? options.fps : layout.fps.value_or(30))
 {
-    leaveOutDoubles(colour_);
-    leaveOutDoubles(depth_);
     pairImages(options);
 }
 
 void FolderFrames::pairImages(const FolderOptions& options)
 {
-    if (options.fps <= 0 && !stampList_.empty())
+    if (options.fps <= 0)
     {
-        leaveOutUnlisted();
+        images_.leaveOutUnlisted();
     }
-    hasStamps_ = options.fps <= 0 && areStamped(colour_) && areStamped(depth_);
+    hasStamps_ = options.fps <= 0 && images_.areStamped();
     if (hasStamps_)
     {
         checkStamps();
-        checkOrderOfList(options.evenStamps);
+        images_.checkOrderOfList(options.evenStamps);
         if (options.evenStamps)
         {
             evenOutStamps();
@@ -103,7 +86,7 @@ void FolderFrames::pairImages(const FolderOptions& options)
 
 void FolderFrames::checkNumbers(bool isRateAsked) const
 {
-    for (const auto* images : {&colour_, &depth_})
+    for (const auto* images : {&images_.colour, &images_.depth})
     {
         for (const ImageRef& image : *images)
         {
@@ -119,7 +102,7 @@ void FolderFrames::checkNumbers(bool isRateAsked) const
 
 void FolderFrames::checkStamps() const
 {
-    for (const auto* images : {&colour_, &depth_})
+    for (const auto* images : {&images_.colour, &images_.depth})
     {
         for (const ImageRef& image : *images)
         {
@@ -135,99 +118,40 @@ void FolderFrames::checkStamps() const
     }
 }
 
-/** 7.png beside 7.jpg: the first one is taken. */
-void FolderFrames::leaveOutDoubles(std::vector<ImageRef>& images)
-{
-    std::vector<ImageRef> taken;
-    for (const ImageRef& image : images)
-    {
-        const bool isDouble =
-            !taken.empty() && taken.back().key == image.key && taken.back().stamp == image.stamp;
-        if (!isDouble)
-        {
-            taken.push_back(image);
-        }
-        else if (!image.path.empty())  // else it is a frame of a video
-        {
-            doubles_.push_back(image);
-        }
-    }
-    images = taken;
-}
-
-/** Images of which the list tells nothing, if it tells of others. */
-void FolderFrames::leaveOutUnlisted()
-{
-    const auto isListed = [](const ImageRef& image) { return image.stamp.has_value(); };
-    for (const auto* images : {&colour_, &depth_})
-    {
-        if (std::none_of(images->begin(), images->end(), isListed))
-        {
-            throw InputError(
-                stampList_ + ": tells no stamps of the images beside it; give a rate by --fps");
-        }
-    }
-    for (auto* images : {&colour_, &depth_})
-    {
-        const auto end = std::stable_partition(images->begin(), images->end(), isListed);
-        unlisted_.insert(unlisted_.end(), end, images->end());
-        images->erase(end, images->end());
-    }
-}
-
-/** Names are in order of their stamps, a list need not be. \param mayRepeat one after the other */
-void FolderFrames::checkOrderOfList(bool mayRepeat) const
-{
-    for (const auto* images : {&colour_, &depth_})
-    {
-        const auto back = std::adjacent_find(
-            images->begin(),
-            images->end(),
-            [&](const ImageRef& a, const ImageRef& b)
-            { return a.key < b.key && (mayRepeat ? *a.stamp > *b.stamp : *a.stamp >= *b.stamp); });
-        if (!stampList_.empty() && back != images->end())
-        {
-            std::ostringstream out;
-            out << std::setprecision(15) << stampList_ << ": the stamp of frame " << (back + 1)->key
-                << ", " << *(back + 1)->stamp << " s, is not after that of frame " << back->key
-                << ", " << *back->stamp << " s; correct it, or give a rate by --fps"
-                << (*back->stamp == *(back + 1)->stamp ? ", or use --even-stamps" : "");
-            throw InputError(out.str());
-        }
-    }
-}
-
 void FolderFrames::evenOutStamps()
 {
-    for (auto* images : {&depth_, &colour_})
+    const auto evenOutOf = [this](std::vector<ImageRef>& images, const char* name)
     {
-        const char* const name = images == &colour_ ? ": colour" : ": depth";
-        const EvenedStamps even = evenOut(stampsOf(*images), folder_ + name);
+        const EvenedStamps even = evenOut(stampsOf(images), folder_ + ": " + name);
         evening_ = even.note;
-        for (std::size_t i = 0; i < images->size(); ++i)
+        for (std::size_t i = 0; i < images.size(); ++i)
         {
-            (*images)[i].stamp = even.stamps[i];
+            images[i].stamp = even.stamps[i];
         }
-    }
+    };
+    evenOutOf(images_.depth, "depth");
+    evenOutOf(images_.colour, "colour");  // its note is told
 }
 
 void FolderFrames::pairByStamp(double maxDifference)
 {
-    for (const auto& [c, d] : associate(stampsOf(colour_), stampsOf(depth_), 0.0, maxDifference))
+    for (const auto& [c, d] :
+         associate(stampsOf(images_.colour), stampsOf(images_.depth), 0.0, maxDifference))
     {
-        const ImageRef& colour = colour_[c];
-        frames_.push_back({colour, depth_[d], *colour.stamp, *depth_[d].stamp - *colour.stamp});
+        const ImageRef& colour = images_.colour[c];
+        frames_.push_back(
+            {colour, images_.depth[d], *colour.stamp, *images_.depth[d].stamp - *colour.stamp});
     }
 }
 
 void FolderFrames::pairByNumber()
 {
     std::map<long, const ImageRef*> depthOf;
-    for (const ImageRef& depth : depth_)
+    for (const ImageRef& depth : images_.depth)
     {
         depthOf.emplace(depth.key, &depth);
     }
-    for (const ImageRef& colour : colour_)
+    for (const ImageRef& colour : images_.colour)
     {
         const auto found = depthOf.find(colour.key);
         if (found != depthOf.end())
@@ -266,59 +190,14 @@ std::string FolderFrames::noteOfSteps() const
     return out.str();
 }
 
-/** Images that are in the folder and not in the rawlog. */
-std::vector<std::string> FolderFrames::notesOfLeftOut() const
-{
-    std::vector<std::string> out;
-    const auto add = [&out](std::size_t count, const std::string& text)
-    {
-        if (count > 0)
-        {
-            out.push_back(std::to_string(count) + " images " + text);
-        }
-    };
-    const auto examples = [](const std::string& first, std::size_t count)
-    { return first + (count > 1 ? ", ..." : ""); };
-    for (const std::string& source : otherSources_)
-    {
-        out.push_back(
-            source + " was left out: there are images in " + folderOf(colour_) + " and " +
-            folderOf(depth_) + "; move away what is not meant");
-    }
-    add(unlisted_.size(),
-        "without a stamp in " + stampList_ +
-            " were left out; --fps takes them, too, at a rate of its own");
-    add(colour_.size() + depth_.size() - 2 * frames_.size(), "without a partner were left out");
-    if (!doubles_.empty())
-    {
-        add(doubles_.size(),
-            "of a number or time that another one has were left out: " +
-                examples(doubles_.front().path, doubles_.size()));
-    }
-    std::vector<ImageRef> known = doubles_;
-    for (const auto* images : {&unlisted_, &colour_, &depth_})
-    {
-        known.insert(known.end(), images->begin(), images->end());
-    }
-    if (const auto others = imagesBeside(known); !others.empty())
-    {
-        add(others.size(),
-            "whose names are no number were left out: " + examples(others.front(), others.size()));
-    }
-    return out;
-}
-
 std::string FolderFrames::whatStampsAre() const
 {
-    std::ostringstream out;
     if (hasStamps_)
     {
-        out << "stamps of the recording";
+        return "stamps of the recording";
     }
-    else
-    {
-        out << "frames numbered at " << fps_ << " Hz";
-    }
+    std::ostringstream out;
+    out << "frames numbered at " << fps_ << " Hz";
     return out.str();
 }
 
@@ -339,7 +218,7 @@ std::vector<std::string> FolderFrames::notes() const
             out.push_back(steps);
         }
     }
-    const std::vector<std::string> leftOut = notesOfLeftOut();
+    const std::vector<std::string> leftOut = images_.notesOfLeftOut(frames_.size());
     out.insert(out.end(), leftOut.begin(), leftOut.end());
     return out;
 }

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "folder_layout.h"
+#include "FolderImages.h"
 
 namespace pointplane
 {
@@ -15,7 +15,7 @@ struct FolderOptions
     double depthScale{0};        //!< units per metre; 0: the camera's or layout's
     double fps{0};               //!< 0: the layout's
     double maxDifference{0.02};  //!< between the stamps of colour and depth [s]
-    bool evenStamps{false};      //!< evenStamps()
+    bool evenStamps{false};      //!< moves stamps by evenStamps()
 };
 
 /** Which images of a folder are frames, and when they were taken. */
@@ -43,23 +43,15 @@ class FolderFrames
     void pairImages(const FolderOptions& options);
     void checkNumbers(bool isRateAsked) const;
     void checkStamps() const;
-    void leaveOutDoubles(std::vector<ImageRef>& images);
-    void leaveOutUnlisted();
-    void checkOrderOfList(bool mayRepeat) const;
     void evenOutStamps();
     void pairByStamp(double maxDifference);
     void pairByNumber();
     [[nodiscard]] double stampOf(const ImageRef& image) const;
-    [[nodiscard]] std::vector<std::string> notesOfLeftOut() const;
     /** How far numbers are apart, if that is more than one, or empty. */
     [[nodiscard]] std::string noteOfSteps() const;
 
     std::string folder_;
-    std::string stampList_;                  //!< FolderLayout::stampList
-    std::vector<std::string> otherSources_;  //!< FolderLayout::otherSources
-    std::vector<ImageRef> colour_, depth_;   //!< that may be of a frame
-    // Left out: of a number or time that another image has; without a stamp in the layout's list.
-    std::vector<ImageRef> doubles_, unlisted_;
+    FolderImages images_;
     double fps_{30};
     bool hasStamps_{false};
     std::string evening_;  //!< what was done to the stamps, or empty

@@ -38,7 +38,11 @@ std::vector<ImageTopic> imageTopics(const rosbag::Bag& bag)
         }
         const auto add = [&](const auto& image, const std::string& encoding)
         {
-            out.push_back({connection->topic, image.header.frame_id, encoding, isDepth(image)});
+            out.push_back(
+                {connection->topic,
+                 image.header.frame_id,
+                 encoding,
+                 isDepth(image) ? ImageKind::Depth : ImageKind::Colour});
             return false;
         };
         forEachMessage<Image>(
@@ -54,10 +58,11 @@ std::vector<ImageTopic> imageTopics(const rosbag::Bag& bag)
 ImageTopic chosenTopic(
     const std::vector<ImageTopic>& topics,
     const std::string& wanted,
-    bool isDepth,
+    ImageKind kind,
     const std::string& file)
 {
-    const std::string kind = isDepth ? "depth" : "colour";
+    const bool isDepth = kind == ImageKind::Depth;
+    const std::string kindName = isDepth ? "depth" : "colour";
     std::vector<ImageTopic> candidates, preferred;
     std::string names;
     for (const ImageTopic& topic : topics)
@@ -68,7 +73,7 @@ ImageTopic chosenTopic(
             return topic;
         }
         const bool isInfrared = contains(topic.name, "nfra") || contains(topic.name, "/ir/");
-        if (topic.isDepth == isDepth && !isInfrared)
+        if (topic.kind == kind && !isInfrared)
         {
             candidates.push_back(topic);
             if (isDepth ? topic.isRegistered()
@@ -89,8 +94,8 @@ ImageTopic chosenTopic(
     if (candidates.size() != 1)
     {
         throw InputError(
-            file + ": has " + std::to_string(candidates.size()) + " topics with " + kind +
-            " images; choose one by --" + kind +
+            file + ": has " + std::to_string(candidates.size()) + " topics with " + kindName +
+            " images; choose one by --" + kindName +
             "-topic (images are on: " + (names.empty() ? "none" : names) + ")");
     }
     return candidates.front();

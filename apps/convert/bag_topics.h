@@ -9,11 +9,17 @@
 
 namespace pointplane
 {
+enum class ImageKind
+{
+    Colour,
+    Depth
+};
+
 /** A topic of images in a bag. */
 struct ImageTopic
 {
     std::string name, frame, encoding;
-    bool isDepth{false};
+    ImageKind kind{ImageKind::Colour};
 
     /** Depth in the axes of the colour image, as its name tells. */
     [[nodiscard]] bool isRegistered() const;
@@ -26,7 +32,7 @@ struct ImageTopic
 [[nodiscard]] ImageTopic chosenTopic(
     const std::vector<ImageTopic>& topics,
     const std::string& wanted,
-    bool isDepth,
+    ImageKind kind,
     const std::string& file);
 
 /** Calls f with each message of type T of a topic until f returns false. */

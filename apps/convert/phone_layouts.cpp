@@ -58,6 +58,25 @@ void setStamps(FolderLayout& out, const fs::path& list, const StampOf& stampOf)
     return out;
 }
 
+[[nodiscard]] PinholeCamera record3dCamera(const nlohmann::json& json, const fs::path& path)
+{
+    const auto& K = json["K"];
+    if (!K.is_array() || K.size() != 9 ||
+        !std::all_of(K.begin(), K.end(), [](const auto& k) { return k.is_number(); }))
+    {
+        throw InputError(path.string() + ": K is not a list of 9 numbers");
+    }
+    // Record3D writes K column by column, what others make of it often row by row.
+    const bool isByRow = K[6] == 0 && K[7] == 0;
+    PinholeCamera camera = pinholeOf(
+        pixelsIn(json, "w", path),
+        pixelsIn(json, "h", path),
+        K[0].get<double>(),
+        K[isByRow ? 2 : 6].get<double>(),
+        K[isByRow ? 5 : 7].get<double>());
+    camera.fy = K[4].get<double>();
+    return camera;
+}
 }  // namespace
 
 std::optional<FolderLayout> strayScanner(const fs::path& folder)
@@ -109,24 +128,9 @@ void readRecord3d(const fs::path& folder, FolderLayout& out)
         {
             continue;
         }
-        const auto& K = (*json)["K"];
-        if (!K.is_array() || K.size() != 9 ||
-            !std::all_of(K.begin(), K.end(), [](const auto& k) { return k.is_number(); }))
-        {
-            throw InputError(path.string() + ": K is not a list of 9 numbers");
-        }
-        // Record3D writes K column by column, what others make of it often row by row.
-        const bool isByRow = K[6] == 0 && K[7] == 0;
-        PinholeCamera camera = pinholeOf(
-            pixelsIn(*json, "w", path),
-            pixelsIn(*json, "h", path),
-            K[0].get<double>(),
-            K[isByRow ? 2 : 6].get<double>(),
-            K[isByRow ? 5 : 7].get<double>());
-        camera.fy = K[4].get<double>();
         out.name = "Record3D";
         out.calibration = path.string();
-        out.camera = colourCamera(camera);
+        out.camera = colourCamera(record3dCamera(*json, path));
         if (json->contains("fps"))
         {
             out.fps = numberAt(*json, "fps", path);

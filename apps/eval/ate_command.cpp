@@ -2,7 +2,6 @@
 #include <pointplane/evaluation/ate.h>
 
 #include <map>
-#include <memory>
 #include <ostream>
 
 #include "OutputGuard.h"
@@ -188,10 +187,10 @@ void AteCommand::run(CommandContext& context) const
 
 void addAteCommand(CLI::App& app, CommandContext& context)
 {
-    CLI::App& command = *app.add_subcommand(
-        "ate", "Absolute trajectory error, by the protocol of the TUM benchmark's evaluate_ate.py");
-    const auto options = std::make_shared<AteCommand>();
-    options->addTo(command);
-    command.callback([options, &context] { options->run(context); });
+    addCommand<AteCommand>(
+        app,
+        context,
+        "ate",
+        "Absolute trajectory error, by the protocol of the TUM benchmark's evaluate_ate.py");
 }
 }  // namespace pointplane

@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <iosfwd>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,17 @@ struct CommandContext
     /** A line to the user, unless it is empty. */
     void hint(const std::string& text);
 };
+
+/** Adds a subcommand whose options have addTo() and run(). */
+template <class Options>
+void addCommand(
+    CLI::App& app, CommandContext& context, const std::string& name, const std::string& description)
+{
+    CLI::App& command = *app.add_subcommand(name, description);
+    const auto options = std::make_shared<Options>();
+    options->addTo(command);
+    command.callback([options, &context] { options->run(context); });
+}
 
 /** @name The subcommands: each adds itself to the command line and runs as its callback.
  * @{ */

@@ -2,7 +2,6 @@
 #include <pointplane/evaluation/compare.h>
 
 #include <algorithm>
-#include <memory>
 #include <ostream>
 
 #include "OutputGuard.h"
@@ -127,10 +126,10 @@ void CompareCommand::run(CommandContext& context)
 
 void addCompareCommand(CLI::App& app, CommandContext& context)
 {
-    CLI::App& command = *app.add_subcommand(
-        "compare", "Several runs side by side, differences with bootstrap confidence intervals");
-    const auto options = std::make_shared<CompareCommand>();
-    options->addTo(command);
-    command.callback([options, &context] { options->run(context); });
+    addCommand<CompareCommand>(
+        app,
+        context,
+        "compare",
+        "Several runs side by side, differences with bootstrap confidence intervals");
 }
 }  // namespace pointplane

@@ -4,6 +4,7 @@
 #include <pointplane/core/number_text.h>
 #include <pointplane/core/trimmed.h>
 #include <pointplane/evaluation/nees.h>
+#include <pointplane/evaluation/stamp_intervals.h>
 #include <pointplane/evaluation/units.h>
 
 #include <algorithm>

@@ -5,8 +5,6 @@
 #include <pointplane/evaluation/units.h>
 
 #include <algorithm>
-#include <cmath>
-#include <memory>
 #include <ostream>
 #include <set>
 
@@ -15,6 +13,7 @@
 #include "coverage_limit.h"
 #include "input_options.h"
 #include "nees_output.h"
+#include "nees_pools.h"
 #include "number_checks.h"
 #include "result_output.h"
 #include "trajectory_report.h"
@@ -25,6 +24,17 @@ namespace
 {
 constexpr double kLargestSigma = 1000;    // [m] whose square is far from overflow
 constexpr double kLargestSigmaDeg = 180;  // no rotation is larger
+
+/** What the runs of one command add up to. */
+struct NeesRuns
+{
+    std::vector<NeesInterval> intervals;  //!< to test
+    NeesPools pools;
+    NeesReport report;
+    std::string untold;  //!< why not all that was asked for could be tested, or empty
+    ReportedRun reported;
+    ReportInputs inputs;
+};
 
 struct NeesCommand
 {
@@ -46,7 +56,14 @@ struct NeesCommand
 
  private:
     void checkFiles() const;
+    void checkOutputs() const;
     [[nodiscard]] NeesOptions resolved() const;
+    [[nodiscard]] std::vector<NeesInterval> resolvedIntervals() const;
+    void addRun(
+        const std::string& truthFile,
+        const std::string& estimateFile,
+        NeesRuns& runs,
+        CommandContext& context) const;
     void checkRange(
         const std::vector<NeesResult>& results,
         const std::string& untold,
@@ -124,55 +141,6 @@ void NeesCommand::addTo(CLI::App& command)
     html.addTo(command);
 }
 
-/** Increments of one interval, of all runs. */
-struct Pool
-{
-    NeesInterval interval;
-    std::vector<NeesIncrement> increments;
-    std::size_t independent{0};
-};
-
-void poolRun(std::vector<Pool>& pools, const NeesRun& run)
-{
-    for (const NeesRun::Tested& tested : run.tested)
-    {
-        const std::string name = nameOf(tested.interval);
-        auto pool = std::find_if(
-            pools.begin(), pools.end(), [&](const Pool& p) { return nameOf(p.interval) == name; });
-        if (pool == pools.end())
-        {
-            pool = pools.insert(pools.end(), {tested.interval, {}, 0});
-        }
-        pool->independent += countIndependent(tested.increments);
-        pool->increments.insert(
-            pool->increments.end(), tested.increments.begin(), tested.increments.end());
-    }
-}
-
-/** Of those with enough increments. Others are errors if the user chose them, or if none has. */
-std::vector<NeesResult> scoresOf(
-    const std::vector<Pool>& pools, bool areChosen, CommandContext& context)
-{
-    const auto problem = [](const Pool& pool) { return problemOf(pool.increments, pool.interval); };
-    const bool isRequired =
-        areChosen ||
-        std::none_of(
-            pools.begin(), pools.end(), [&](const Pool& pool) { return problem(pool).empty(); });
-    std::vector<NeesResult> out;
-    for (const Pool& pool : pools)
-    {
-        if (isRequired || problem(pool).empty())
-        {
-            out.push_back(consistencyOf(pool.increments, pool.independent, pool.interval));
-        }
-        else
-        {
-            context.err << context.program << ": note: left out: " << problem(pool) << "\n";
-        }
-    }
-    return out;
-}
-
 double jointNees(const NeesRun::Tested& tested)
 {
     return consistencyOf(tested.increments, countIndependent(tested.increments), tested.interval)
@@ -205,31 +173,6 @@ std::string hintAtBody(
             const auto other = neesRun(truth, estimate, {first.interval}, options);
             return jointNees(other.tested.front());
         });
-}
-
-/** One line per increment: error, sigma and NEES. */
-std::string savedIncrements(const std::string& file, const Trajectory& estimate, const NeesRun& run)
-{
-    std::string out;
-    for (const NeesRun::Tested& tested : run.tested)
-    {
-        for (const NeesIncrement& increment : tested.increments)
-        {
-            out += csvField(file) + "," + nameOf(tested.interval) + "," +
-                   savedStamp(estimate.stamps[increment.i]) + "," +
-                   savedStamp(estimate.stamps[increment.j]);
-            for (Eigen::Index k = 0; k < 6; ++k)
-            {
-                out += format(",%.6g", increment.error[k]);
-            }
-            for (Eigen::Index k = 0; k < 6; ++k)
-            {
-                out += format(",%.6g", std::sqrt(increment.cov(k, k)));
-            }
-            out += format(",%.6g\n", increment.nees);
-        }
-    }
-    return out;
 }
 
 /** \throws std::invalid_argument if options contradict each other */
@@ -265,7 +208,7 @@ NeesOptions NeesCommand::resolved() const
 }
 
 /** Says which results are outside the stated range, and sets the exit code.
- * \param untold why not all that was asked for could be tested, or empty */
+ * \param untold see NeesRuns */
 void NeesCommand::checkRange(
     const std::vector<NeesResult>& results,
     const std::string& untold,
@@ -288,9 +231,27 @@ void NeesCommand::checkRange(
     }
 }
 
-void NeesCommand::run(CommandContext& context) const
+std::vector<NeesInterval> NeesCommand::resolvedIntervals() const
 {
-    checkFiles();
+    std::vector<NeesInterval> out;
+    for (const std::string& text : intervals)
+    {
+        const NeesInterval interval = neesIntervalFromName(text);
+        const std::string name = nameOf(interval);
+        if (std::any_of(
+                out.begin(),
+                out.end(),
+                [&](const NeesInterval& other) { return nameOf(other) == name; }))
+        {
+            throw std::invalid_argument("--interval: " + name + " is given more than once");
+        }
+        out.push_back(interval);
+    }
+    return out;
+}
+
+void NeesCommand::checkOutputs() const
+{
     OutputGuard guard;
     for (const std::string& file : files)
     {
@@ -298,54 +259,56 @@ void NeesCommand::run(CommandContext& context) const
     }
     output.guardedBy(guard);
     html.guardedBy(guard);
-    NeesReport report;
+}
+
+void NeesCommand::addRun(
+    const std::string& truthFile,
+    const std::string& estimateFile,
+    NeesRuns& runs,
+    CommandContext& context) const
+{
+    const Trajectory truth = input.loadTruth(truthFile, context);
+    const Trajectory estimate = input.loadEstimate(estimateFile, context);
+    checkOrder(truth, estimate, context);
+    checkTruthRate(truth, estimate, context);
+    runs.inputs = html.read(estimate);
+    NeesReport& report = runs.report;
+    const NeesRun run = neesRun(truth, estimate, runs.intervals, report.options);
+    runs.pools.add(run);
+    runs.untold = run.untold.empty() ? runs.untold : run.note;
+    report.coverages.push_back(coverageOf(truth, estimate, report.options.offset));
+    report.saved += savedIncrements(estimateFile, estimate, run);
+    if (!run.note.empty())
+    {
+        context.err << "pointplane-eval: note: " << run.note << "\n";
+    }
+    const std::string hint = hintAtBody(input, truth, estimate, run, report.options);
+    context.hint(hint);
+    if (!html.directory.empty())
+    {
+        runs.reported = {truth, estimate, {}, {}, report.options, runs.intervals, hint};
+        runs.reported.rpe.fixedDelta = true;
+        runs.reported.rpe.offset = runs.reported.ate.offset = report.options.offset;
+    }
+}
+
+void NeesCommand::run(CommandContext& context) const
+{
+    checkFiles();
+    checkOutputs();
+    NeesRuns runs;
+    NeesReport& report = runs.report;
     report.files = files;
     report.options = resolved();
-    std::vector<NeesInterval> lengths;
-    for (const std::string& name : intervals)
-    {
-        lengths.push_back(neesIntervalFromName(name));
-        const auto isSame = [&](const NeesInterval& other)
-        { return nameOf(other) == nameOf(lengths.back()); };
-        if (std::any_of(lengths.begin(), lengths.end() - 1, isSame))
-        {
-            throw std::invalid_argument(
-                "--interval: " + nameOf(lengths.back()) + " is given more than once");
-        }
-    }
-    std::vector<Pool> pools;
-    ReportedRun reported;
-    ReportInputs inputs;
-    std::string untold;
+    runs.intervals = resolvedIntervals();
     for (std::size_t k = 0; k < files.size(); k += 2)
     {
-        const Trajectory truth = input.loadTruth(files[k], context);
-        const Trajectory estimate = input.loadEstimate(files[k + 1], context);
-        checkOrder(truth, estimate, context);
-        checkTruthRate(truth, estimate, context);
-        inputs = html.read(estimate);
-        const NeesRun run = neesRun(truth, estimate, lengths, report.options);
-        poolRun(pools, run);
-        untold = run.untold.empty() ? untold : run.note;
-        report.coverages.push_back(coverageOf(truth, estimate, report.options.offset));
-        report.saved += savedIncrements(files[k + 1], estimate, run);
-        if (!run.note.empty())
-        {
-            context.err << "pointplane-eval: note: " << run.note << "\n";
-        }
-        const std::string hint = hintAtBody(input, truth, estimate, run, report.options);
-        context.hint(hint);
-        if (!html.directory.empty())
-        {
-            reported = {truth, estimate, {}, {}, report.options, lengths, hint};
-            reported.rpe.fixedDelta = true;
-            reported.rpe.offset = reported.ate.offset = report.options.offset;
-        }
+        addRun(files[k], files[k + 1], runs, context);
     }
-    report.results = scoresOf(pools, areChosen, context);
-    writeTrajectoryReport(reported, html, inputs, context);
+    report.results = areChosen ? runs.pools.scores() : runs.pools.scoresOfTestable(context);
+    writeTrajectoryReport(runs.reported, html, runs.inputs, context);
     writeReport(report, output, context.out);
-    checkRange(report.results, untold, context);
+    checkRange(report.results, runs.untold, context);
     for (std::size_t k = 0; k < report.coverages.size(); ++k)
     {
         coverage.check(files[2 * k + 1], report.coverages[k], ScoreIs::OfAllFrames, context);
@@ -355,10 +318,10 @@ void NeesCommand::run(CommandContext& context) const
 
 void addNeesCommand(CLI::App& app, CommandContext& context)
 {
-    CLI::App& command = *app.add_subcommand(
-        "nees", "Are the covariances true? Normalised estimation error squared of increments");
-    const auto options = std::make_shared<NeesCommand>();
-    options->addTo(command);
-    command.callback([options, &context] { options->run(context); });
+    addCommand<NeesCommand>(
+        app,
+        context,
+        "nees",
+        "Are the covariances true? Normalised estimation error squared of increments");
 }
 }  // namespace pointplane

@@ -2,6 +2,7 @@
 #include "nees_output.h"
 
 #include <pointplane/core/number_text.h>
+#include <pointplane/evaluation/scored_trajectories.h>
 #include <pointplane/evaluation/units.h>
 
 #include <array>
@@ -84,6 +85,30 @@ void printInterval(const NeesResult& r, std::ostream& out)
         << "verdict: " << verdict(r.joint) << "\n";
 }
 }  // namespace
+
+std::string savedIncrements(const std::string& file, const Trajectory& estimate, const NeesRun& run)
+{
+    std::string out;
+    for (const NeesRun::Tested& tested : run.tested)
+    {
+        for (const NeesIncrement& increment : tested.increments)
+        {
+            out += csvField(file) + "," + nameOf(tested.interval) + "," +
+                   savedStamp(estimate.stamps[increment.i]) + "," +
+                   savedStamp(estimate.stamps[increment.j]);
+            for (Eigen::Index k = 0; k < 6; ++k)
+            {
+                out += format(",%.6g", increment.error[k]);
+            }
+            for (Eigen::Index k = 0; k < 6; ++k)
+            {
+                out += format(",%.6g", std::sqrt(increment.cov(k, k)));
+            }
+            out += format(",%.6g\n", increment.nees);
+        }
+    }
+    return out;
+}
 
 std::string describeTruthNoise(const NeesOptions& options)
 {

@@ -19,6 +19,10 @@ struct NeesReport
     std::string saved;                //!< lines of --save
 };
 
+/** Lines of --save: error, sigma and NEES of each increment. \param file of the estimate */
+[[nodiscard]] std::string savedIncrements(
+    const std::string& file, const Trajectory& estimate, const NeesRun& run);
+
 /** "sigma 0.0001 m and 0.06 deg per axis and pose", or the three angles. */
 [[nodiscard]] std::string describeTruthNoise(const NeesOptions& options);
 [[nodiscard]] std::string describe(const NeesReport& report);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/evaluation/units.h>
 
-#include <memory>
 #include <ostream>
 
 #include "OutputGuard.h"
@@ -220,10 +219,10 @@ RpeOptions RpeCommandOptions::resolved() const
 
 void addRpeCommand(CLI::App& app, CommandContext& context)
 {
-    CLI::App& command = *app.add_subcommand(
-        "rpe", "Relative pose error, by the protocol of the TUM benchmark's evaluate_rpe.py");
-    const auto options = std::make_shared<RpeCommand>();
-    options->addTo(command);
-    command.callback([options, &context] { options->run(context); });
+    addCommand<RpeCommand>(
+        app,
+        context,
+        "rpe",
+        "Relative pose error, by the protocol of the TUM benchmark's evaluate_rpe.py");
 }
 }  // namespace pointplane

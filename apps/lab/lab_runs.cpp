@@ -137,6 +137,19 @@ WorkDirectory::~WorkDirectory()
     }
 }
 
+void addScore(const LabScore& score, nlohmann::ordered_json& run)
+{
+    if (!score.rpe)
+    {
+        run["failure"] = score.failure;
+        return;
+    }
+    run["translation"] = score.rpe->translation.rmse;
+    run["rotationDeg"] = score.rpe->rotation.rmse * kDegreesPerRadian;
+    run["pairs"] = score.rpe->translation.count;
+    run["coverage"] = toJson(score.rpe->coverage);
+}
+
 std::string scoreText(const LabScore& score)
 {
     if (!score.rpe)

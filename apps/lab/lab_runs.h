@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
 namespace pointplane
 {
@@ -81,6 +82,9 @@ class WorkDirectory
 /** "1 of 18 runs failed, first NAME: why", or empty. */
 [[nodiscard]] std::string failuresOf(
     const std::vector<LabRun>& runs, const std::vector<LabScore>& scores);
+
+/** Adds errors, pairs and coverage, or the failure, to the JSON object of a run. */
+void addScore(const LabScore& score, nlohmann::ordered_json& run);
 
 /** "12.3 mm / 0.46 deg", with " (9 lost, 3 predicted)" where frames were, or "failed". */
 [[nodiscard]] std::string scoreText(const LabScore& score);

@@ -8,16 +8,15 @@
 #include <cstddef>
 #include <filesystem>
 #include <iterator>
-#include <memory>
 #include <ostream>
 
 #include "LabApp.h"
 #include "OutputGuard.h"
 #include "lab_runs.h"
-#include "number_checks.h"
 #include "report_file.h"
 #include "reproduce_output.h"
 #include "reproduce_plan.h"
+#include "reproduce_rawlogs.h"
 #include "result_output.h"
 #include "rpe_options.h"
 #include "run_processes.h"
@@ -30,10 +29,10 @@ namespace
 struct ReproduceCommand
 {
     std::vector<std::string> directories;
-    std::string paperConfig, report, figure, convert, simulate;
-    double cornerDuration{18};
+    std::string paperConfig, report, figure;
     std::vector<std::string> alphas{"0", "1", "10", "100", "1e3", "1e7"};
     std::vector<std::string> parts{std::begin(kReproducedGroups), std::end(kReproducedGroups)};
+    RawlogMaker rawlogs;
     LabRunner runner;
     OutputFiles files;
 
@@ -44,10 +43,8 @@ struct ReproduceCommand
     [[nodiscard]] bool makes(const std::string& group) const;
     [[nodiscard]] std::vector<ReproducedSequence> foundSequences() const;
     void plan(const std::string& paper, Reproduction& result) const;
-    void makeRawlogs(
-        std::vector<ReproducedSequence>& sequences,
-        const WorkDirectory& work,
-        CommandContext& context) const;
+    [[nodiscard]] std::vector<RawlogJob> planRawlogs(
+        Reproduction& result, const WorkDirectory& work) const;
     [[nodiscard]] std::string score(Reproduction& result, CommandContext& context) const;
     void write(const Reproduction& result, CommandContext& context) const;
 };
@@ -78,22 +75,7 @@ void ReproduceCommand::addTo(CLI::App& command)
         ->delimiter(',')
         ->check(isOneOf(parts))
         ->group("Runs");
-    command
-        .add_option(
-            "--corner-duration", cornerDuration, "Length of the simulated corner sequence [s]")
-        ->capture_default_str()
-        ->check(isPositive())
-        ->group("Runs");
-    command
-        .add_option(
-            "--convert", convert, "The pointplane-convert to run (default: beside this program)")
-        ->type_name("PROGRAM")
-        ->group("Runs");
-    command
-        .add_option(
-            "--simulate", simulate, "The pointplane-simulate to run (default: beside this program)")
-        ->type_name("PROGRAM")
-        ->group("Runs");
+    rawlogs.addTo(command);
     runner.addTo(command);
     files.addTo(command, "");
     command.add_option("--report", report, "Write DIR/index.html: one file, with the curves")
@@ -123,58 +105,6 @@ std::string findPaperConfig()
         }
     }
     throw InputError("config-paper.ini not found; name it by --paper-config");
-}
-
-constexpr const char* kCornerRawlog = "corner.rawlog";
-
-void ReproduceCommand::makeRawlogs(
-    std::vector<ReproducedSequence>& sequences,
-    const WorkDirectory& work,
-    CommandContext& context) const
-{
-    std::vector<ProcessJob> jobs;
-    const auto programOr = [](const std::string& given, const char* usual)
-    { return given.empty() ? siblingProgram(usual) : given; };
-    if (makes("corner"))
-    {
-        jobs.push_back(
-            {{programOr(simulate, "pointplane-simulate"),
-              "corner",
-              "-o",
-              work.fileAt(kCornerRawlog),
-              "--duration",
-              format("%g", cornerDuration),
-              "--quiet"},
-             work.fileAt("corner.log")});
-    }
-    for (ReproducedSequence& s : sequences)
-    {
-        const auto folderName = std::filesystem::path(s.folder).filename().string();
-        s.rawlog = work.fileAt(folderName + ".rawlog");
-        s.groundTruth = groundTruthOf(s.rawlog);
-        jobs.push_back(
-            {{programOr(convert, "pointplane-convert"), "tum", s.folder, "-o", s.rawlog, "--quiet"},
-             work.fileAt(folderName + ".rawlog.log")});
-    }
-    std::string failure;  // the callback runs in another thread and must not throw
-    runProcesses(
-        jobs,
-        runner.parallel(),
-        [&](std::size_t k, int exitCode)
-        {
-            const std::string& rawlog = jobs[k].command[jobs[k].command[1] == "tum" ? 4 : 3];
-            if (exitCode == kExitOk)
-            {
-                context.err << "made " << rawlog << std::endl;
-                return;
-            }
-            failure = "cannot make '" + rawlog + "': " + jobs[k].command.front() + ", exit code " +
-                      std::to_string(exitCode) + ", " + lastLine(jobs[k].logPath);
-        });
-    if (!failure.empty())
-    {
-        throw InputError(failure);
-    }
 }
 
 /** \throws InputError if a folder has none */
@@ -208,29 +138,50 @@ void ReproduceCommand::plan(const std::string& paper, Reproduction& result) cons
     }
 }
 
-/** Makes rawlogs, and runs all variants on them. \return which runs failed, or empty */
-std::string ReproduceCommand::score(Reproduction& result, CommandContext& context) const
+/** Tells each sequence its rawlog. */
+std::vector<RawlogJob> ReproduceCommand::planRawlogs(
+    Reproduction& result, const WorkDirectory& work) const
 {
-    const WorkDirectory work(runner.directory);
-    makeRawlogs(result.sequences, work, context);
-    const std::string corner = work.fileAt(kCornerRawlog);
-    std::vector<LabRun> runs;
+    std::vector<RawlogJob> out;
+    if (makes("corner"))
+    {
+        out.push_back(rawlogs.corner(work));
+    }
+    for (ReproducedSequence& sequence : result.sequences)
+    {
+        out.push_back(rawlogs.of(sequence, work));
+        sequence.rawlog = out.back().rawlog;
+        sequence.groundTruth = groundTruthOf(sequence.rawlog);
+    }
+    return out;
+}
+
+/** Sequence by sequence, then the corner. */
+std::vector<LabRun> runsOf(const Reproduction& result, const std::string& corner)
+{
+    std::vector<LabRun> out;
     for (const ReproducedSequence& s : result.sequences)
     {
         for (const Variant& v : result.variants)
         {
-            runs.push_back(
-                {s.name + " " + v.group + ": " + v.name,
-                 s.rawlog,
-                 s.groundTruth,
-                 v.config,
-                 v.settings});
+            const std::string name = s.name + " " + v.group + ": " + v.name;
+            out.push_back({name, s.rawlog, s.groundTruth, v.config, v.settings});
         }
     }
     for (const Variant& v : result.cornerVariants)
     {
-        runs.push_back({"corner: " + v.name, corner, groundTruthOf(corner), v.config, v.settings});
+        out.push_back({"corner: " + v.name, corner, groundTruthOf(corner), v.config, v.settings});
     }
+    return out;
+}
+
+/** Makes rawlogs, and runs all variants on them. \return which runs failed, or empty */
+std::string ReproduceCommand::score(Reproduction& result, CommandContext& context) const
+{
+    const WorkDirectory work(runner.directory);
+    makeRawlogs(planRawlogs(result, work), runner.parallel(), context.err);
+    const std::string corner = rawlogs.corner(work).rawlog;
+    const std::vector<LabRun> runs = runsOf(result, corner);
     result.rpe.fixedDelta = true;
     result.scores = runner.run(runs, result.rpe, work, context.err);
     const std::string failures = failuresOf(runs, result.scores);
@@ -274,10 +225,8 @@ void ReproduceCommand::run(CommandContext& context) const
 {
     OutputGuard guard;
     const std::string paper = paperConfig.empty() ? findPaperConfig() : paperConfig;
-    for (const std::string& program : {paper, convert, simulate})
-    {
-        guard.addInput(program);
-    }
+    guard.addInput(paper);
+    rawlogs.guardedBy(guard);
     runner.guardedBy(guard);
     files.guardedBy(guard);
     guardReport(guard, report);
@@ -303,11 +252,10 @@ void ReproduceCommand::run(CommandContext& context) const
 
 void addReproduceCommand(CLI::App& app, CommandContext& context)
 {
-    CLI::App& command = *app.add_subcommand(
+    addCommand<ReproduceCommand>(
+        app,
+        context,
         "reproduce",
         "The paper's Tables 1 and 2, Fig. 3 and Fig. 5, on the TUM sequences of a folder");
-    const auto options = std::make_shared<ReproduceCommand>();
-    options->addTo(command);
-    command.callback([options, &context] { options->run(context); });
 }
 }  // namespace pointplane

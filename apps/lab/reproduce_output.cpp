@@ -68,6 +68,38 @@ std::string intro(const Reproduction& result)
     return "RMSE of the relative pose error in mm / deg. " + describe(result.rpe) +
            ". n p: n frames were not measured but predicted.";
 }
+
+nlohmann::ordered_json runJson(
+    const ReproducedSequence& sequence, const Variant& variant, const LabScore& score)
+{
+    nlohmann::ordered_json run{
+        {"sequence", sequence.name},
+        {"part", sequence.isPart},
+        {"group", variant.group},
+        {"variant", variant.name},
+        {"config", variant.config},
+        {"settings", variant.settings}};
+    addScore(score, run);
+    return run;
+}
+
+nlohmann::ordered_json cornerJson(const Reproduction& result, std::size_t k)
+{
+    const Variant& variant = result.cornerVariants[k];
+    const LabScore& score = result.cornerScores[k];
+    nlohmann::ordered_json run{{"variant", variant.name}, {"settings", variant.settings}};
+    if (score.rpe)
+    {
+        run["translation"] = score.rpe->translation.rmse;
+        run["rotationDeg"] = score.rpe->rotation.rmse * kDegreesPerRadian;
+        run["finalError"] = finalError(result, k);
+    }
+    else
+    {
+        run["failure"] = score.failure;
+    }
+    return run;
+}
 }  // namespace
 
 std::string toMarkdown(const Reproduction& result)
@@ -127,44 +159,14 @@ nlohmann::ordered_json toJson(const Reproduction& result)
     }
     for (std::size_t k = 0; k < result.scores.size(); ++k)
     {
-        const ReproducedSequence& s = result.sequences[k / result.variants.size()];
-        const Variant& v = result.variants[k % result.variants.size()];
-        nlohmann::ordered_json run{
-            {"sequence", s.name},
-            {"part", s.isPart},
-            {"group", v.group},
-            {"variant", v.name},
-            {"config", v.config},
-            {"settings", v.settings}};
-        if (result.scores[k].rpe)
-        {
-            run["translation"] = result.scores[k].rpe->translation.rmse;
-            run["rotationDeg"] = result.scores[k].rpe->rotation.rmse * kDegreesPerRadian;
-            run["pairs"] = result.scores[k].rpe->translation.count;
-            run["coverage"] = toJson(result.scores[k].rpe->coverage);
-        }
-        else
-        {
-            run["failure"] = result.scores[k].failure;
-        }
-        json["runs"].push_back(run);
+        json["runs"].push_back(runJson(
+            result.sequences[k / result.variants.size()],
+            result.variants[k % result.variants.size()],
+            result.scores[k]));
     }
     for (std::size_t k = 0; k < result.cornerScores.size(); ++k)
     {
-        const LabScore& score = result.cornerScores[k];
-        const Variant& v = result.cornerVariants[k];
-        nlohmann::ordered_json run{{"variant", v.name}, {"settings", v.settings}};
-        if (score.rpe)
-        {
-            run["translation"] = score.rpe->translation.rmse;
-            run["rotationDeg"] = score.rpe->rotation.rmse * kDegreesPerRadian;
-            run["finalError"] = finalError(result, k);
-        }
-        else
-        {
-            run["failure"] = score.failure;
-        }
-        json["corner"].push_back(run);
+        json["corner"].push_back(cornerJson(result, k));
     }
     return json;
 }

@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <filesystem>
-#include <memory>
 #include <ostream>
 #include <set>
 
@@ -201,10 +200,10 @@ void SweepCommand::run(CommandContext& context)
 
 void addSweepCommand(CLI::App& app, CommandContext& context)
 {
-    CLI::App& command = *app.add_subcommand(
-        "sweep", "Runs the odometry over a range of any parameter and draws the curve");
-    const auto options = std::make_shared<SweepCommand>();
-    options->addTo(command);
-    command.callback([options, &context] { options->run(context); });
+    addCommand<SweepCommand>(
+        app,
+        context,
+        "sweep",
+        "Runs the odometry over a range of any parameter and draws the curve");
 }
 }  // namespace pointplane

@@ -39,20 +39,9 @@ nlohmann::ordered_json toJson(const SweepResult& sweep)
     {
         for (std::size_t v = 0; v < sweep.values.size(); ++v)
         {
-            const LabScore& score = sweep.at(s, v);
             nlohmann::ordered_json item{
                 {"sequence", sweep.sequences[s]}, {"value", sweep.values[v]}};
-            if (score.rpe)
-            {
-                item["translation"] = score.rpe->translation.rmse;
-                item["rotationDeg"] = score.rpe->rotation.rmse * kDegreesPerRadian;
-                item["pairs"] = score.rpe->translation.count;
-                item["coverage"] = toJson(score.rpe->coverage);
-            }
-            else
-            {
-                item["failure"] = score.failure;
-            }
+            addScore(sweep.at(s, v), item);
             json["runs"].push_back(item);
         }
     }

@@ -243,4 +243,29 @@ std::optional<SourceItem> FrameSource::next()
     ready_.pop_front();
     return out;
 }
+
+std::string FrameSource::whyNoFrames() const
+{
+    if (!damage_.empty())
+    {
+        return damage_;
+    }
+    const std::size_t numMore = options_.inputs.size() - 1;
+    const std::string inputs = options_.inputs.front() +
+                               (numMore > 0 ? " and " + std::to_string(numMore) + " more: " : ": ");
+    if (framesOf_.empty())
+    {
+        return inputs + "no CObservation3DRangeScan in it";
+    }
+    std::string cameras;
+    for (const auto& [label, count] : framesOf_)
+    {
+        cameras += (cameras.empty() ? "" : ", ") + framesText(count) + " of camera '" + label + "'";
+    }
+    return inputs +
+           (framesOf_.count(label_) > 0
+                ? "--first " + std::to_string(options_.first) + " skips all of them"
+                : "no frames of camera '" + label_ + "'") +
+           "; in it are " + cameras;
+}
 }  // namespace pointplane

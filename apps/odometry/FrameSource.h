@@ -50,8 +50,8 @@ class FrameSource
     /** One line; empty if the input was read to its end. */
     [[nodiscard]] const std::string& damage() const { return damage_; }
     [[nodiscard]] const std::string& label() const { return label_; }
-    /** Number of frames in what was read, of each RGB-D camera by its label. */
-    [[nodiscard]] const std::map<std::string, std::size_t>& framesOf() const { return framesOf_; }
+    /** One line, if next() gave no frame: what is in the input instead. */
+    [[nodiscard]] std::string whyNoFrames() const;
     /** Lines about what was read and not used. */
     [[nodiscard]] std::vector<std::string> notes() const;
     /** When the frames before the first one wanted had been read: the time per frame is without
@@ -79,9 +79,9 @@ class FrameSource
     std::deque<SourceItem> ready_;
     std::map<std::string, SourceItem> skippedComments_;  //!< the latest about each camera
     std::string label_;
-    std::map<std::string, std::size_t> framesOf_;
-    bool isNominal_{false};       //!< the recording says so of its camera
-    std::size_t numReplaced_{0};  //!< observations of an earlier run
+    std::map<std::string, std::size_t> framesOf_;  //!< their number, of each camera by its label
+    bool isNominal_{false};                        //!< the recording says so of its camera
+    std::size_t numReplaced_{0};                   //!< observations of an earlier run
     std::size_t numFrames_{0};
     std::string damage_;
     std::chrono::steady_clock::time_point start_{std::chrono::steady_clock::now()};

@@ -35,9 +35,9 @@ void OverlaySink::add(const OutputItem& item)
     {
         return;
     }
-    const RgbdFrame& frame = item.source.converted->frame;
+    const double stamp = item.source.converted->frame.stamp;
     const auto speed = speedAt(item);
-    firstStamp_ = firstStamp_.value_or(frame.stamp);
+    firstStamp_ = firstStamp_.value_or(stamp);
     if (numFrames_++ % every_ != 0)
     {
         return;
@@ -45,13 +45,7 @@ void OverlaySink::add(const OutputItem& item)
     constexpr int kQuality = 90;
     char name[32];
     std::snprintf(name, sizeof(name), "%06zu.jpg", item.source.frameIndex);
-    const cv::Mat picture = drawOverlay(
-        frame.gray,
-        frame.depth,
-        *item.frame,
-        item.source.frameIndex,
-        frame.stamp - *firstStamp_,
-        speed);
+    const cv::Mat picture = drawOverlay(item, stamp - *firstStamp_, speed);
     writeJpegFile(folder_.fileAt(name), picture, kQuality);
     names_.insert(name);
 }

@@ -7,7 +7,7 @@
 #include <set>
 #include <string>
 
-#include "FrameRecord.h"
+#include "Sink.h"
 #include "overlay.h"
 
 namespace pointplane

@@ -7,7 +7,7 @@
 
 #include <string>
 
-#include "FrameRecord.h"
+#include "Sink.h"
 
 namespace pointplane
 {

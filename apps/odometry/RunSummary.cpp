@@ -125,10 +125,13 @@ LearntLens RunSummary::learntLens() const
     return out;
 }
 
-void RunSummary::print(std::ostream& out, bool profile) const
+double RunSummary::perFrame(double total) const
 {
-    char line[256];
-    const auto frames = static_cast<double>(std::max<std::size_t>(1, numFrames));
+    return total / static_cast<double>(std::max<std::size_t>(1, numFrames));
+}
+
+void RunSummary::printFrames(std::ostream& out) const
+{
     const bool isFirstAlone = numFrames == 1 && numTracked == 1 && !hasMotion;
     out << (label.empty() ? "camera ''" : label) << ": " << framesText(numFrames);
     if (isFirstAlone)
@@ -140,15 +143,20 @@ void RunSummary::print(std::ostream& out, bool profile) const
         out << ": " << numTracked << " tracked, " << numPredicted << " predicted, " << numLost
             << " lost";
     }
+    char line[256];
     std::snprintf(
         line,
         sizeof(line),
         "; path %.3f m; %.1f ms/frame (odometry %.1f), %.1f fps\n",
         pathLength,
-        1e3 * seconds / frames,
-        sum.msTotal / frames,
-        frames / std::max(seconds, 1e-9));
+        perFrame(1e3 * seconds),
+        perFrame(sum.msTotal),
+        static_cast<double>(std::max<std::size_t>(1, numFrames)) / std::max(seconds, 1e-9));
     out << line;
+}
+
+void RunSummary::printUntracked(std::ostream& out) const
+{
     for (const UntrackedFrames& group : untracked)
     {
         out << "  " << lineOf(group) << "\n";
@@ -165,6 +173,7 @@ void RunSummary::print(std::ostream& out, bool profile) const
     }
     if (attachedShare > 0)
     {
+        char line[256];
         std::snprintf(
             line,
             sizeof(line),
@@ -175,10 +184,10 @@ void RunSummary::print(std::ostream& out, bool profile) const
             100 * attachedShare);
         out << line;
     }
-    for (const std::string& note : notes)
-    {
-        out << note << "\n";
-    }
+}
+
+void RunSummary::printLearnt(std::ostream& out) const
+{
     if (numTracked > 0)
     {
         out << "depth noise: " << describe(sum.depthNoise) << "\n";
@@ -187,18 +196,35 @@ void RunSummary::print(std::ostream& out, bool profile) const
     {
         out << "lens, learnt from the motion: " << lens << "\n";
     }
+}
+
+void RunSummary::printTimes(std::ostream& out) const
+{
+    char line[256];
+    std::snprintf(
+        line,
+        sizeof(line),
+        "ms/frame: points %.2f, planes %.2f, matching %.2f, pose %.2f, total %.2f\n",
+        perFrame(sum.msPoints),
+        perFrame(sum.msPlanes),
+        perFrame(sum.msMatching),
+        perFrame(sum.msPose),
+        perFrame(sum.msTotal));
+    out << line;
+}
+
+void RunSummary::print(std::ostream& out, bool profile) const
+{
+    printFrames(out);
+    printUntracked(out);
+    for (const std::string& note : notes)
+    {
+        out << note << "\n";
+    }
+    printLearnt(out);
     if (profile)
     {
-        std::snprintf(
-            line,
-            sizeof(line),
-            "ms/frame: points %.2f, planes %.2f, matching %.2f, pose %.2f, total %.2f\n",
-            sum.msPoints / frames,
-            sum.msPlanes / frames,
-            sum.msMatching / frames,
-            sum.msPose / frames,
-            sum.msTotal / frames);
-        out << line;
+        printTimes(out);
     }
     for (const std::string& output : outputs)
     {

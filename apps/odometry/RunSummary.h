@@ -56,6 +56,11 @@ struct RunSummary
     [[nodiscard]] int exitCode() const;
 
  private:
+    [[nodiscard]] double perFrame(double total) const;
+    void printFrames(std::ostream& out) const;
+    void printUntracked(std::ostream& out) const;
+    void printLearnt(std::ostream& out) const;  //!< of the camera
+    void printTimes(std::ostream& out) const;
     [[nodiscard]] bool isMostlyUnmeasured() const;
     void addUntracked(const OutputItem& item);
     void addInPart(const OutputItem& item);

@@ -83,7 +83,7 @@ std::string SimplemapSink::description() const
     return path_ + ": " + std::to_string(writer_.size()) + " key frames, CSimpleMap";
 }
 
-GraphSink::GraphSink(const std::string& path) : file_(path) {}
+GraphSink::GraphSink(const std::string& path) : TextSink(path) {}
 
 void GraphSink::add(const OutputItem& item)
 {

@@ -8,8 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "FrameRecord.h"
-#include "TextOutput.h"
+#include "text_sinks.h"
 
 namespace pointplane
 {
@@ -37,18 +36,15 @@ class SimplemapSink : public Sink
 /** A pose graph of all frames in the text format of TORO, which graph-slam and
  * CNetworkOfPoses3DInf::loadFromTextFile() read: a node per frame, an edge per increment with the
  * inverse of its covariance. Angles roll, pitch, yaw. */
-class GraphSink : public Sink
+class GraphSink : public TextSink
 {
  public:
     explicit GraphSink(const std::string& path);
 
     void add(const OutputItem& item) override;
-    void close() override { file_.close(); }
-    void discard() noexcept override { file_.discard(); }
     [[nodiscard]] std::string description() const override;
 
  private:
-    TextOutput file_;
     std::size_t numNodes_{0};
 };
 }  // namespace pointplane

@@ -110,18 +110,13 @@ void drawArrow(const CameraSpeed& speed, cv::Mat& picture)
     cv::circle(picture, centre, 2, kArrow, cv::FILLED, cv::LINE_AA);
     cv::arrowedLine(picture, centre, tip, kArrow, 2, cv::LINE_AA, 0, 0.2);
 }
-
 }  // namespace
 
-cv::Mat drawOverlay(
-    const cv::Mat& gray,
-    const cv::Mat& depth,
-    const FrameRecord& record,
-    std::size_t frameIndex,
-    double seconds,
-    const std::optional<CameraSpeed>& speed)
+cv::Mat drawOverlay(const OutputItem& item, double seconds, const std::optional<CameraSpeed>& speed)
 {
-    cv::Mat picture = background(gray, depth);
+    const RgbdFrame& frame = item.source.converted->frame;
+    const FrameRecord& record = *item.frame;
+    cv::Mat picture = background(frame.gray, frame.depth);
     drawPlanes(record.features, picture);
     drawMoving(record.features.moving, picture);
     for (const FrameFeatures::Point& point : record.features.points)
@@ -136,7 +131,9 @@ cv::Mat drawOverlay(
     {
         cv::rectangle(picture, cv::Rect({}, picture.size()), kArrow, 2);
     }
-    cv::vconcat(picture, overlayLegend(picture.cols, record, frameIndex, seconds, speed), picture);
+    const cv::Mat legend =
+        overlayLegend(picture.cols, record, item.source.frameIndex, seconds, speed);
+    cv::vconcat(picture, legend, picture);
     return picture;
 }
 }  // namespace pointplane

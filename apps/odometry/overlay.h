@@ -20,13 +20,9 @@ struct CameraSpeed
  * the pose follows are green circles, rejected ones red crosses, new ones white dots. Planes have
  * the colour of the standard deviation of their distance (blue small, red large); those that the
  * pose does not follow are outlined only. An arrow shows where the camera moves.
- * \param gray CV_8UC1, may be empty \param depth CV_32FC1 [m], shown where there is no gray image
+ * Where there is no gray image, it is on the depth. \param item of a frame \param seconds since the
+ * first frame
  * \return CV_8UC3, BGR, as wide as the image */
 [[nodiscard]] cv::Mat drawOverlay(
-    const cv::Mat& gray,
-    const cv::Mat& depth,
-    const FrameRecord& record,
-    std::size_t frameIndex,
-    double seconds,
-    const std::optional<CameraSpeed>& speed);
+    const OutputItem& item, double seconds, const std::optional<CameraSpeed>& speed);
 }  // namespace pointplane

@@ -12,7 +12,7 @@
 namespace pointplane
 {
 TrajectorySink::TrajectorySink(const std::string& path, bool robotFrame)
-    : file_(path), robotFrame_(robotFrame)
+    : TextSink(path), robotFrame_(robotFrame)
 {
     file_.writeLine(
         std::string("# timestamp tx ty tz qx qy qz qw; poses of the ") +
@@ -51,7 +51,7 @@ std::string TrajectorySink::description() const
            ", TUM text";
 }
 
-DiagnosticsSink::DiagnosticsSink(const std::string& path) : file_(path)
+DiagnosticsSink::DiagnosticsSink(const std::string& path) : TextSink(path)
 {
     file_.writeLine(
         "frame,stamp,status,reason,numPoints,numPlanes,numPointPairs,numPlanePairs,numPointInliers,"

@@ -22,6 +22,7 @@
 #include "OutputGuard.h"
 #include "ProgressBar.h"
 #include "TextOutput.h"
+#include "own_ground_truth.h"
 #include "tum_line.h"
 
 namespace pointplane

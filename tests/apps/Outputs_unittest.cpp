@@ -285,7 +285,17 @@ TEST_F(Outputs, pipesAreWrittenThrough)
         const std::string bytes = reader.get();
         EXPECT_TRUE(fs::is_fifo(pipe)) << option;
         ASSERT_EQ(run({in_, option, out_}).code, kExitOk);
-        EXPECT_EQ(bytes.size(), readBytes(out_).size()) << option;
+        const std::string other = readBytes(out_);
+        if (option == "--diagnostics")  // its times are as long as they are
+        {
+            EXPECT_EQ(
+                std::count(bytes.begin(), bytes.end(), '\n'),
+                std::count(other.begin(), other.end(), '\n'));
+        }
+        else
+        {
+            EXPECT_EQ(bytes.size(), other.size()) << option;
+        }
         fs::remove(pipe);
         fs::remove(out_);
     }

@@ -111,7 +111,7 @@ TEST_F(DepthNoiseLearnerTest, itIsToldAtWhichDistancesItWasLearnt)
     const DepthNoise noise = learnt(0.3, 0.6, camera, {});
     EXPECT_NEAR(noise.learntFrom, 0.3, 0.06);  // half an octave
     EXPECT_NEAR(noise.learntTo, 0.6, 0.12);
-    EXPECT_EQ(learnt(0.5, 4, camera, DepthNoise()).learntTo, 4);
+    EXPECT_DOUBLE_EQ(learnt(0.5, 4, camera, DepthNoise()).learntTo, 4);
     DepthNoise given;
     given.kind = "given";
     EXPECT_EQ(learnt(0.5, 4, camera, given).learntTo, 0);

@@ -3,6 +3,7 @@
 #include <pointplane/core/read_errors.h>
 #include <pointplane/evaluation/FrameTable.h>
 #include <pointplane/evaluation/association.h>
+#include <pointplane/evaluation/stamp_intervals.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -50,6 +51,40 @@ std::vector<std::string> splitCsvLine(const std::string& line)
     return fields;
 }
 
+void FrameTable::setHeader(const std::string& line)
+{
+    names_ = splitCsvLine(line);
+    if (!has("stamp"))
+    {
+        throw std::runtime_error("no column 'stamp'; is this a table of --diagnostics?");
+    }
+    columns_.resize(names_.size());
+}
+
+void FrameTable::addRow(const std::string& line)
+{
+    const std::vector<std::string> fields = splitCsvLine(line);
+    if (fields.size() != names_.size())
+    {
+        throw std::runtime_error(
+            std::to_string(fields.size()) + " fields, " + std::to_string(names_.size()) +
+            " in the header");
+    }
+    for (std::size_t k = 0; k < fields.size(); ++k)
+    {
+        columns_[k].push_back(numberOrNaN(fields[k]));
+    }
+    stamps_.push_back(columns_[indexOf("stamp")].back());
+    if (!std::isfinite(stamps_.back()))
+    {
+        throw std::runtime_error("the stamp is not a number");
+    }
+    if (has("status"))
+    {
+        status_.push_back(fields[indexOf("status")]);
+    }
+}
+
 FrameTable FrameTable::read(const std::string& path)
 {
     std::ifstream file(path);
@@ -66,45 +101,23 @@ FrameTable FrameTable::read(const std::string& path)
         throw std::runtime_error(path + ": is empty, not a table of --diagnostics");
     }
     FrameTable table;
-    table.names_ = splitCsvLine(line);
-    table.columns_.resize(table.names_.size());
-    const auto statusAt = std::find(table.names_.begin(), table.names_.end(), "status");
-    const auto stampAt = static_cast<std::size_t>(
-        std::find(table.names_.begin(), table.names_.end(), "stamp") - table.names_.begin());
-    if (stampAt == table.names_.size())
+    std::size_t number = 1;
+    try
     {
-        throw std::runtime_error(path + ":1: no column 'stamp'; is this a table of --diagnostics?");
+        table.setHeader(line);
+        for (++number; std::getline(file, line); ++number)
+        {
+            if (!line.empty())
+            {
+                table.addRow(line);
+            }
+        }
     }
-    for (std::size_t number = 2; std::getline(file, line); ++number)
+    catch (const std::runtime_error& e)
     {
-        if (line.empty())
-        {
-            continue;
-        }
-        const std::vector<std::string> fields = splitCsvLine(line);
-        if (fields.size() != table.names_.size())
-        {
-            throw std::runtime_error(
-                path + ":" + std::to_string(number) + ": " + std::to_string(fields.size()) +
-                " fields, " + std::to_string(table.names_.size()) + " in the header");
-        }
-        if (!std::isfinite(numberOrNaN(fields[stampAt])))
-        {
-            throw std::runtime_error(
-                path + ":" + std::to_string(number) + ": the stamp is not a number");
-        }
-        for (std::size_t k = 0; k < fields.size(); ++k)
-        {
-            table.columns_[k].push_back(numberOrNaN(fields[k]));
-        }
-        if (statusAt != table.names_.end())
-        {
-            table.status_.push_back(
-                fields[static_cast<std::size_t>(statusAt - table.names_.begin())]);
-        }
+        throw std::runtime_error(path + ":" + std::to_string(number) + ": " + e.what());
     }
     requireRead(file, path);
-    table.stamps_ = table.column("stamp");
     return table;
 }
 
@@ -141,15 +154,16 @@ std::vector<std::pair<std::size_t, std::size_t>> rowsOf(
     return out;
 }
 
-bool FrameTable::has(const std::string& column) const
+std::size_t FrameTable::indexOf(const std::string& column) const
 {
-    return std::find(names_.begin(), names_.end(), column) != names_.end();
+    return static_cast<std::size_t>(
+        std::find(names_.begin(), names_.end(), column) - names_.begin());
 }
+
+bool FrameTable::has(const std::string& column) const { return indexOf(column) < names_.size(); }
 
 std::vector<double> FrameTable::column(const std::string& name) const
 {
-    const auto found = std::find(names_.begin(), names_.end(), name);
-    return found == names_.end() ? std::vector<double>()
-                                 : columns_[static_cast<std::size_t>(found - names_.begin())];
+    return has(name) ? columns_[indexOf(name)] : std::vector<double>();
 }
 }  // namespace pointplane

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/core/check.h>
 #include <pointplane/evaluation/association.h>
+#include <pointplane/evaluation/stamp_intervals.h>
 
 #include <algorithm>
 #include <cmath>

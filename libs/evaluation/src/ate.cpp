@@ -2,6 +2,7 @@
 #include <pointplane/core/se3.h>
 #include <pointplane/evaluation/association.h>
 #include <pointplane/evaluation/ate.h>
+#include <pointplane/evaluation/scored_trajectories.h>
 
 #include <cstdio>
 #include <stdexcept>

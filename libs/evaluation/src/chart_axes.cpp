@@ -38,14 +38,19 @@ std::string horizontalAxis(const ChartLayout& plot)
            label(plot.chart.xLabel, 0.5 * (plot.left + plot.right), plot.bottom + 35, "middle");
 }
 
-std::string verticalAxis(
-    const ChartLayout& plot,
-    const ChartAxis& axis,
-    const std::vector<std::string>& names,
-    bool right)
+enum class Side
 {
+    Left,
+    Right
+};
+
+std::string verticalAxis(const ChartLayout& plot, Side side)
+{
+    const bool right = side == Side::Right;
+    const ChartAxis& axis = right ? *plot.yRight : *plot.y;
+    const std::vector<std::string>& names = plot.chart.yNames;
     std::vector<ChartTick> ticks = axis.ticks(plot.chart.equalScales ? kTickSpacing : 32);
-    if (!names.empty())
+    if (!right && !names.empty())
     {
         ticks.clear();
         for (std::size_t k = 0; k < names.size(); ++k)
@@ -73,11 +78,11 @@ std::string verticalAxis(
 std::string axesOf(const ChartLayout& plot)
 {
     const double middle = 0.5 * (plot.top + plot.bottom);
-    std::string out = horizontalAxis(plot) + verticalAxis(plot, *plot.y, plot.chart.yNames, false) +
+    std::string out = horizontalAxis(plot) + verticalAxis(plot, Side::Left) +
                       turned(plot.chart.yLabel, 13, middle);
     if (!plot.chart.yRightLabel.empty())
     {
-        out += verticalAxis(plot, *plot.yRight, {}, true) +
+        out += verticalAxis(plot, Side::Right) +
                turned(plot.chart.yRightLabel, plot.width - 5, middle);
     }
     return out;

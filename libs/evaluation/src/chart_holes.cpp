@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "chart_holes.h"
 
+#include <pointplane/evaluation/stamp_intervals.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -15,8 +15,7 @@ namespace
 using svg::number;
 using svg::point;
 
-std::string polylines(
-    const ChartLayout& plot, const ChartSeries& series, const std::string& style, bool stepped)
+std::string polylines(const ChartLayout& plot, const ChartSeries& series, const std::string& style)
 {
     const ChartAxis& y = plot.yOf(series);
     std::string out;
@@ -43,7 +42,7 @@ std::string polylines(
         }
         const double px = plot.x->pixelsOf(series.x[k]);
         const double py = y.pixelsOf(series.y[k]);
-        if (stepped && !points.empty())
+        if (series.style == ChartSeries::Style::Steps && !points.empty())
         {
             points += point(px, before) + " ";
         }
@@ -177,13 +176,13 @@ std::string seriesOf(const ChartLayout& plot, std::size_t index)
             constexpr std::size_t kFew = 40;  // whose points can be told apart
             const std::string dots =
                 series.x.size() < kFew && series.colour.empty() ? marks(plot, series, colour) : "";
-            return series.level.empty() ? polylines(plot, series, "line " + colour, false) + dots
+            return series.level.empty() ? polylines(plot, series, "line " + colour) + dots
                                         : levels(plot, series);
         }
         case ChartSeries::Style::Steps:
-            return polylines(plot, series, "line " + colour, true);
+            return polylines(plot, series, "line " + colour);
         case ChartSeries::Style::Dashed:
-            return polylines(plot, series, "line dashed " + colour, false);
+            return polylines(plot, series, "line dashed " + colour);
         case ChartSeries::Style::Band:
             return band(plot, series, colour);
         case ChartSeries::Style::Bars:

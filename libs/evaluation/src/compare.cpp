@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/core/check.h>
 #include <pointplane/evaluation/compare.h>
+#include <pointplane/evaluation/stamp_intervals.h>
 
 #include <algorithm>
 #include <iterator>
@@ -174,6 +175,24 @@ bool haveSameAteFrames(const std::vector<Stamps>& stamps, const std::vector<Comp
     return true;
 }
 
+std::vector<ComparedRun> scoredAlone(
+    const Trajectory& groundTruth,
+    const std::vector<Trajectory>& estimates,
+    const RpeOptions& rpe,
+    const AteOptions& ate)
+{
+    std::vector<ComparedRun> out;
+    for (const Trajectory& estimate : estimates)
+    {
+        ComparedRun run;
+        run.name = estimate.name;
+        run.rpe = relativePoseError(groundTruth, estimate, rpe);
+        run.ate = absoluteTrajectoryError(groundTruth, estimate, ate);
+        out.push_back(std::move(run));
+    }
+    return out;
+}
+
 template <class Value>
 std::size_t smallest(const std::vector<ComparedRun>& runs, Value value)
 {
@@ -182,6 +201,16 @@ std::size_t smallest(const std::vector<ComparedRun>& runs, Value value)
         runs.end(),
         [&](const ComparedRun& a, const ComparedRun& b) { return value(a) < value(b); });
     return static_cast<std::size_t>(best - runs.begin());
+}
+
+void chooseBest(const std::vector<Stamps>& stamps, Comparison& out)
+{
+    out.bestTranslation = smallest(out.runs, [](const auto& r) { return r.translation.value; });
+    out.bestRotation = smallest(out.runs, [](const auto& r) { return r.rotation.value; });
+    if (out.runs.size() > 1 && haveSameAteFrames(stamps, out.runs))
+    {
+        out.bestAte = smallest(out.runs, [](const auto& r) { return r.ate.translation.rmse; });
+    }
 }
 }  // namespace
 
@@ -195,14 +224,7 @@ Comparison compareRuns(
     POINTPLANE_CHECK(rpe.fixedDelta, "runs are compared over pairs a fixed delta apart");
     POINTPLANE_CHECK(!estimates.empty(), "no runs to compare");
     Comparison out;
-    for (const Trajectory& estimate : estimates)
-    {
-        ComparedRun run;
-        run.name = estimate.name;
-        run.rpe = relativePoseError(groundTruth, estimate, rpe);
-        run.ate = absoluteTrajectoryError(groundTruth, estimate, ate);
-        out.runs.push_back(std::move(run));
-    }
+    out.runs = scoredAlone(groundTruth, estimates, rpe, ate);
     const std::vector<Stamps> stamps = frameStampsOf(estimates);
     const std::set<StampPair> common = commonPairs(stamps, out.runs);
     out.numCommonPairs = common.size();
@@ -216,13 +238,7 @@ Comparison compareRuns(
         run.translation = bootstrapRmse(errorsOf(scored[k], &RpePair::translation), options);
         run.rotation = bootstrapRmse(errorsOf(scored[k], &RpePair::rotation), options);
     }
-    out.bestTranslation = smallest(out.runs, [](const auto& r) { return r.translation.value; });
-    out.bestRotation = smallest(out.runs, [](const auto& r) { return r.rotation.value; });
-    if (estimates.size() > 1 && haveSameAteFrames(stamps, out.runs))
-    {
-        out.bestAte = smallest(out.runs, [](const auto& r) { return r.ate.translation.rmse; });
-    }
-
+    chooseBest(stamps, out);
     const auto behind = [&](std::size_t k,
                             std::size_t best,
                             double RpePair::*error) -> std::optional<BootstrapInterval>

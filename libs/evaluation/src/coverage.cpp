@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/core/number_text.h>
 #include <pointplane/evaluation/coverage.h>
+#include <pointplane/evaluation/stamp_intervals.h>
 
 #include <algorithm>
 #include <cstdio>

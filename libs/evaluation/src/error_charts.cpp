@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/evaluation/stamp_intervals.h>
 #include <pointplane/evaluation/trajectory_charts.h>
 #include <pointplane/evaluation/units.h>
 

@@ -8,51 +8,65 @@ namespace pointplane
 {
 namespace
 {
-ChartSeries columnSeries(
-    const FrameTable& table,
-    double start,
-    const std::string& column,
-    const std::string& name,
-    bool rightAxis)
+enum class Axis
 {
-    ChartSeries series;
-    series.name = name;
-    series.rightAxis = rightAxis;
-    series.y = table.column(column);
-    for (const double stamp : table.stamps())
-    {
-        series.x.push_back(stamp - start);
-    }
-    return series;
-}
+    Left,
+    Right
+};
 
-/** Adds a chart of those columns that are there. */
+/** A column of the table, by its name there and in the chart. */
+struct DrawnColumn
+{
+    std::string column, name;
+    Axis axis{Axis::Left};
+};
+
+/** Adds the chart, with those columns that are there, unless none is. */
 void addColumns(
-    std::vector<Chart>& charts,
     Chart chart,
+    const std::vector<DrawnColumn>& columns,
     const FrameTable& table,
     double start,
-    const std::vector<std::pair<std::string, std::string>>& left,
-    const std::vector<std::pair<std::string, std::string>>& right)
+    std::vector<Chart>& charts)
 {
-    for (const auto& [column, name] : left)
+    for (const DrawnColumn& drawn : columns)
     {
-        if (table.has(column))
+        if (table.has(drawn.column))
         {
-            chart.series.push_back(columnSeries(table, start, column, name, false));
-        }
-    }
-    for (const auto& [column, name] : right)
-    {
-        if (table.has(column))
-        {
-            chart.series.push_back(columnSeries(table, start, column, name, true));
+            ChartSeries& series = chart.series.emplace_back();
+            series.name = drawn.name;
+            series.rightAxis = drawn.axis == Axis::Right;
+            series.y = table.column(drawn.column);
+            for (const double stamp : table.stamps())
+            {
+                series.x.push_back(stamp - start);
+            }
         }
     }
     if (!chart.series.empty())
     {
         charts.push_back(std::move(chart));
     }
+}
+
+Chart statusChart(const FrameTable& table, double start)
+{
+    Chart chart;
+    chart.title = "Tracking status";
+    chart.xLabel = "time [s]";
+    chart.yLabel = "";
+    chart.yNames = {"lost", "predicted", "tracked"};
+    ChartSeries series;
+    series.name = "status";
+    series.style = ChartSeries::Style::Steps;
+    for (std::size_t k = 0; k < table.size(); ++k)
+    {
+        const std::string& status = table.status()[k];
+        series.x.push_back(table.stamps()[k] - start);
+        series.y.push_back(status == "lost" ? 0 : status == "predicted" ? 1 : 2);
+    }
+    chart.series.push_back(std::move(series));
+    return chart;
 }
 }  // namespace
 
@@ -69,47 +83,33 @@ std::vector<Chart> frameCharts(const FrameTable& table, double start)
     features.yLabel = "points";
     features.yRightLabel = "planes";
     addColumns(
-        charts,
         features,
+        {{"numPoints", "points"},
+         {"numPointPairs", "point pairs"},
+         {"numPointInliers", "inliers"},
+         {"numPlanes", "planes", Axis::Right},
+         {"numPlanePairs", "plane pairs", Axis::Right}},
         table,
         start,
-        {{"numPoints", "points"}, {"numPointPairs", "point pairs"}, {"numPointInliers", "inliers"}},
-        {{"numPlanes", "planes"}, {"numPlanePairs", "plane pairs"}});
-
+        charts);
     if (!table.status().empty())
     {
-        Chart status;
-        status.title = "Tracking status";
-        status.xLabel = "time [s]";
-        status.yLabel = "";
-        status.yNames = {"lost", "predicted", "tracked"};
-        ChartSeries series;
-        series.name = "status";
-        series.style = ChartSeries::Style::Steps;
-        for (std::size_t k = 0; k < table.size(); ++k)
-        {
-            const std::string& s = table.status()[k];
-            series.x.push_back(table.stamps()[k] - start);
-            series.y.push_back(s == "lost" ? 0 : s == "predicted" ? 1 : 2);
-        }
-        status.series.push_back(std::move(series));
-        charts.push_back(std::move(status));
+        charts.push_back(statusChart(table, start));
     }
     Chart times;
     times.title = "Time per stage";
     times.xLabel = "time [s]";
     times.yLabel = "ms per frame";
     addColumns(
-        charts,
         times,
-        table,
-        start,
         {{"msTotal", "total"},
          {"msPoints", "points"},
          {"msPlanes", "planes"},
          {"msMatching", "matching"},
          {"msPose", "pose"}},
-        {});
+        table,
+        start,
+        charts);
     return charts;
 }
 }  // namespace pointplane

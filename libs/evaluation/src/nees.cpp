@@ -2,6 +2,8 @@
 #include <pointplane/core/covariance.h>
 #include <pointplane/core/se3.h>
 #include <pointplane/evaluation/nees.h>
+#include <pointplane/evaluation/scored_trajectories.h>
+#include <pointplane/evaluation/stamp_intervals.h>
 
 #include <algorithm>
 #include <cmath>

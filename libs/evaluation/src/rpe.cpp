@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/evaluation/rpe.h>
+#include <pointplane/evaluation/scored_trajectories.h>
 #include <pointplane/evaluation/units.h>
 
 #include <cstdio>

@@ -184,6 +184,44 @@ void ObjectScanner::copyObjects(int depth)
     }
 }
 
+void ObjectScanner::sensoryFrame(int version, int depth)
+{
+    if (version < 2)
+    {
+        copy(version == 0 ? 4 : 12);  // identifier, time stamp
+        require(copyValue<std::uint32_t>() <= kMaxObjects, "a frame of too many observations");
+        throw Unknown("class CSensoryFrame, version " + std::to_string(version));
+    }
+    copyObjects(depth);
+}
+
+void ObjectScanner::movement3D()
+{
+    copyValue<std::uint32_t>();  // estimation method
+    copyObject("CPose3DPDFGaussian");
+    copyArray(copyValue<std::uint32_t>(), sizeof(std::uint8_t));  // velocities known
+    copyArray(copyValue<std::uint32_t>(), sizeof(float));         // velocities
+    copy(sizeof(std::uint64_t));                                  // time stamp
+}
+
+void ObjectScanner::robotPose()
+{
+    copyObject("CPose3DPDFGaussian");
+    copyString();                 // label
+    copy(sizeof(std::uint64_t));  // time stamp
+    copyObject("CPose3D");
+}
+
+void ObjectScanner::comment(int version)
+{
+    copyString();
+    copy(sizeof(std::uint64_t));  // time stamp
+    if (version == 1)
+    {
+        copyString();  // label
+    }
+}
+
 void ObjectScanner::copyBody(const Header& header, int depth)
 {
     static const std::uint8_t kCommentVersion = commentVersion();
@@ -193,15 +231,9 @@ void ObjectScanner::copyBody(const Header& header, int depth)
     {
         range3DScan(version);
     }
-    else if (name == "CSensoryFrame" && version < 2)
+    else if (name == "CSensoryFrame" && version <= 2)
     {
-        copy(version == 0 ? 4 : 12);  // identifier, time stamp
-        require(copyValue<std::uint32_t>() <= kMaxObjects, "a frame of too many observations");
-        throw Unknown("class CSensoryFrame, version " + std::to_string(version));
-    }
-    else if (name == "CSensoryFrame" && version == 2)
-    {
-        copyObjects(depth);
+        sensoryFrame(version, depth);
     }
     else if (name == "CActionCollection" && version == 0)
     {
@@ -209,27 +241,15 @@ void ObjectScanner::copyBody(const Header& header, int depth)
     }
     else if (name == "CActionRobotMovement3D" && version == 1)
     {
-        copyValue<std::uint32_t>();  // estimation method
-        copyObject("CPose3DPDFGaussian");
-        copyArray(copyValue<std::uint32_t>(), sizeof(std::uint8_t));  // velocities known
-        copyArray(copyValue<std::uint32_t>(), sizeof(float));         // velocities
-        copy(sizeof(std::uint64_t));                                  // time stamp
+        movement3D();
     }
     else if (name == "CObservationRobotPose" && version == 1)
     {
-        copyObject("CPose3DPDFGaussian");
-        copyString();
-        copy(sizeof(std::uint64_t));
-        copyObject("CPose3D");
+        robotPose();
     }
     else if (name == "CObservationComment" && version <= std::min<int>(kCommentVersion, 1))
     {
-        copyString();
-        copy(sizeof(std::uint64_t));
-        if (version == 1)
-        {
-            copyString();  // label
-        }
+        comment(version);
     }
     else if (name == "CPose3DPDFGaussian" && version == 1)
     {

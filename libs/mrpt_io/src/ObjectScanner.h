@@ -108,6 +108,10 @@ class ObjectScanner
     void copyEndFlag(const Header& header);
 
     // Bodies, each named after its class.
+    void sensoryFrame(int version, int depth);
+    void movement3D();
+    void robotPose();
+    void comment(int version);
     void range3DScan(int version);
     void rangeImage();
     void exchangeResolution(const Resolution& range);

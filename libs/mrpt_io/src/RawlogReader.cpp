@@ -9,7 +9,7 @@
 #include <mrpt/obs/CSensoryFrame.h>
 
 #include <algorithm>
-#include <filesystem>
+#include <iterator>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -21,67 +21,8 @@
 
 namespace pointplane
 {
-namespace fs = std::filesystem;
-
 namespace
 {
-/** Those beside a rawlog that are there, best first. MRPT's own CRawlog::detectImagesDirectory()
- * (2.5.8) drops the slash between folder and name, and finds nothing for a path with a folder. */
-[[nodiscard]] std::optional<std::string> imagesBeside(const fs::path& rawlog)
-{
-    std::vector<std::string> names;
-    if (rawlog.extension() == ".partial")  // of a run that was killed, its images as well
-    {
-        const std::string folder = imagesFolderOf(fs::path(rawlog).replace_extension());
-        names = {partialFolderOf(folder), folder};
-    }
-    else
-    {
-        const std::string stem = fs::path(rawlog).replace_extension().string();
-        names = {
-            stem + "_Images",
-            stem + "_images",
-            stem + "_IMAGES",
-            (rawlog.parent_path() / "Images").string()};
-    }
-    const auto isFolder = [](const std::string& name)
-    {
-        std::error_code error;
-        return fs::is_directory(name, error);
-    };
-    const auto found = std::find_if(names.begin(), names.end(), isFolder);
-    return found == names.end() ? std::nullopt : std::optional<std::string>(*found);
-}
-
-/** MRPT's rule, of a link beside the file that it leads to, too. Where there is no such folder, the
- * first name is the one to tell. */
-[[nodiscard]] std::string imagesDirectory(const std::string& rawlog)
-{
-    std::error_code error;
-    const fs::path path(rawlog);
-    auto found = imagesBeside(path);
-    if (!found && fs::is_symlink(path, error))
-    {
-        found = imagesBeside(fs::weakly_canonical(path, error));
-    }
-    const bool isPartial = path.extension() == ".partial";
-    return found.value_or(imagesFolderOf(isPartial ? fs::path(path).replace_extension() : path));
-}
-
-/** As by `gzip a.rawlog`, although rawlogs are compressed. */
-[[nodiscard]] bool isCompressedTwice(const std::string& path)
-{
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(path, error))
-    {
-        return false;  // what was read from a pipe is gone
-    }
-    GzInput in(path);
-    std::uint8_t head[2] = {0, 0};
-    return in.isCompressed() && in.read(head, sizeof(head)) == sizeof(head) && head[0] == 0x1f &&
-           head[1] == 0x8b;
-}
-
 /** Puts the depth cameras' resolutions back, which the scanner had exchanged. */
 void restoreResolutions(
     mrpt::serialization::CSerializable& object,
@@ -279,7 +220,7 @@ void RawlogReader::Impl::readAhead()
 RawlogReader::RawlogReader(const std::string& path, RawlogClasses classes)
     : impl_(std::make_unique<Impl>(path, classes))
 {
-    impl_->externals = imagesDirectory(path);
+    impl_->externals = imagesFolderToRead(path);
     impl_->readAhead();
     if (!impl_->ahead)
     {

@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <utility>
 #include <vector>
+
+#include "GzInput.h"
 
 namespace pointplane
 {
@@ -46,5 +49,18 @@ std::string otherFileType(const std::string& path)
                              head.end(),
                              [](unsigned char c) { return std::isprint(c) || std::isspace(c); });
     return isText ? "a text file" : "";
+}
+
+bool isCompressedTwice(const std::string& path)
+{
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(path, error))
+    {
+        return false;  // what was read from a pipe is gone
+    }
+    GzInput in(path);
+    std::uint8_t head[2] = {0, 0};
+    return in.isCompressed() && in.read(head, sizeof(head)) == sizeof(head) && head[0] == 0x1f &&
+           head[1] == 0x8b;
 }
 }  // namespace pointplane

@@ -1,162 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/core/byte_order_mark.h>
-#include <pointplane/core/number_text.h>
 #include <pointplane/core/trimmed.h>
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/params_ini.h>
 
-#include <algorithm>
-#include <cmath>
+#include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <map>
-#include <numeric>
-#include <set>
 #include <sstream>
+#include <stdexcept>
 
 namespace pointplane
 {
 namespace
 {
-constexpr const char* kExpert = "the insides of each stage. Few recordings need another value.";
-
-/** Levenshtein distance: insertions, deletions and exchanges from a to b. */
-[[nodiscard]] std::size_t editDistance(const std::string& a, const std::string& b)
-{
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), 0U);
-    for (std::size_t i = 1; i <= a.size(); ++i)
-    {
-        std::size_t diagonal = row[0];
-        row[0] = i;
-        for (std::size_t j = 1; j <= b.size(); ++j)
-        {
-            const std::size_t exchange = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-            diagonal = row[j];
-            row[j] = std::min({row[j] + 1, row[j - 1] + 1, exchange});
-        }
-    }
-    return row.back();
-}
-
-[[nodiscard]] std::string closest(const std::string& word, const std::set<std::string>& candidates)
-{
-    std::string best;
-    std::size_t bestDistance = std::string::npos;
-    for (const std::string& candidate : candidates)
-    {
-        if (const std::size_t d = editDistance(word, candidate); d < bestDistance)
-        {
-            bestDistance = d;
-            best = candidate;
-        }
-    }
-    return best;
-}
-
-[[nodiscard]] std::set<std::string> sectionsOf(const ParameterTable& table)
-{
-    std::set<std::string> out;
-    for (const auto& p : table)
-    {
-        out.insert(p.section);
-    }
-    return out;
-}
-
-[[noreturn]] void failUnknownSection(
-    const std::string& where, const std::string& section, const ParameterTable& table)
-{
-    throw InputError(
-        where + ": unknown section [" + section + "]; did you mean [" +
-        closest(section, sectionsOf(table)) + "]?");
-}
-
-[[nodiscard]] const ParameterRef& find(
-    const std::string& where,
-    const std::string& section,
-    const std::string& key,
-    const ParameterTable& table)
-{
-    std::set<std::string> keys;
-    std::string elsewhere;
-    for (const auto& p : table)
-    {
-        if (p.section == section)
-        {
-            if (p.key == key)
-            {
-                return p;
-            }
-            keys.insert(p.key);
-        }
-        else if (p.key == key)
-        {
-            elsewhere = p.section;
-        }
-    }
-    if (keys.empty())
-    {
-        failUnknownSection(where, section, table);
-    }
-    throw InputError(
-        where + ": unknown key '" + key + "' in [" + section + "]; " +
-        (elsewhere.empty() ? "did you mean '" + closest(key, keys) + "'?"
-                           : "it belongs in [" + elsewhere + "]"));
-}
-
-[[nodiscard]] bool assignTo(bool* target, const std::string& text)
-{
-    const bool yes = text == "true" || text == "1" || text == "yes";
-    *target = yes;
-    return yes || text == "false" || text == "0" || text == "no";
-}
-[[nodiscard]] bool assignTo(std::string* target, const std::string& text)
-{
-    *target = text;
-    return !text.empty();
-}
-template <class Number>
-[[nodiscard]] bool assignTo(Number* target, const std::string& text)
-{
-    const auto number = parseNumber<Number>(text);
-    if (!number || !std::isfinite(static_cast<double>(*number)))
-    {
-        return false;
-    }
-    *target = *number;
-    return true;
-}
-
-/** Whether it is digits and perhaps a sign. */
-[[nodiscard]] bool isOfDigits(const std::string& text)
-{
-    const std::size_t digits = text.find_first_of("+-") == 0 ? 1 : 0;
-    return text.size() > digits &&
-           text.find_first_not_of("0123456789", digits) == std::string::npos;
-}
-
-void assign(const std::string& where, const ParameterRef& parameter, const std::string& text)
-{
-    const bool good =
-        std::visit([&text](auto* target) { return assignTo(target, text); }, parameter.value);
-    if (!good)
-    {
-        // All that a whole number can be refused for.
-        const bool isTooLarge = std::holds_alternative<int*>(parameter.value) && isOfDigits(text);
-        throw InputError(
-            where + ": [" + parameter.section + "] " + parameter.key + " = '" + text + "' is " +
-            (isTooLarge ? std::string("too large a number")
-                        : std::string("not ") + parameter.typeName()) +
-            (text.find_first_of("#;") == std::string::npos
-                 ? ""
-                 : " (a comment after a value starts with //)"));
-    }
-}
-
-/** File and line, or setting, of "[Section] key". */
+/** File and line, or setting, of each ParameterRef::name(). */
 using Places = std::map<std::string, std::string>;
 
 [[nodiscard]] std::string withoutComment(const std::string& line)
@@ -169,14 +30,65 @@ using Places = std::map<std::string, std::string>;
     return trimmed(text.substr(0, text.find("//")));
 }
 
-/** parseIni(), which also tells the places of what it read. */
-void parse(
-    const std::string& text, const std::string& name, const ParameterTable& table, Places& places)
+/** What is wrong in `action` is wrong at this place. */
+template <class Action>
+void at(const std::string& where, const Action& action)
+{
+    try
+    {
+        action();
+    }
+    catch (const InputError& e)
+    {
+        throw InputError(where + ": " + e.what());
+    }
+}
+
+/** Of a line that begins with "[". */
+[[nodiscard]] std::string sectionOf(const std::string& line, const ParameterTable& table)
+{
+    if (line.back() != ']')
+    {
+        throw InputError("expected [SECTION] alone, not " + line);
+    }
+    std::string section = trimmed(line.substr(1, line.size() - 2));
+    requireSection(table, section);
+    return section;
+}
+
+/** Sets the value of a line "key = value". */
+void assignLine(
+    const std::string& line,
+    const std::string& section,
+    const ParameterTable& table,
+    const std::string& where,
+    Places& places)
+{
+    const std::size_t equals = line.find('=');
+    if (equals == std::string::npos)
+    {
+        throw InputError("expected 'key = value', found '" + line + "'");
+    }
+    const std::string key = trimmed(line.substr(0, equals));
+    if (section.empty())
+    {
+        throw InputError("key '" + key + "' before any [Section]");
+    }
+    const ParameterRef& parameter = parameterOf(table, section, key);
+    if (!places.emplace(parameter.name(), where).second)
+    {
+        throw InputError("key '" + key + "' appears twice in [" + section + "]");
+    }
+    parameter.set(trimmed(line.substr(equals + 1)));
+}
+
+/** parseIni(). \return of what it set */
+Places parse(const std::string& text, const std::string& name, const ParameterTable& table)
 {
     std::istringstream lines(text);
     skipByteOrderMark(lines);
+    Places places;
     std::string line, section;
-    std::set<std::string> seen;
     for (int number = 1; std::getline(lines, line); ++number)
     {
         const std::string where = name + ":" + std::to_string(number);
@@ -185,37 +97,20 @@ void parse(
         {
             continue;
         }
-        if (content.front() == '[')
-        {
-            if (content.back() != ']')
-            {
-                throw InputError(where + ": expected [SECTION] alone, not " + content);
-            }
-            section = trimmed(content.substr(1, content.size() - 2));
-            if (sectionsOf(table).count(section) == 0)
-            {
-                failUnknownSection(where, section, table);
-            }
-            continue;
-        }
-        const std::size_t equals = content.find('=');
-        if (equals == std::string::npos)
-        {
-            throw InputError(where + ": expected 'key = value', found '" + content + "'");
-        }
-        const std::string key = trimmed(content.substr(0, equals));
-        if (section.empty())
-        {
-            throw InputError(where + ": key '" + key + "' before any [Section]");
-        }
-        const ParameterRef& parameter = find(where, section, key, table);
-        if (!seen.insert(section + "." + key).second)
-        {
-            throw InputError(where + ": key '" + key + "' appears twice in [" + section + "]");
-        }
-        assign(where, parameter, trimmed(content.substr(equals + 1)));
-        places["[" + section + "] " + key] = where;
+        at(where,
+           [&]
+           {
+               if (content.front() == '[')
+               {
+                   section = sectionOf(content, table);
+               }
+               else
+               {
+                   assignLine(content, section, table, where, places);
+               }
+           });
     }
+    return places;
 }
 
 [[nodiscard]] std::string textOf(const std::string& path)
@@ -231,35 +126,40 @@ void parse(
     return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
-/** \return "[Section] key" */
-std::string apply(const std::string& setting, const ParameterTable& table)
+/** Sets the value of "Section.key=value". \return which */
+const ParameterRef& assignSetting(const std::string& setting, const ParameterTable& table)
 {
-    const std::string where = "setting '" + setting + "'";
     const std::size_t equals = setting.find('=');
     const std::size_t dot = setting.find('.');
     if (equals == std::string::npos || dot == std::string::npos || dot > equals)
     {
-        throw InputError(where + ": expected Section.key=value");
+        throw InputError("expected Section.key=value");
     }
     const std::string section = trimmed(setting.substr(0, dot));
     const std::string key = trimmed(setting.substr(dot + 1, equals - dot - 1));
-    assign(where, find(where, section, key, table), trimmed(setting.substr(equals + 1)));
-    return "[" + section + "] " + key;
+    const ParameterRef& parameter = parameterOf(table, section, key);
+    parameter.set(trimmed(setting.substr(equals + 1)));
+    return parameter;
 }
 
-/** applySettings(), likewise. */
-void apply(const std::vector<std::string>& settings, const ParameterTable& table, Places& places)
+/** applySettings(). \return of what it set */
+Places apply(const std::vector<std::string>& settings, const ParameterTable& table)
 {
-    std::set<std::string> seen;
+    Places places;
     for (const std::string& setting : settings)
     {
-        const std::string where = "setting '" + setting + "'", key = apply(setting, table);
-        if (!seen.insert(key).second)
-        {
-            throw InputError(where + ": " + key + " is set twice");
-        }
-        places[key] = where;
+        const std::string where = "setting '" + setting + "'";
+        at(where,
+           [&]
+           {
+               const std::string name = assignSetting(setting, table).name();
+               if (!places.emplace(name, where).second)
+               {
+                   throw InputError(name + " is set twice");
+               }
+           });
     }
+    return places;
 }
 
 /** Of the key that a problem begins with: "[Section] key = 3 is not ...". Empty: a default. */
@@ -271,29 +171,9 @@ void apply(const std::vector<std::string>& settings, const ParameterTable& table
 }
 }  // namespace
 
-std::string ParameterRef::text() const
-{
-    struct Writer
-    {
-        std::string operator()(const bool* v) const { return *v ? "true" : "false"; }
-        std::string operator()(const int* v) const { return std::to_string(*v); }
-        std::string operator()(const double* v) const { return numberText(*v); }
-        std::string operator()(const std::string* v) const { return *v; }
-    };
-    return std::visit(Writer(), value);
-}
-
-const char* ParameterRef::typeName() const
-{
-    static constexpr const char* kNames[] = {
-        "true or false", "a whole number", "a number", "a word"};
-    return kNames[value.index()];
-}
-
 void parseIni(const std::string& text, const std::string& name, const ParameterTable& table)
 {
-    Places places;
-    parse(text, name, table, places);
+    (void)parse(text, name, table);
 }
 
 void loadIni(const std::string& path, const ParameterTable& table)
@@ -303,65 +183,16 @@ void loadIni(const std::string& path, const ParameterTable& table)
 
 void applySettings(const std::vector<std::string>& settings, const ParameterTable& table)
 {
-    Places places;
-    apply(settings, table, places);
-}
-
-std::string iniText(const ParameterTable& table, const std::string& firstExpert)
-{
-    std::ostringstream out;
-    const bool isWhole = !firstExpert.empty();
-    out << (isWhole ? "# Complete configuration of pointplane-odometry, written by --dump-config.\n"
-                    : "")
-        << "# A comment after a value starts with //.\n";
-    std::string section;
-    for (const auto& p : table)
-    {
-        if (p.section != section)
-        {
-            section = p.section;
-            out << (section == firstExpert ? "\n# For experts: " + std::string(kExpert) + "\n" : "")
-                << "\n[" << section << "]\n";
-        }
-        const std::string assignment = p.key + " = " + p.text();
-        constexpr std::size_t kColumn = 36;
-        out << assignment
-            << std::string(assignment.size() < kColumn ? kColumn - assignment.size() : 0, ' ')
-            << " // [" << p.unit << "] " << p.help << "\n";
-    }
-    return out.str();
-}
-
-std::string markdownText(const ParameterTable& table, const std::string& firstExpert)
-{
-    std::ostringstream out;
-    std::string section;
-    for (const auto& p : table)
-    {
-        if (p.section != section)
-        {
-            out << (section.empty() ? "" : "\n")
-                << (p.section == firstExpert ? "**For experts:** " + std::string(kExpert) + "\n\n"
-                                             : "")
-                << "### [" << p.section
-                << "]\n\n| key | default | unit | meaning |\n|---|---|---|---|\n";
-            section = p.section;
-        }
-        out << "| `" << p.key << "` | " << p.text() << " | " << p.unit << " | " << p.help << " |\n";
-    }
-    return out.str();
+    (void)apply(settings, table);
 }
 
 OdometryParams loadOdometryParams(const std::string& path, const std::vector<std::string>& settings)
 {
     OdometryParams params;
     const ParameterTable table = parametersOf(params);
-    Places places;
-    if (!path.empty())
-    {
-        parse(textOf(path), path, table, places);
-    }
-    apply(settings, table, places);
+    Places ofFile = path.empty() ? Places() : parse(textOf(path), path, table);
+    Places places = apply(settings, table);
+    places.merge(ofFile);
     try
     {
         params.check();

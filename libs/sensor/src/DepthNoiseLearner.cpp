@@ -10,6 +10,8 @@
 
 namespace pointplane
 {
+using NoiseAtDepth = DepthNoiseLearner::NoiseAtDepth;
+
 namespace
 {
 constexpr int kCellPx = 10;
@@ -57,10 +59,7 @@ constexpr double kTwoDistances = 1e-6;
 /** Below this, an image was not measured: rounding to millimetres makes 0.3 mm. */
 constexpr double kRenderedSigma = 1e-4;  // [m]
 
-[[nodiscard]] double depthOfBin(int bin, double within = 0.5)
-{
-    return kLeastDepth * std::exp2(0.5 * (bin + within));
-}
+[[nodiscard]] double depthOfBin(int bin) { return kLeastDepth * std::exp2(0.5 * (bin + 0.5)); }
 
 /** A quantile of a histogram of logarithms. \return 0 where it is empty */
 template <class Histogram>
@@ -78,6 +77,80 @@ template <class Histogram>
     }
     return 0;
 }
+
+/** Mean logarithm of the noise over that of structured light, where that is larger than what
+ * rounding makes. \return as a factor; 0 if all depths are nearer */
+[[nodiscard]] double levelOf(const std::vector<NoiseAtDepth>& depths, double sigmaInverseDepth)
+{
+    double sum = 0, cells = 0;
+    for (const auto& [z, sigma, n] : depths)
+    {
+        if (z > kNearestStep)
+        {
+            sum += n * std::log(std::max(sigma, kLeastSigma) / (sigmaInverseDepth * z * z));
+            cells += n;
+        }
+    }
+    return cells > 0 ? std::exp(sum / cells) : 0;
+}
+
+/** By the slope of a line through the logarithms; also where depths do not spread enough to tell.
+ */
+[[nodiscard]] bool growsLikeTriangulation(const std::vector<NoiseAtDepth>& depths)
+{
+    double cells = 0, sumX = 0, sumXX = 0, sumY = 0, sumXY = 0;
+    for (const auto& [z, sigma, n] : depths)
+    {
+        if (z > kNearestStep)
+        {
+            const double x = std::log(z), y = std::log(std::max(sigma, kLeastSigma));
+            cells += n;
+            sumX += n * x;
+            sumXX += n * x * x;
+            sumY += n * y;
+            sumXY += n * x * y;
+        }
+    }
+    const double spread = cells * sumXX - sumX * sumX;
+    return spread < std::pow(kLeastSpread * cells, 2) ||
+           cells * sumXY - sumX * sumY > kTriangulation * spread;
+}
+
+/** Least squares of sigma^2 = constant + slope z^4, relative to what is measured. */
+class VarianceFit
+{
+ public:
+    explicit VarianceFit(const std::vector<NoiseAtDepth>& depths)
+    {
+        for (const auto& [z, sigma, n] : depths)
+        {
+            // Near readings alone tell nothing of how the noise grows.
+            const double fourth = z > kNearestStep ? z * z * z * z : 0;
+            const Eigen::Vector2d x(1 / (sigma * sigma), fourth / (sigma * sigma));
+            A += n * x * x.transpose();
+            b += n * x;
+        }
+    }
+
+    [[nodiscard]] double constantAlone() const { return A(0, 0) > 0 ? b(0) / A(0, 0) : 0; }
+    [[nodiscard]] double slopeAlone() const { return A(1, 1) > 0 ? b(1) / A(1, 1) : 0; }
+
+    /** Constant and slope, neither of them negative. */
+    [[nodiscard]] Eigen::Vector2d solution() const
+    {
+        // Cells of one distance do not tell how the noise grows: all but singular.
+        const Eigen::Vector2d both = A.determinant() > kTwoDistances * A(0, 0) * A(1, 1)
+                                         ? Eigen::Vector2d(A.inverse() * b)
+                                         : Eigen::Vector2d(0, -1);
+        return !(both.y() >= 0)   ? Eigen::Vector2d(constantAlone(), 0)
+               : !(both.x() >= 0) ? Eigen::Vector2d(0, slopeAlone())
+                                  : both;
+    }
+
+ private:
+    Eigen::Matrix2d A{Eigen::Matrix2d::Zero()};
+    Eigen::Vector2d b{Eigen::Vector2d::Zero()};
+};
 }  // namespace
 
 DepthNoiseLearner::DepthNoiseLearner(const DepthNoise& given) : given_(given), noise_(given)
@@ -186,56 +259,39 @@ bool DepthNoiseLearner::hasLevels() const
     return counts_.steps > kLeastSteps && counts_.fineSteps < kFineShare * counts_.steps;
 }
 
-std::string DepthNoiseLearner::judgedKind() const
+std::vector<NoiseAtDepth> DepthNoiseLearner::measured() const
 {
-    if (hasLevels())
-    {
-        return "structuredLight";
-    }
-    // Over that of structured light, where that is larger than what rounding makes, and anywhere.
-    double far = 0, farCells = 0, nearCells = 0, least = 1;
-    double z1 = 0, z2 = 0, s1 = 0, zs = 0;  // sums over logarithms of depth and noise
+    std::vector<NoiseAtDepth> out;
     for (int bin = 0; bin < kNumDepths; ++bin)
     {
         const auto i = static_cast<std::size_t>(bin);
-        if (counts_.cells[i] < kLeastCells)
+        const double cells = counts_.cells[i];
+        if (cells >= kLeastCells)
         {
-            continue;
-        }
-        const double z = depthOfBin(bin),
-                     sigma = quantile(counts_.residuals[i], kPlanarCells, counts_.cells[i]);
-        least = std::min(least, sigma);
-        if (z > kNearestStep)
-        {
-            far += counts_.cells[i] *
-                   std::log(std::max(sigma, kLeastSigma) / (given_.sigmaInverseDepth * z * z));
-            farCells += counts_.cells[i];
-            const double x = std::log(z), y = std::log(std::max(sigma, kLeastSigma));
-            z1 += counts_.cells[i] * x;
-            z2 += counts_.cells[i] * x * x;
-            s1 += counts_.cells[i] * y;
-            zs += counts_.cells[i] * x * y;
-        }
-        else
-        {
-            nearCells += counts_.cells[i];
+            const double sigma = quantile(counts_.residuals[i], kPlanarCells, cells);
+            out.push_back({depthOfBin(bin), sigma, cells});
         }
     }
-    if (farCells + nearCells == 0)
+    return out;
+}
+
+std::string DepthNoiseLearner::judgedKind(const std::vector<NoiseAtDepth>& depths) const
+{
+    if (hasLevels() || depths.empty())
     {
         return "structuredLight";
     }
-    if (least < kRenderedSigma)
+    if (std::any_of(
+            depths.begin(),
+            depths.end(),
+            [](const NoiseAtDepth& at) { return at.sigma < kRenderedSigma; }))
     {
         return "rendered";
     }
-    const double level = farCells > 0 ? std::exp(far / farCells) : 0;
-    const double spread = farCells * z2 - z1 * z1;
-    const bool grows = spread < std::pow(kLeastSpread * farCells, 2) ||
-                       farCells * zs - z1 * s1 > kTriangulation * spread;
-    return level < kLessNoise || !grows ? "timeOfFlight"
-           : level > kMoreNoise         ? "activeStereo"
-                                        : "structuredLight";
+    const double level = levelOf(depths, given_.sigmaInverseDepth);
+    return level < kLessNoise || !growsLikeTriangulation(depths) ? "timeOfFlight"
+           : level > kMoreNoise                                  ? "activeStereo"
+                                                                 : "structuredLight";
 }
 
 void DepthNoiseLearner::decide()
@@ -245,53 +301,30 @@ void DepthNoiseLearner::decide()
     {
         return;
     }
-    noise_.kind = given_.kind == "learn" ? judgedKind() : given_.kind;
+    const std::vector<NoiseAtDepth> depths = measured();
+    noise_.kind = given_.kind == "learn" ? judgedKind(depths) : given_.kind;
     noise_.sigmaDepth = noise_.sigmaRelative = 0;
     const bool isStructured = noise_.kind == "structuredLight";
     if (noise_.kind == "rendered" || (isStructured && (given_.kind != "learn" || hasLevels())))
     {
         return;
     }
-    // Least squares of sigma^2 = constant + slope z^4, relative to what is measured.
-    Eigen::Matrix2d A = Eigen::Matrix2d::Zero();
-    Eigen::Vector2d b = Eigen::Vector2d::Zero();
-    for (int bin = 0; bin < kNumDepths; ++bin)
+    const VarianceFit fit(depths);
+    if (!depths.empty())
     {
-        const auto i = static_cast<std::size_t>(bin);
-        const double sigma = counts_.cells[i] < kLeastCells
-                                 ? 0
-                                 : quantile(counts_.residuals[i], kPlanarCells, counts_.cells[i]);
-        if (sigma > 0)
-        {
-            noise_.learntFrom = noise_.learntTo > 0 ? noise_.learntFrom : depthOfBin(bin, 0);
-            noise_.learntTo = depthOfBin(bin, 1);
-            const double z = depthOfBin(bin);
-            // Near readings alone tell nothing of how the noise grows.
-            const double fourth = z > kNearestStep ? z * z * z * z : 0;
-            const Eigen::Vector2d x(1 / (sigma * sigma), fourth / (sigma * sigma));
-            A += counts_.cells[i] * x * x.transpose();
-            b += counts_.cells[i] * x;
-        }
+        const double half = std::exp2(0.25);  // of a bin
+        noise_.learntFrom = depths.front().depth / half;
+        noise_.learntTo = depths.back().depth * half;
     }
     if (isStructured)
     {
         // Its size without its levels: another camera perhaps, with more noise than is known.
-        const double variance = A(1, 1) > 0 ? b(1) / A(1, 1) : 0;
         noise_.sigmaInverseDepth =
-            std::max(given_.sigmaInverseDepth, kBeyondCell * std::sqrt(variance));
+            std::max(given_.sigmaInverseDepth, kBeyondCell * std::sqrt(fit.slopeAlone()));
         return;
     }
+    const Eigen::Vector2d variance = fit.solution();
     noise_.sigmaRelative = kBend;
-    // Cells of one distance do not tell how the noise grows: all but singular.
-    Eigen::Vector2d variance = A.determinant() > kTwoDistances * A(0, 0) * A(1, 1)
-                                   ? Eigen::Vector2d(A.inverse() * b)
-                                   : Eigen::Vector2d(0, -1);
-    if (!(variance.x() >= 0) || !(variance.y() >= 0))
-    {
-        const bool constant = !(variance.y() >= 0);
-        variance = constant ? Eigen::Vector2d(A(0, 0) > 0 ? b(0) / A(0, 0) : 0, 0)
-                            : Eigen::Vector2d(0, A(1, 1) > 0 ? b(1) / A(1, 1) : 0);
-    }
     noise_.sigmaDepth = kBeyondCell * std::sqrt(variance.x());
     noise_.sigmaInverseDepth = std::max(1e-6, kBeyondCell * std::sqrt(variance.y()));
 }

@@ -151,7 +151,7 @@ void SimulationParams::check() const
 PinholeCamera SimulationParams::camera() const
 {
     PinholeCamera out;
-    const double scale = width / 640.0;
+    const double scale = pixelScale();
     out.width = width;
     out.height = height;
     out.fx = out.fy = focalLengthPx * scale;

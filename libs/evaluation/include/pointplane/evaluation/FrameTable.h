@@ -25,6 +25,11 @@ class FrameTable
     [[nodiscard]] std::vector<double> column(const std::string& name) const;
 
  private:
+    // They throw std::runtime_error for what is wrong in the line.
+    void setHeader(const std::string& line);
+    void addRow(const std::string& line);
+    [[nodiscard]] std::size_t indexOf(const std::string& column) const;  //!< of names_, or its size
+
     std::vector<std::string> names_;
     std::vector<std::vector<double>> columns_;  //!< NaN where a field is not a number
     std::vector<double> stamps_;

@@ -83,30 +83,6 @@ struct Trajectory
  * there are any, sinceCovs go, too, because they count all poses. */
 [[nodiscard]] Trajectory withoutLost(Trajectory trajectory);
 
-/** \param offset added to the estimate's stamps [s]
- * \throws std::runtime_error if the two do not overlap in time (it names both ranges), or if one
- * has fewer than two poses */
-void checkOverlap(const Trajectory& groundTruth, const Trajectory& estimate, double offset);
-
-/** ", estimate's stamps +0.5 s and translations times 2": a score of it is that of another
- * estimate. Empty where neither is changed. */
-[[nodiscard]] std::string describeChanges(double offset, double scale);
-
-/** Whether positions are where double resolves them to a micrometre; beyond, errors lose
- * their digits, and those of a run that is stuck out there would be 0. \param scale of the
- * positions \throws std::runtime_error naming file and stamp */
-void checkPositions(const Trajectory& trajectory, double scale = 1);
-
-/** Five median intervals: what is longer is a hole. */
-[[nodiscard]] double longestStep(const std::vector<double>& stamps);
-
-/** For each pose, whether the recording has a hole before it: a lost frame, or an interval longer
- * than longestStep(). Nothing is known of the way there. The first pose has none. */
-[[nodiscard]] std::vector<bool> holesBefore(const Trajectory& trajectory);
-
-/** Median of the intervals between stamps [s]; 0 for fewer than two. */
-[[nodiscard]] double medianInterval(const std::vector<double>& stamps);
-
 /** The trajectory of another frame rigidly attached to the moving body: poses * T_body_other. The
  * poses' covariances, being left perturbations, stay. */
 [[nodiscard]] Trajectory withBody(Trajectory trajectory, const Eigen::Isometry3d& T_body_other);

@@ -85,9 +85,7 @@ class RawlogReader
     [[nodiscard]] double progress() const;         //!< fraction of the file consumed, 0 to 1
     [[nodiscard]] const std::string& path() const;
 
-    /** Folder of external images and ranges, by MRPT's rule: NAME_Images or a variant of it, else
-     * Images, beside the rawlog, or beside the file that a link leads to; NAME_Images where none of
-     * them is there. */
+    /** imagesFolderToRead() */
     [[nodiscard]] const std::string& externalsDirectory() const;
 
  private:

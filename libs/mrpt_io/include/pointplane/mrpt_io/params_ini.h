@@ -1,59 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pointplane/mrpt_io/ParameterTable.h>
 #include <pointplane/odometry/OdometryParams.h>
 
-#include <cstddef>
 #include <string>
-#include <type_traits>
-#include <utility>
-#include <variant>
 #include <vector>
 
 namespace pointplane
 {
-/** One key of a parameter group, bound to the member that holds its value. */
-struct ParameterRef
-{
-    std::string section;
-    std::string key;
-    std::variant<bool*, int*, double*, std::string*> value;
-    std::string unit;  //!< "-" for none
-    std::string help;
-
-    [[nodiscard]] std::string text() const;  //!< the value as it stands in an ini file
-    [[nodiscard]] const char* typeName() const;
-};
-using ParameterTable = std::vector<ParameterRef>;
-
-/** The keys of one group, through its visit(). The group must outlive the table. */
-template <class Group>
-[[nodiscard]] ParameterTable parametersOf(const std::string& section, Group& group)
-{
-    ParameterTable table;
-    group.visit(
-        [&](const char* key, auto& value, const char* unit, const char* help) {
-            table.push_back({section, key, &value, unit, help});
-        });
-    return table;
-}
-
-/** The keys of all groups, through visitSections(). */
-template <class Params>
-[[nodiscard]] ParameterTable parametersOf(Params& params)
-{
-    ParameterTable table;
-    params.visitSections(
-        [&](const char* section, auto& group)
-        {
-            for (auto& parameter : parametersOf(section, group))
-            {
-                table.push_back(std::move(parameter));
-            }
-        });
-    return table;
-}
-
 /** @name Strict ini files
  *
  * `[Section]`, then `key = value // comment`. `//` starts a comment anywhere, `#` and `;` only on a

@@ -9,6 +9,11 @@ namespace pointplane
  * and "_Images". */
 [[nodiscard]] std::string imagesFolderOf(const std::string& rawlog);
 
+/** The folder that a rawlog's external images and ranges are in, by MRPT's rule: NAME_Images or a
+ * variant of it, else Images, beside the rawlog, or beside the file that a link leads to;
+ * imagesFolderOf() where none of them is there. Of a partial rawlog, the partial folder first. */
+[[nodiscard]] std::string imagesFolderToRead(const std::string& rawlog);
+
 /** Where such a folder is until its rawlog is complete. */
 [[nodiscard]] std::string partialFolderOf(const std::string& imagesFolder);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pointplane/sensor/CellView.h>
 #include <pointplane/sensor/DepthNoise.h>
 #include <pointplane/sensor/RgbdFrame.h>
 
@@ -30,17 +31,9 @@ class AttachedParts
     /** Its fraction of the view, 0 to 1. */
     [[nodiscard]] double share() const;
 
-    /** What is kept of a frame. */
-    struct View
-    {
-        cv::Mat_<std::uint8_t> gray;      //!< a square of pixels for each cell
-        cv::Mat_<float> depth;            //!< likewise [m]
-        cv::Mat_<std::uint8_t> contrast;  //!< what each cell's pattern can tell
-    };
-
  private:
-    View earlier_;
-    cv::Mat_<std::uint8_t> timesSame_;  //!< of each cell, one after the other
+    CellView earlier_;
+    cv::Mat_<std::uint8_t> timesSame_;  //!< of each cell, in a row
     cv::Mat mask_;
 };
 }  // namespace pointplane

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 namespace pointplane
 {
@@ -41,6 +42,14 @@ class DepthNoiseLearner
     /** What is known by now. Its kind is never "learn". */
     [[nodiscard]] const DepthNoise& noise() const { return noise_; }
 
+    /** What the planar cells at a depth tell, where there are enough of them. */
+    struct NoiseAtDepth
+    {
+        double depth;  //!< [m]
+        double sigma;  //!< of the depth [m]
+        double cells;  //!< how many there were
+    };
+
  private:
     static constexpr int kNumDepths = 20;  //!< half octaves from 0.125 m to 128 m
     static constexpr int kNumLevels = 96;  //!< quarter octaves of the residuals, 1 um to 16 m
@@ -59,7 +68,8 @@ class DepthNoiseLearner
     /** Fades what was seen, and adds an image. */
     void add(const Counts& image);
     [[nodiscard]] bool hasLevels() const;  //!< of structured light's disparity
-    [[nodiscard]] std::string judgedKind() const;
+    [[nodiscard]] std::vector<NoiseAtDepth> measured() const;
+    [[nodiscard]] std::string judgedKind(const std::vector<NoiseAtDepth>& depths) const;
     void decide();
 
     DepthNoise given_, noise_;

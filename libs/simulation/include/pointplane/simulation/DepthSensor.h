@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pointplane/simulation/DepthDropouts.h>
 #include <pointplane/simulation/Renderer.h>
 #include <pointplane/simulation/SimulationParams.h>
 
@@ -16,8 +17,7 @@ namespace pointplane
  *   match either side (lateral noise, Nguyen, Izadi & Lovell 2012).
  * - Time of flight has constant noise in depth, interpolated where the image was enlarged, and a
  *   smooth error in proportion to the depth.
- * - There is no reading in the projector's shadow, at depth edges, on surfaces seen too flat, and
- *   out of range. */
+ * - There is no reading at DepthDropouts. */
 class DepthSensor
 {
  public:
@@ -44,18 +44,13 @@ class DepthSensor
         int v,
         float* q) const;
     void addLengths(const FrameNoise& noise, int v, float* depth) const;
-    [[nodiscard]] cv::Mat readable(const CastImage& cast) const;
-    void dropShadow(const float* inverseDepth, uchar* readable) const;
-    void dropFlat(const CastImage& cast, int v, uchar* readable) const;
-    void dropEdges(const cv::Mat& inverseDepth, int v, uchar* readable) const;
 
     SimulationParams params_;
-    PinholeCamera camera_;        //!< the true one
-    float depthScale_;            //!< what depths are multiplied by
-    double pixelScale_;           //!< image width / 640
-    double step_;                 //!< of the inverse depth [1/m], 0 = continuous
-    double matchingSigma_{0};     //!< noise before rounding [1/m]
-    cv::Mat calibrationError_;    //!< CV_32FC1 [1/m]; empty: none
-    std::vector<char> hasDepth_;  //!< per surface
+    PinholeCamera camera_;  //!< the true one
+    DepthDropouts dropouts_;
+    float depthScale_;          //!< what depths are multiplied by
+    double step_;               //!< of the inverse depth [1/m], 0 = continuous
+    double matchingSigma_{0};   //!< noise before rounding [1/m]
+    cv::Mat calibrationError_;  //!< CV_32FC1 [1/m]; empty: none
 };
 }  // namespace pointplane

@@ -181,5 +181,9 @@ struct SimulationParams
     [[nodiscard]] double depthScale(std::uint64_t seed) const;
 
     [[nodiscard]] ShutterModel shutter() const;
+
+    /** Pixels of the image per pixel of one that is 640 wide: lengths in the sensor count in those.
+     */
+    [[nodiscard]] double pixelScale() const { return width / 640.0; }
 };
 }  // namespace pointplane

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pointplane/core/BoundedQueue.h>
+
+#include <cstddef>
+#include <utility>
+
+#include "Worker.h"
+
+namespace pointplane
+{
+/** Closes a queue where its scope ends, by an exception, too: who waits for it goes on. */
+template <class T>
+struct Closer
+{
+    BoundedQueue<T>& queue;
+    ~Closer() { queue.close(); }
+};
+template <class T>
+Closer(BoundedQueue<T>&) -> Closer<T>;
+
+/** Each of the three in a thread of its own, item after item. The first that throws ends the
+ * others, and its exception is thrown here.
+ * \param read () -> std::optional<In>, nothing at the end \param work (In) -> Out
+ * \param write (const Out&) */
+template <class Read, class Work, class Write>
+void runInThreads(const Read& read, const Work& work, const Write& write)
+{
+    using In = typename decltype(read())::value_type;
+    using Out = decltype(work(std::declval<In>()));
+    constexpr std::size_t kDepth = 4;  // items waiting between two threads
+    BoundedQueue<In> todo(kDepth);
+    BoundedQueue<Out> done(kDepth);
+    Worker reader(
+        [&]
+        {
+            const Closer closer{todo};
+            while (auto item = read())
+            {
+                if (!todo.push(std::move(*item)))
+                {
+                    return;
+                }
+            }
+        });
+    const Closer endsReader{todo};  // where there is no memory for another thread
+    Worker writer(
+        [&]
+        {
+            const Closer closer{done};  // a writer that fails stops the others
+            while (auto item = done.pop())
+            {
+                write(*item);
+            }
+        });
+    const Closer endsWriter{done};
+    Worker worker(
+        [&]
+        {
+            const Closer closesOut{done};
+            const Closer closesIn{todo};
+            while (auto item = todo.pop())
+            {
+                if (!done.push(work(std::move(*item))))
+                {
+                    return;
+                }
+            }
+        });
+    worker.join();
+    reader.join();
+    writer.join();
+    writer.rethrow();
+    worker.rethrow();
+    reader.rethrow();
+}
+}  // namespace pointplane
