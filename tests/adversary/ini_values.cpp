@@ -72,7 +72,7 @@ Tally iniValues(double share)
                 a.code == 0 ||
                 (a.code == 1 &&
                  (a.err.find("most of the motion is predicted") != std::string::npos ||
-                  a.err.find("none from PointLifter.minDepth") != std::string::npos));
+                  a.err.find("a path cannot begin without depth") != std::string::npos));
             std::string wrong = wrongWith(a) + unless(isRun || a.code == 2, "exit code");
             wrong += unless(
                 a.code != 2 || a.err.find(entry.key) != std::string::npos,
