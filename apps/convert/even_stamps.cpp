@@ -90,7 +90,7 @@ struct Frame
 }
 
 /** The same for stamps that repeat. Nothing tells which frames are missing, unless a whole step is.
- */
+ * \throws InputError if most stamps are farther apart than such a step */
 [[nodiscard]] std::vector<Frame> numberedInOrder(
     const std::vector<double>& stamps, const std::vector<double>& intervals, double rounding)
 {
@@ -102,6 +102,10 @@ struct Frame
             sum += interval;
             ++count;
         }
+    }
+    if (2 * count < static_cast<double>(intervals.size()))
+    {
+        throw InputError("stamps repeat, and not by rounding, so they cannot be evened out");
     }
     std::vector<Frame> out{{0, 0, stamps.front(), sum / count}};
     for (std::size_t i = 0; i < intervals.size(); ++i)

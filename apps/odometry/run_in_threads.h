@@ -30,21 +30,21 @@ void runInThreads(const Read& read, const Work& work, const Write& write)
     using In = typename decltype(read())::value_type;
     using Out = decltype(work(std::declval<In>()));
     constexpr std::size_t kDepth = 4;  // items waiting between two threads
-    BoundedQueue<In> todo(kDepth);
+    BoundedQueue<In> waiting(kDepth);
     BoundedQueue<Out> done(kDepth);
     Worker reader(
         [&]
         {
-            const Closer closer{todo};
+            const Closer closer{waiting};
             while (auto item = read())
             {
-                if (!todo.push(std::move(*item)))
+                if (!waiting.push(std::move(*item)))
                 {
                     return;
                 }
             }
         });
-    const Closer endsReader{todo};  // where there is no memory for another thread
+    const Closer endsReader{waiting};  // where there is no memory for another thread
     Worker writer(
         [&]
         {
@@ -59,8 +59,8 @@ void runInThreads(const Read& read, const Work& work, const Write& write)
         [&]
         {
             const Closer closesOut{done};
-            const Closer closesIn{todo};
-            while (auto item = todo.pop())
+            const Closer closesIn{waiting};
+            while (auto item = waiting.pop())
             {
                 if (!done.push(work(std::move(*item))))
                 {

@@ -689,6 +689,7 @@ TEST(EvenStamps, areRefusedWithoutASteadyRate)
     EXPECT_EQ(evenStamps({5}), std::vector<double>{5});
     EXPECT_THROW((void)evenStamps({1, 2, 1.5, 3}), InputError);
     EXPECT_THROW((void)evenStamps({1, 1, 1, 1}), InputError);
+    EXPECT_THROW((void)evenStamps({0, 0.033, 0.066, 0.066, 0.1, 0.101, 0.166}), InputError);
     std::mt19937 random(1);
     std::uniform_real_distribution<double> interval(0.02, 0.2);
     std::vector<double> stamps{100};
