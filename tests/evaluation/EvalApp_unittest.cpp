@@ -633,7 +633,7 @@ TEST_F(EvalApp, theReportOfAShortRunSaysWhatItLacks)
     const test::AppRun r = run({"ate", truth, brief, "--report", files / "r"});
     EXPECT_EQ(r.code, 0) << r.err;
     const std::string html = test::readBytes(files / "r/index.html");
-    EXPECT_THAT(html, HasSubstr("No relative pose error: only 0 of"));
+    EXPECT_THAT(html, HasSubstr("short.txt' covers 0.5 s: fewer than two pairs"));
     EXPECT_THAT(html, HasSubstr("Path from above"));
 }
 
