@@ -2,6 +2,7 @@
 #include "EvalApp.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -76,6 +77,56 @@ TEST_F(EvalApp, stampsInMillisecondsAreTold)
     }
     EXPECT_THAT(
         run({"rpe", seconds, estimate}).err, HasSubstr("are these files of the same sequence?"));
+}
+
+namespace
+{
+/** A winding path as TUM text; `perMetre` is its unit of length, `wFirst` the order of its
+ * quaternions, and `faster` a small error. */
+std::string winding(double perMetre, bool wFirst, double faster = 1)
+{
+    std::ostringstream out;
+    out << std::setprecision(15);
+    for (int i = 0; i <= 60; ++i)
+    {
+        const double t = 0.1 * i;
+        const Eigen::Quaterniond q(
+            Eigen::AngleAxisd(0.3 * faster * t, Eigen::Vector3d::UnitY()) *
+            Eigen::AngleAxisd(std::sin(t), Eigen::Vector3d::UnitX()));
+        out << t << " " << perMetre * t * faster << " " << perMetre * std::cos(t) << " 0 ";
+        if (wFirst)
+        {
+            out << q.w() << " " << q.x() << " " << q.y() << " " << q.z() << "\n";
+        }
+        else
+        {
+            out << q.x() << " " << q.y() << " " << q.z() << " " << q.w() << "\n";
+        }
+    }
+    return out.str();
+}
+}  // namespace
+
+/** Else they give a score that looks like that of an odometry that fails. */
+TEST_F(EvalApp, millimetresAndOtherOrdersOfQuaternionsAreTold)
+{
+    const std::string good = writeFile(files, "good.txt", winding(1, false));
+    const std::string poor = writeFile(files, "poor.txt", winding(1, false, 1.1));
+    const std::string fine = writeFile(files, "mm.txt", winding(1000, false, 1.1));
+    const std::string wFirst = writeFile(files, "wxyz.txt", winding(1, true, 1.1));
+    const std::string unit = "hint: positions of '" + fine + "' look like millimetres: write them ";
+    const std::string order =
+        "hint: quaternions of '" + wFirst + "' look like qw qx qy qz: write them as qx qy qz qw\n";
+    for (const char* command : {"rpe", "ate", "compare"})
+    {
+        EXPECT_EQ(run({command, good, poor}).err, "");
+        EXPECT_EQ(run({command, good, fine, "--scale", "0.001"}).err, "");
+        EXPECT_THAT(run({command, good, fine}).err, HasSubstr(unit));
+        EXPECT_THAT(run({command, fine, good}).err, HasSubstr(unit));
+        EXPECT_THAT(run({command, good, wFirst}).err, HasSubstr(order));
+        EXPECT_THAT(run({command, wFirst, good}).err, HasSubstr(order));
+    }
+    EXPECT_EQ(run({"rpe", truth, writeFile(files, "far.txt", straightLine(100))}).err, "");
 }
 
 TEST_F(EvalApp, verboseIsTheScriptsOutput)
