@@ -12,7 +12,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "frames_text.h"
+#include "counted.h"
 
 namespace pointplane
 {
@@ -138,8 +138,8 @@ std::vector<std::string> FrameSource::notes() const
     if (numReplaced_ > 0)
     {
         out.push_back(
-            "replaced: " + std::to_string(numReplaced_) +
-            " poses and comments of an earlier run on camera '" + label_ + "'");
+            "replaced: " + counted(numReplaced_, "record") +
+            " (poses and comments) of an earlier run on camera '" + label_ + "'");
     }
     return out;
 }
