@@ -250,6 +250,30 @@ TEST(OdometryFailures, itIsToldWhyThereIsNoPoint)
     }
 }
 
+/** A camera in the dark, or with a hand before its depth camera, is tracked for a while. */
+TEST(OdometryFailures, aTrackedFrameTellsWhatItLacks)
+{
+    RgbdFrame noDepth = good(kBad), black = good(kBad), noColour = good(kBad);
+    noDepth.depth.setTo(kNaN);
+    black.gray.setTo(0);
+    noColour.gray.release();
+    for (const auto& [frame, reason] :
+         {std::pair(noDepth, "its depth image has no reading"),
+          std::pair(black, "its colour image is black"),
+          std::pair(noColour, "it has no colour image")})
+    {
+        const OdometryResult result = Outcome(frame).at;
+        EXPECT_EQ(result.status, TrackingStatus::Tracked) << reason;
+        EXPECT_THAT(result.reason, testing::EndsWith(reason));
+    }
+    black = good(0);
+    black.gray.setTo(0);
+    const OdometryResult first = CheckedOdometry().process(black);
+    EXPECT_EQ(first.status, TrackingStatus::First);
+    EXPECT_EQ(first.reason, "its colour image is black");
+    EXPECT_EQ(Outcome(good(kBad)).at.reason, "");
+}
+
 TEST(OdometryFailures, aMaskThatLeavesNoDepthIsTold)
 {
     Odometry odometry;
