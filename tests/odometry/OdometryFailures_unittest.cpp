@@ -158,6 +158,33 @@ TEST(OdometryFailures, sequenceThatBeginsWithoutDepth)
     EXPECT_EQ(odometry.process(good(5)).status, TrackingStatus::Tracked);
 }
 
+/** Not 33 ms, whatever the time is: the camera may go far in 2 s. */
+TEST(OdometryFailures, motionsBeforeTheFirstGoodFrameTakeTheTimeOfTheirStamps)
+{
+    const auto sigmasAt = [](double interval)
+    {
+        CheckedOdometry odometry;
+        std::vector<double> out;
+        for (int i = 0; i < 4; ++i)
+        {
+            RgbdFrame frame = good(i);
+            frame.stamp = 1e9 + i * interval;
+            if (i < 3)
+            {
+                frame.depth.setTo(kNaN);
+            }
+            out.push_back(std::sqrt(odometry.process(frame).increment.cov(0, 0)));
+        }
+        return out;
+    };
+    const std::vector<double> usual = sigmasAt(1.0 / 30), slow = sigmasAt(2);
+    EXPECT_EQ(slow[0], usual[0]) << "nothing was before it";
+    for (const std::size_t i : {1U, 2U, 3U})
+    {
+        EXPECT_GT(slow[i], 10 * usual[i]) << i;
+    }
+}
+
 /** In the first frame, and later where there is nothing else. */
 TEST(OdometryFailures, itIsToldWhyThereIsNoDepth)
 {
