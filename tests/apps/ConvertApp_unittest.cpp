@@ -600,6 +600,15 @@ TEST_F(ConvertApp, aLabelIsOneLine)
     EXPECT_EQ(run({in_, "-o", out_, "--label", "front \"camera\" \xc3\xa4"}), kExitOk) << text_;
 }
 
+/** The name that was given, not that of the ground truth. */
+TEST_F(ConvertApp, aFolderThatIsNotThereIsNamed)
+{
+    const std::string out = dir_ / "none/out.rawlog";
+    EXPECT_EQ(run({in_, "-o", out}), kExitEnvironment);
+    EXPECT_THAT(
+        text_, HasSubstr("-o: cannot write " + out + ": there is no folder " + (dir_ / "none")));
+}
+
 TEST_F(ConvertApp, groundTruthThatCannotBeReadLeavesNothing)
 {
     std::filesystem::remove(dir_ / "in/groundtruth.txt");

@@ -198,7 +198,7 @@ TEST_F(Outputs, whatCannotBeWrittenIsRefusedBeforeTheRun)
         EXPECT_EQ(outcome.code, kExitEnvironment);
         EXPECT_THAT(
             outcome.err,
-            HasSubstr(option + ": cannot write /nonexistent/x: No such file or directory"));
+            HasSubstr(option + ": cannot write /nonexistent/x: there is no folder /nonexistent"));
         EXPECT_EQ(files(), before);
     }
     expectRefused({in_, "--overlay", in_}, "is not a folder");
