@@ -446,7 +446,10 @@ TEST_F(ConvertApp, mistakesAreNamed)
     expect("say --camera");
     std::ostringstream out, err;
     EXPECT_EQ(runConvert({"tum", dir_ / "none", "-o", out_}, out, err), kExitBadInput);
-    EXPECT_THAT(err.str(), HasSubstr("none: is not a folder"));
+    EXPECT_THAT(err.str(), HasSubstr("none: no such folder"));
+    writeBytes(dir_ / "fr1.tgz", "packed");
+    EXPECT_EQ(runConvert({"tum", dir_ / "fr1.tgz", "-o", out_}, out, err), kExitBadInput);
+    EXPECT_THAT(err.str(), HasSubstr("fr1.tgz: is a file, not a folder; archives have to be un"));
 }
 
 /** A folder without permission fails likewise, but not for root, who may run this. */

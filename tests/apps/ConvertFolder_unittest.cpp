@@ -496,6 +496,16 @@ TEST_F(ConvertFolder, eachNumberIsOneFrame)
     EXPECT_THAT(text_, Not(HasSubstr("no number")));
 }
 
+TEST_F(ConvertFolder, whichNamesOfFoldersAndImagesAreReadIsTold)
+{
+    writeFrames("in/rgb/image %d.png", "in/depth/image %d.png");
+    EXPECT_EQ(run({"folder", in_}), kExitBadInput);
+    EXPECT_THAT(
+        text_,
+        HasSubstr("two folders, rgb (or color, colour, image, images) and depth (depths), whose "
+                  "images are named by number or stamp alone, as 12.png"));
+}
+
 TEST_F(ConvertFolder, oneImageIsNotToldAsMany)
 {
     writeFrames("in/rgb/%d.png", "in/depth/%d.png");
