@@ -102,10 +102,11 @@ void CompareCommand::run(CommandContext& context)
     const Comparison comparison = compareRuns(truth, loaded, resolved, ate, bootstrap);
     for (std::size_t k = 0; k < loaded.size(); ++k)
     {
-        const std::string hint = hintAtNotation(truth, loaded[k], resolved.offset, resolved.scale);
+        const std::string hint =
+            hintAtAxes(input, truth, loaded[k], comparison.runs[k].rpe, resolved);
         context.hint(
             !hint.empty() ? hint
-                          : hintAtAxes(input, truth, loaded[k], comparison.runs[k].rpe, resolved));
+                          : hintAtNotation(truth, loaded[k], resolved.offset, resolved.scale));
     }
     const std::string protocol = describe(resolved, comparison.runs.front().rpe) +
                                  format(

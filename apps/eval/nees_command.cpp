@@ -283,9 +283,12 @@ void NeesCommand::addRun(
     {
         context.err << "pointplane-eval: note: " << run.note << "\n";
     }
-    std::string hint = hintAtNotation(
-        withBody(truth, report.options.T_truth_body), estimate, report.options.offset, 1);
-    hint = hint.empty() ? hintAtBody(input, truth, estimate, run, report.options) : hint;
+    std::string hint = hintAtBody(input, truth, estimate, run, report.options);
+    if (hint.empty())
+    {
+        hint = hintAtNotation(
+            withBody(truth, report.options.T_truth_body), estimate, report.options.offset, 1);
+    }
     context.hint(hint);
     if (!html.directory.empty())
     {

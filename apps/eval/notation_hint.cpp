@@ -38,7 +38,7 @@ RpeResult difference(const Trajectory& truth, const Trajectory& estimate, double
     return relativePoseError(truth, estimate, options);
 }
 
-/** Whether the positions are of one unit. \return false if the ground truth stands still */
+/** Whether the translations are. \return false if the ground truth stands still */
 bool areAlike(const Trajectory& truth, const Trajectory& estimate, double offset)
 {
     constexpr double kAlike = 0.3;  // of the motion: also of a poor odometry
@@ -50,8 +50,11 @@ std::string hintAtOrder(const Trajectory& truth, const Trajectory& estimate, dou
 {
     constexpr double kBetter = 0.2;
     const double most = kBetter * difference(truth, estimate, offset).rotation.rmse;
-    const bool ofTruth = difference(reordered(truth), estimate, offset).rotation.rmse < most;
-    const bool ofEstimate = difference(truth, reordered(estimate), offset).rotation.rmse < most;
+    // Rotations about one axis are alike in other axes, too; translations then are not.
+    const auto fit = [&](const Trajectory& a, const Trajectory& b)
+    { return difference(a, b, offset).rotation.rmse < most && areAlike(a, b, offset); };
+    const bool ofTruth = fit(reordered(truth), estimate);
+    const bool ofEstimate = fit(truth, reordered(estimate));
     return ofTruth == ofEstimate ? ""
                                  : "quaternions of '" + (ofTruth ? truth : estimate).name +
                                        "' look like qw qx qy qz: write them as qx qy qz qw";

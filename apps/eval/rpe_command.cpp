@@ -142,10 +142,10 @@ void RpeCommand::run(CommandContext& context) const
     const Trajectory measured = withoutLost(run.estimate);
     const Trajectory truth = withBody(run.groundTruth, run.nees.T_truth_body);
     const RpeResult result = relativePoseError(truth, measured, rpe);
-    run.hint = hintAtNotation(truth, measured, rpe.offset, rpe.scale);
+    run.hint = hintAtAxes(input, run.groundTruth, measured, result, rpe);
     if (run.hint.empty())
     {
-        run.hint = hintAtAxes(input, run.groundTruth, measured, result, rpe);
+        run.hint = hintAtNotation(truth, measured, rpe.offset, rpe.scale);
     }
     context.hint(run.hint);
     if (!files.save.empty() && result.pairs.empty())

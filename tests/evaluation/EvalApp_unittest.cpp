@@ -129,6 +129,34 @@ TEST_F(EvalApp, millimetresAndOtherOrdersOfQuaternionsAreTold)
     EXPECT_EQ(run({"rpe", truth, writeFile(files, "far.txt", straightLine(100))}).err, "");
 }
 
+/** Rotations about one axis are alike if the numbers of the quaternions change places. */
+TEST_F(EvalApp, otherAxesAreNotTakenForAnotherOrderOfQuaternions)
+{
+    const Eigen::Quaterniond axes(0.5, -0.5, 0.5, -0.5);  // of a camera on a robot
+    const Eigen::Quaterniond world = Eigen::Quaterniond(-4, 2, 4, -1).normalized();
+    std::ostringstream camera, robot;
+    const auto write = [](std::ostream& out, double t, const Eigen::Quaterniond& q)
+    {
+        const Eigen::Vector3d x = q * Eigen::Vector3d(t, std::cos(t), 0);
+        out << t << " " << x.x() << " " << x.y() << " " << x.z() << " " << q.x() << " " << q.y()
+            << " " << q.z() << " " << q.w() << "\n";
+    };
+    for (int i = 0; i < 60; ++i)
+    {
+        const double t = 0.1 * i;
+        const Eigen::Quaterniond q(Eigen::AngleAxisd(std::sin(t), Eigen::Vector3d::UnitZ()));
+        write(camera, t, world * q * axes);
+        write(robot, t, q);
+    }
+    const std::string a = writeFile(files, "camera.txt", camera.str());
+    const std::string b = writeFile(files, "robot.txt", robot.str());
+    for (const char* command : {"rpe", "ate"})
+    {
+        EXPECT_EQ(run({command, a, b}).err, "");
+        EXPECT_EQ(run({command, b, a}).err, "");
+    }
+}
+
 TEST_F(EvalApp, verboseIsTheScriptsOutput)
 {
     EXPECT_THAT(
