@@ -7,6 +7,7 @@
 #include <ostream>
 #include <utility>
 
+#include "counted.h"
 #include <unistd.h>
 
 namespace pointplane
@@ -50,7 +51,12 @@ void ProgressBar::draw(double fraction, std::size_t frames, Clock::time_point no
     }
     char numbers[96];
     std::snprintf(
-        numbers, sizeof(numbers), "%3.0f %%  %zu frames  %.1f fps", 100 * fraction, frames, rate);
+        numbers,
+        sizeof(numbers),
+        "%3.0f %%  %s  %.1f fps",
+        100 * fraction,
+        framesText(frames).c_str(),
+        rate);
     text += numbers;
     if (fraction > 0.01)
     {

@@ -80,6 +80,12 @@ void requireWritableFile(const std::string& option, const std::string& path)
     }
     const OutputTarget target = outputTarget(path);
     requireShortName(option, path, target.writtenPath());
+    if (const fs::path folder = folderOf(target.path);
+        fs::status(folder, error).type() == fs::file_type::not_found)
+    {
+        throw EnvironmentError(
+            option + ": cannot write " + path + ": there is no folder " + folder.string());
+    }
     // The file and, where it is made anew, its folder.
     if ((fs::exists(status) && ::access(path.c_str(), W_OK) != 0) ||
         (target.isReplaced && ::access(folderOf(target.path).c_str(), W_OK | X_OK) != 0))

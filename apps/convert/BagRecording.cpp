@@ -10,6 +10,7 @@
 
 #include "bag_cameras.h"
 #include "bag_topics.h"
+#include "counted.h"
 #include "frame_images.h"
 #include "ros_images.h"
 
@@ -173,7 +174,7 @@ void BagRecording::pair()
     const std::size_t alone = colour.size() + depth.size() - partner_.size();
     if (alone > 0)
     {
-        notes_.push_back(std::to_string(alone) + " images without a partner were left out");
+        notes_.push_back("left out, without a partner: " + counted(alone, "image"));
     }
 }
 

@@ -223,8 +223,8 @@ int convertTum(
         return convert(recording, output, guard, out, err);
     }
     const std::string truth = kCopiedTruth + recording.groundTruth();
-    guard.addGroundTruth(output.path, truth);
     addOutputs(output, guard);
+    guard.addGroundTruth(output.path, truth);
     const RecordingSummary summary = convertRecording(recording, output, err);
     std::vector<std::string> notes = recording.notes();
     if (!hasPlaceBeside(output.path))

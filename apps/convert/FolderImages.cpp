@@ -8,6 +8,8 @@
 #include <iomanip>
 #include <sstream>
 
+#include "counted.h"
+
 namespace pointplane
 {
 namespace
@@ -101,11 +103,13 @@ void FolderImages::checkOrderOfList(bool mayRepeat) const
 std::vector<std::string> FolderImages::notesOfLeftOut(std::size_t numFrames) const
 {
     std::vector<std::string> out;
-    const auto add = [&out](std::size_t count, const std::string& text)
+    const auto add = [&out](std::size_t count, const std::string& which, const std::string& more)
     {
         if (count > 0)
         {
-            out.push_back(std::to_string(count) + " images " + text);
+            out.push_back(
+                counted(count, "image") + " " + which + (count == 1 ? " was" : " were") +
+                " left out" + more);
         }
     };
     const auto examples = [](const std::string& first, std::size_t count)
@@ -117,14 +121,14 @@ std::vector<std::string> FolderImages::notesOfLeftOut(std::size_t numFrames) con
             folderOfImages(depth) + "; move away what is not meant");
     }
     add(unlisted_.size(),
-        "without a stamp in " + stampList_ +
-            " were left out; --fps takes them, too, at a rate of its own");
-    add(colour.size() + depth.size() - 2 * numFrames, "without a partner were left out");
+        "without a stamp in " + stampList_,
+        "; --fps takes all, at a rate of its own");
+    add(colour.size() + depth.size() - 2 * numFrames, "without a partner", "");
     if (!doubles_.empty())
     {
         add(doubles_.size(),
-            "of a number or time that another one has were left out: " +
-                examples(doubles_.front().path, doubles_.size()));
+            "of a number or time that another one has",
+            ": " + examples(doubles_.front().path, doubles_.size()));
     }
     std::vector<ImageRef> known = doubles_;
     for (const auto* images : {&unlisted_, &colour, &depth})
@@ -134,7 +138,8 @@ std::vector<std::string> FolderImages::notesOfLeftOut(std::size_t numFrames) con
     if (const auto others = imagesBeside(known); !others.empty())
     {
         add(others.size(),
-            "whose names are no number were left out: " + examples(others.front(), others.size()));
+            others.size() == 1 ? "whose name is no number" : "whose names are no number",
+            ": " + examples(others.front(), others.size()));
     }
     return out;
 }

@@ -15,6 +15,7 @@
 #include <iterator>
 #include <sstream>
 
+#include "counted.h"
 #include "even_stamps.h"
 #include "frame_images.h"
 #include "layout_files.h"
@@ -146,7 +147,7 @@ std::vector<std::string> TumRecording::notes() const
     {
         std::ostringstream alone;
         alone << "left out, without a partner within " << options_.maxDifference
-              << " s: " << colourAlone << " colour and " << depthAlone << " depth images";
+              << " s: " << colourAlone << " colour and " << counted(depthAlone, "depth image");
         out.push_back(alone.str());
     }
     if (!camera_.guessed.empty())

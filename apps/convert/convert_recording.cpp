@@ -16,7 +16,7 @@
 #include <sstream>
 
 #include "ProgressBar.h"
-#include "frames_text.h"
+#include "counted.h"
 #include "stamp_check.h"
 
 namespace pointplane

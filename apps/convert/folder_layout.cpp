@@ -83,7 +83,8 @@ FolderLayout readFolderLayout(const std::string& folder)
     }
     throw InputError(
         folder +
-        ": not a known layout. Known are two folders like rgb and depth with numbered or stamped "
-        "images, ScanNet, 7-Scenes, Redwood, Replica, Bonn, Record3D or StrayScanner");
+        ": not a known layout. Known are ScanNet, 7-Scenes, Redwood, Replica, Bonn, Record3D, "
+        "StrayScanner, and two folders, rgb (or color, colour, image, images) and depth (depths), "
+        "whose images are named by number or stamp alone, as 12.png or 1500000000.25.png");
 }
 }  // namespace pointplane

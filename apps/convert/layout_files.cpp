@@ -30,9 +30,13 @@ void requireFolder(const std::string& path)
         throw InputError(
             "cannot open " + path + ": " + (error ? error.message() : std::strerror(errno)));
     }
+    if (type == fs::file_type::not_found)
+    {
+        throw InputError(path + ": no such folder");
+    }
     if (type != fs::file_type::directory)
     {
-        throw InputError(path + ": is not a folder");
+        throw InputError(path + ": is a file, not a folder; archives have to be unpacked");
     }
 }
 

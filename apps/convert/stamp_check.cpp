@@ -40,14 +40,14 @@ std::string problemOfStamps(const std::vector<double>& stamps)
     }
     if (numBack > 0)
     {
-        out << numBack << " of them are before the one before";
+        out << numBack << " of them " << (numBack == 1 ? "is" : "are") << " before the one before";
         return out.str();
     }
     if (numRepeated > 0)
     {
-        out << numRepeated
-            << " of them repeat the one before: odometry cannot use these frames (tum and folder "
-               "have --even-stamps)";
+        out << numRepeated << " of them " << (numRepeated == 1 ? "repeats" : "repeat")
+            << " the one before: odometry cannot use such frames (tum and folder have "
+               "--even-stamps)";
         return out.str();
     }
     if (intervals.size() < kLeastIntervals)

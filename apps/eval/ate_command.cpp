@@ -8,6 +8,7 @@
 #include "command.h"
 #include "coverage_limit.h"
 #include "input_options.h"
+#include "notation_hint.h"
 #include "number_checks.h"
 #include "result_output.h"
 #include "trajectory_report.h"
@@ -147,6 +148,10 @@ void AteCommand::run(CommandContext& context) const
     const Trajectory truth = withBody(run.groundTruth, run.nees.T_truth_body);
     const AteResult result = absoluteTrajectoryError(truth, measured, options);
     run.hint = hintAtBodies(input, run.groundTruth, run.estimate);
+    if (run.hint.empty())
+    {
+        run.hint = hintAtNotation(truth, measured, options.offset, options.scale);
+    }
     if (run.hint.empty())
     {
         run.hint = hintAtWorlds(truth, measured, options, result.translation.rmse);

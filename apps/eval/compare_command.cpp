@@ -9,6 +9,7 @@
 #include "compare_output.h"
 #include "coverage_limit.h"
 #include "input_options.h"
+#include "notation_hint.h"
 #include "report_file.h"
 #include "result_output.h"
 #include "rpe_options.h"
@@ -101,7 +102,11 @@ void CompareCommand::run(CommandContext& context)
     const Comparison comparison = compareRuns(truth, loaded, resolved, ate, bootstrap);
     for (std::size_t k = 0; k < loaded.size(); ++k)
     {
-        context.hint(hintAtAxes(input, truth, loaded[k], comparison.runs[k].rpe, resolved));
+        const std::string hint =
+            hintAtAxes(input, truth, loaded[k], comparison.runs[k].rpe, resolved);
+        context.hint(
+            !hint.empty() ? hint
+                          : hintAtNotation(truth, loaded[k], resolved.offset, resolved.scale));
     }
     const std::string protocol = describe(resolved, comparison.runs.front().rpe) +
                                  format(

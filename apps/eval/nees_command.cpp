@@ -14,6 +14,7 @@
 #include "input_options.h"
 #include "nees_output.h"
 #include "nees_pools.h"
+#include "notation_hint.h"
 #include "number_checks.h"
 #include "result_output.h"
 #include "trajectory_report.h"
@@ -282,7 +283,12 @@ void NeesCommand::addRun(
     {
         context.err << "pointplane-eval: note: " << run.note << "\n";
     }
-    const std::string hint = hintAtBody(input, truth, estimate, run, report.options);
+    std::string hint = hintAtBody(input, truth, estimate, run, report.options);
+    if (hint.empty())
+    {
+        hint = hintAtNotation(
+            withBody(truth, report.options.T_truth_body), estimate, report.options.offset, 1);
+    }
     context.hint(hint);
     if (!html.directory.empty())
     {

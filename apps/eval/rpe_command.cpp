@@ -7,6 +7,7 @@
 #include "command.h"
 #include "coverage_limit.h"
 #include "input_options.h"
+#include "notation_hint.h"
 #include "number_checks.h"
 #include "result_output.h"
 #include "rpe_options.h"
@@ -139,9 +140,13 @@ void RpeCommand::run(CommandContext& context) const
     run.nees.T_truth_body = input.T_truth_body();
     run.intervals = {{1, DeltaUnit::Frames}, {1, DeltaUnit::Seconds}};
     const Trajectory measured = withoutLost(run.estimate);
-    const RpeResult result =
-        relativePoseError(withBody(run.groundTruth, run.nees.T_truth_body), measured, rpe);
+    const Trajectory truth = withBody(run.groundTruth, run.nees.T_truth_body);
+    const RpeResult result = relativePoseError(truth, measured, rpe);
     run.hint = hintAtAxes(input, run.groundTruth, measured, result, rpe);
+    if (run.hint.empty())
+    {
+        run.hint = hintAtNotation(truth, measured, rpe.offset, rpe.scale);
+    }
     context.hint(run.hint);
     if (!files.save.empty() && result.pairs.empty())
     {

@@ -7,6 +7,7 @@
 #include <ostream>
 
 #include "ProgressBar.h"
+#include "counted.h"
 
 namespace pointplane
 {
@@ -23,10 +24,10 @@ std::string statusText(const RunState& state)
     }
     const auto& pairing = state.capture.pairing;
     std::string text = mrpt::format(
-        "%s  %.1f fps  %llu frames  lost: camera %llu, unpaired %llu, queue %llu",
+        "%s  %.1f fps  %s  lost: camera %llu, unpaired %llu, queue %llu",
         durationText(state.capture.recordedTime).c_str(),
         state.capture.frameRate,
-        static_cast<unsigned long long>(pairing.pairs),
+        framesText(pairing.pairs).c_str(),
         static_cast<unsigned long long>(pairing.droppedDepth + pairing.droppedColour),
         static_cast<unsigned long long>(pairing.unpairedDepth + pairing.unpairedColour),
         static_cast<unsigned long long>(state.queueDrops));

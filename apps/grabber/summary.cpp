@@ -6,7 +6,7 @@
 #include <ostream>
 
 #include "ProgressBar.h"
-#include "frames_text.h"
+#include "counted.h"
 
 namespace pointplane
 {
@@ -15,10 +15,11 @@ namespace
 void printLosses(const RunState& state, std::ostream& out)
 {
     const auto& p = state.capture.pairing;
-    out << "lost: " << p.droppedDepth << " depth and " << p.droppedColour
-        << " colour images by the camera, " << p.unpairedDepth << " depth and " << p.unpairedColour
-        << " colour images without a partner, " << state.queueDrops
-        << " pairs because the queue was full\n";
+    const auto images = [](std::size_t depth, std::size_t colour)
+    { return std::to_string(depth) + " depth and " + counted(colour, "colour image"); };
+    out << "lost: " << images(p.droppedDepth, p.droppedColour) << " by the camera, "
+        << images(p.unpairedDepth, p.unpairedColour) << " without a partner, "
+        << counted(state.queueDrops, "pair") << " because the queue was full\n";
     if (state.queueDrops > 0)
     {
         out << "  the disk or the processor is too slow: a lower --compression, --jpeg or a larger "
@@ -44,7 +45,7 @@ void printTimes(const RunSummary& summary, std::ostream& out)
     }
     if (capture.clockJumps > 0)
     {
-        out << "  the camera's clock jumped " << capture.clockJumps << " times\n";
+        out << "  the camera's clock jumped " << counted(capture.clockJumps, "time") << "\n";
     }
 }
 }  // namespace
@@ -75,8 +76,8 @@ void print(const RunSummary& summary, std::ostream& out)
     if (state.isRecording)
     {
         out << mrpt::format(
-            "recorded %llu frames, %s, %.1f MB (%.1f MB/s) to",
-            static_cast<unsigned long long>(state.recording.framesWritten),
+            "recorded %s, %s, %.1f MB (%.1f MB/s) to",
+            framesText(state.recording.framesWritten).c_str(),
             durationText(state.capture.recordedTime).c_str(),
             1e-6 * bytes,
             1e-6 * state.bytesPerSecond);

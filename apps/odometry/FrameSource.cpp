@@ -12,7 +12,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "frames_text.h"
+#include "counted.h"
 
 namespace pointplane
 {
@@ -30,10 +30,17 @@ namespace
 FrameSource::FrameSource(const OdometryOptions& options, const OutputGuard& guard)
     : options_(options), guard_(guard), label_(options.sensorLabel)
 {
-    for (std::size_t i = 1; i < options.inputs.size(); ++i)
+    for (std::size_t i = 0; i < options.inputs.size(); ++i)
     {
         std::error_code error;
-        if (!std::filesystem::is_fifo(options.inputs[i], error))  // it can be read but once
+        const auto type = std::filesystem::status(options.inputs[i], error).type();
+        if (type == std::filesystem::file_type::directory)
+        {
+            throw InputError(
+                options.inputs[i] +
+                ": is a folder, not a rawlog; pointplane-convert makes rawlogs of folders");
+        }
+        if (i > 0 && type != std::filesystem::file_type::fifo)  // it can be read but once
         {
             (void)RawlogReader(options.inputs[i]);  // before the run, not in the middle of it
         }
@@ -138,8 +145,8 @@ std::vector<std::string> FrameSource::notes() const
     if (numReplaced_ > 0)
     {
         out.push_back(
-            "replaced: " + std::to_string(numReplaced_) +
-            " poses and comments of an earlier run on camera '" + label_ + "'");
+            "replaced: " + counted(numReplaced_, "record") +
+            " (poses and comments) of an earlier run on camera '" + label_ + "'");
     }
     return out;
 }

@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "counted.h"
+
 namespace pointplane
 {
 OverlaySink::OverlaySink(const std::string& folder, std::size_t every)
@@ -72,7 +74,7 @@ std::set<std::string> OverlaySink::earlierPictures() const
 std::string OverlaySink::description() const
 {
     const auto earlier = earlierPictures();
-    return folder_.path() + ": " + std::to_string(names_.size()) + " pictures" +
+    return folder_.path() + ": " + counted(names_.size(), "picture") +
            (earlier.empty() ? ""
                             : ", and " + std::to_string(earlier.size()) +
                                   " of an earlier run, e.g. " + *earlier.begin());

@@ -11,6 +11,8 @@
 
 #include <vector>
 
+#include "counted.h"
+
 namespace pointplane
 {
 namespace
@@ -163,7 +165,7 @@ void RawlogSink::close()
 
 std::string RawlogSink::description() const
 {
-    return writer_.path() + ": " + std::to_string(writer_.numObjects()) + " objects, format " +
+    return writer_.path() + ": " + counted(writer_.numObjects(), "object") + ", format " +
            (format1_ ? "1" : "2");
 }
 }  // namespace pointplane

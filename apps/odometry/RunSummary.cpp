@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <ostream>
 
-#include "frames_text.h"
+#include "counted.h"
 #include "mostly_predicted.h"
 
 namespace pointplane
@@ -246,8 +246,8 @@ void RunSummary::printProblems(std::ostream& err) const
     }
     if (isMostlyUnmeasured() && numPredicted > 0)
     {
-        err << kMostlyPredicted << numTracked << " of " << numFrames
-            << " frames were tracked; the summary says why the others were not\n";
+        err << kMostlyPredicted << numTracked << " of " << framesText(numFrames)
+            << " tracked; the summary says why the others were not\n";
     }
     if (!damage.empty())
     {

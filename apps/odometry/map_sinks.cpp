@@ -10,6 +10,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "counted.h"
+
 namespace pointplane
 {
 namespace
@@ -80,7 +82,7 @@ void SimplemapSink::add(const OutputItem& item)
 
 std::string SimplemapSink::description() const
 {
-    return path_ + ": " + std::to_string(writer_.size()) + " key frames, CSimpleMap";
+    return path_ + ": " + counted(writer_.size(), "key frame") + ", CSimpleMap";
 }
 
 GraphSink::GraphSink(const std::string& path) : TextSink(path) {}
@@ -109,6 +111,6 @@ void GraphSink::add(const OutputItem& item)
 
 std::string GraphSink::description() const
 {
-    return file_.path() + ": pose graph of " + std::to_string(numNodes_) + " nodes";
+    return file_.path() + ": pose graph of " + counted(numNodes_, "node");
 }
 }  // namespace pointplane

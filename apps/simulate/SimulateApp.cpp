@@ -16,7 +16,7 @@
 #include <ostream>
 
 #include "SequenceWriter.h"
-#include "frames_text.h"
+#include "counted.h"
 #include "label_check.h"
 #include "run_program.h"
 #include "standard_streams.h"
@@ -211,8 +211,8 @@ int simulate(Arguments& args, std::ostream& standard, std::ostream& err)
     }
     if (args.output.masks)
     {
-        out << masksFolderOf(args.output.path) << ": masks of " << sequence.scene()->movers.size()
-            << " movers\n";
+        out << masksFolderOf(args.output.path) << ": masks of "
+            << counted(sequence.scene()->movers.size(), "mover") << "\n";
     }
     return kExitOk;
 }

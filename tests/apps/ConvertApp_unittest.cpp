@@ -446,7 +446,10 @@ TEST_F(ConvertApp, mistakesAreNamed)
     expect("say --camera");
     std::ostringstream out, err;
     EXPECT_EQ(runConvert({"tum", dir_ / "none", "-o", out_}, out, err), kExitBadInput);
-    EXPECT_THAT(err.str(), HasSubstr("none: is not a folder"));
+    EXPECT_THAT(err.str(), HasSubstr("none: no such folder"));
+    writeBytes(dir_ / "fr1.tgz", "packed");
+    EXPECT_EQ(runConvert({"tum", dir_ / "fr1.tgz", "-o", out_}, out, err), kExitBadInput);
+    EXPECT_THAT(err.str(), HasSubstr("fr1.tgz: is a file, not a folder; archives have to be un"));
 }
 
 /** A folder without permission fails likewise, but not for root, who may run this. */
@@ -598,6 +601,15 @@ TEST_F(ConvertApp, aLabelIsOneLine)
         EXPECT_THAT(text_, HasSubstr("holds a new line or another control character"));
     }
     EXPECT_EQ(run({in_, "-o", out_, "--label", "front \"camera\" \xc3\xa4"}), kExitOk) << text_;
+}
+
+/** The name that was given, not that of the ground truth. */
+TEST_F(ConvertApp, aFolderThatIsNotThereIsNamed)
+{
+    const std::string out = dir_ / "none/out.rawlog";
+    EXPECT_EQ(run({in_, "-o", out}), kExitEnvironment);
+    EXPECT_THAT(
+        text_, HasSubstr("-o: cannot write " + out + ": there is no folder " + (dir_ / "none")));
 }
 
 TEST_F(ConvertApp, groundTruthThatCannotBeReadLeavesNothing)

@@ -258,7 +258,7 @@ TEST_F(ConvertFolder, framesWithoutAStampInTheListAreLeftOut)
             text_,
             HasSubstr(
                 "\n2 images without a stamp in " + in_ + list +
-                " were left out; --fps takes them, too, at a rate of its own\n"));
+                " were left out; --fps takes all, at a rate of its own\n"));
         EXPECT_THAT(text_, Not(HasSubstr("no number")));
         const auto found = frames();
         ASSERT_EQ(found.size(), 2U);
@@ -496,6 +496,27 @@ TEST_F(ConvertFolder, eachNumberIsOneFrame)
     EXPECT_THAT(text_, Not(HasSubstr("no number")));
 }
 
+TEST_F(ConvertFolder, whichNamesOfFoldersAndImagesAreReadIsTold)
+{
+    writeFrames("in/rgb/image %d.png", "in/depth/image %d.png");
+    EXPECT_EQ(run({"folder", in_}), kExitBadInput);
+    EXPECT_THAT(
+        text_,
+        HasSubstr("two folders, rgb (or color, colour, image, images) and depth (depths), whose "
+                  "images are named by number or stamp alone, as 12.png"));
+}
+
+TEST_F(ConvertFolder, oneImageIsNotToldAsMany)
+{
+    writeFrames("in/rgb/%d.png", "in/depth/%d.png");
+    std::filesystem::copy(in_ + "/rgb/0.png", in_ + "/rgb/7.png");
+    std::filesystem::copy(in_ + "/rgb/0.png", in_ + "/rgb/front.png");
+    write("in/camera.txt", kCamera);
+    ASSERT_EQ(run({"folder", in_}), kExitOk) << text_;
+    EXPECT_THAT(text_, HasSubstr("\n1 image without a partner was left out\n"));
+    EXPECT_THAT(text_, HasSubstr("\n1 image whose name is no number was left out: "));
+}
+
 TEST_F(ConvertFolder, whichOfTwoFoldersWasTakenIsTold)
 {
     writeFrames("in/color/%d.jpg", "in/depth/%d.png");
@@ -609,7 +630,7 @@ TEST(ProblemOfStamps, saysWhatIsWrong)
     EXPECT_THAT(problemOfStamps(jittering), HasSubstr("jitter"));
     EXPECT_THAT(problemOfStamps(repeated), HasSubstr("40 of them repeat the one before"));
     EXPECT_THAT(problemOfStamps(repeated), HasSubstr("--even-stamps"));
-    EXPECT_EQ(problemOfStamps(back), "1 of them are before the one before");
+    EXPECT_EQ(problemOfStamps(back), "1 of them is before the one before");
 }
 
 /** Standard deviation of the stamps' errors. */

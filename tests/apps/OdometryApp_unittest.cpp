@@ -355,7 +355,7 @@ TEST_F(OdometryApp, aRunThatMeasuresNothingIsNotWell)
     EXPECT_EQ(frozen.code, kExitIncomplete);
     EXPECT_THAT(
         frozen.err,
-        HasSubstr("most of the motion is predicted, not measured: 1 of 5 frames were tracked"));
+        HasSubstr("most of the motion is predicted, not measured: 1 of 5 frames tracked"));
     EXPECT_EQ(std::count(frozen.err.begin(), frozen.err.end(), '\n'), 1) << frozen.err;
 }
 
@@ -409,7 +409,8 @@ TEST_F(OdometryApp, aRunOnAnOutputReplacesWhatIsThere)
         const Outcome again = run({first, "-o", out_, "--since", "2", format});
         EXPECT_EQ(again.code, kExitIncomplete) << again.err;
         // Per frame a pose, 0 + 1 + 2 + 2 + 2 motions, one comment.
-        EXPECT_THAT(again.out, HasSubstr("replaced: 13 poses and comments of an earlier run"));
+        EXPECT_THAT(
+            again.out, HasSubstr("replaced: 13 records (poses and comments) of an earlier run"));
     }
     EXPECT_EQ(readBytes(out_), readBytes(first));
 }
@@ -445,7 +446,9 @@ TEST_F(OdometryApp, labelsOfAnyLengthLeaveTheSummaryWhole)
 
 TEST_F(OdometryApp, whatNoFrameToldIsNotInTheSummary)
 {
-    EXPECT_THAT(runOn(2, [](int, CObservation3DRangeScan&) {}).out, HasSubstr("\ndepth noise: "));
+    EXPECT_THAT(
+        runOn(2, [](int, CObservation3DRangeScan&) {}).out,
+        HasSubstr("\ndepth noise: assumed (nothing told it), "));
     EXPECT_THAT(
         runOn(2, [](int, CObservation3DRangeScan& scan) { scan.hasRangeImage = false; }).out,
         testing::Not(HasSubstr("depth noise")));
@@ -605,7 +608,7 @@ TEST_F(OdometryApp, unwritableOutputIsExitCode3)
         const Outcome outcome = run({in_, option, "/nonexistent/x"});
         EXPECT_EQ(outcome.code, kExitEnvironment) << option;
         EXPECT_THAT(
-            outcome.err, HasSubstr("cannot write /nonexistent/x: No such file or directory"));
+            outcome.err, HasSubstr("cannot write /nonexistent/x: there is no folder /nonexistent"));
     }
     std::filesystem::create_symlink("/dev/full", dir_ / "full.rawlog");
     const Outcome full = run({in_, "-o", dir_ / "full.rawlog"});
@@ -847,6 +850,25 @@ TEST_F(OdometryApp, picturesOfEveryFrame)
     ASSERT_EQ(run({in_, "--overlay", dir_ / "few", "--overlay-every", "2"}).code, kExitOk);
     EXPECT_TRUE(std::filesystem::exists(dir_ / "few/000000.jpg"));
     EXPECT_FALSE(std::filesystem::exists(dir_ / "few/000001.jpg"));
+}
+
+TEST_F(OdometryApp, oneOfAKindIsNotToldAsMany)
+{
+    test::writeObservations(in_, 1);
+    const std::vector<std::string> args{
+        in_,
+        "-o",
+        out_,
+        "--overlay",
+        dir_ / "pictures",
+        "--simplemap",
+        dir_ / "map.simplemap",
+        "--graph",
+        dir_ / "path.graph"};
+    const std::string first = run(args).out;
+    EXPECT_THAT(first, HasSubstr("pictures: 1 picture\n"));
+    EXPECT_THAT(first, HasSubstr("map.simplemap: 1 key frame, CSimpleMap\n"));
+    EXPECT_THAT(first, HasSubstr("path.graph: pose graph of 1 node\n"));
 }
 
 /** They stay, as they may be wanted, and are not taken for pictures of this run. */

@@ -198,7 +198,7 @@ TEST_F(Outputs, whatCannotBeWrittenIsRefusedBeforeTheRun)
         EXPECT_EQ(outcome.code, kExitEnvironment);
         EXPECT_THAT(
             outcome.err,
-            HasSubstr(option + ": cannot write /nonexistent/x: No such file or directory"));
+            HasSubstr(option + ": cannot write /nonexistent/x: there is no folder /nonexistent"));
         EXPECT_EQ(files(), before);
     }
     expectRefused({in_, "--overlay", in_}, "is not a folder");
@@ -252,8 +252,8 @@ TEST_F(Outputs, aFolderAsAnInputIsBlamedItself)
     const std::string folder = dir_ / "in";
     for (const std::string& option : kOptions)
     {
-        expectRefused({folder, option, dir_ / "in/new"}, "is a directory");
-        expectRefused({in_, folder, option, dir_ / "in/new"}, "is a directory");
+        expectRefused({folder, option, dir_ / "in/new"}, "pointplane-convert makes rawlogs of");
+        expectRefused({in_, folder, option, dir_ / "in/new"}, "is a folder, not a rawlog");
         expectRefused({in_, "-c", folder, option, dir_ / "in/new"}, "is a directory");
     }
 }

@@ -101,7 +101,7 @@ TEST_F(FreenectRecording, aLostFrameShowsInTheStampsAndIsReported)
     const FakenectSession session(patternFrames(30, 640, 480), 1000U, 15);
     ASSERT_EQ(record(session, {"--frames", "18"}), 0) << err_;
     EXPECT_THAT(err_, HasSubstr("lost: 1 depth and 0 colour images by the camera"));
-    EXPECT_THAT(err_, HasSubstr("0 depth and 1 colour images without a partner"));
+    EXPECT_THAT(err_, HasSubstr("0 depth and 1 colour image without a partner"));
 }
 
 TEST_F(FreenectRecording, listsTheKinect)

@@ -158,6 +158,33 @@ TEST(OdometryFailures, sequenceThatBeginsWithoutDepth)
     EXPECT_EQ(odometry.process(good(5)).status, TrackingStatus::Tracked);
 }
 
+/** Not 33 ms, whatever the time is: the camera may go far in 2 s. */
+TEST(OdometryFailures, motionsBeforeTheFirstGoodFrameTakeTheTimeOfTheirStamps)
+{
+    const auto sigmasAt = [](double interval)
+    {
+        CheckedOdometry odometry;
+        std::vector<double> out;
+        for (int i = 0; i < 4; ++i)
+        {
+            RgbdFrame frame = good(i);
+            frame.stamp = 1e9 + i * interval;
+            if (i < 3)
+            {
+                frame.depth.setTo(kNaN);
+            }
+            out.push_back(std::sqrt(odometry.process(frame).increment.cov(0, 0)));
+        }
+        return out;
+    };
+    const std::vector<double> usual = sigmasAt(1.0 / 30), slow = sigmasAt(2);
+    EXPECT_EQ(slow[0], usual[0]) << "nothing was before it";
+    for (const std::size_t i : {1U, 2U, 3U})
+    {
+        EXPECT_GT(slow[i], 10 * usual[i]) << i;
+    }
+}
+
 /** In the first frame, and later where there is nothing else. */
 TEST(OdometryFailures, itIsToldWhyThereIsNoDepth)
 {
@@ -248,6 +275,30 @@ TEST(OdometryFailures, itIsToldWhyThereIsNoPoint)
             few + "its colour image has no texture");
         EXPECT_EQ(reasonOf([](cv::Mat& gray) { gray.release(); }), few + "it has no colour image");
     }
+}
+
+/** A camera in the dark, or with a hand before its depth camera, is tracked for a while. */
+TEST(OdometryFailures, aTrackedFrameTellsWhatItLacks)
+{
+    RgbdFrame noDepth = good(kBad), black = good(kBad), noColour = good(kBad);
+    noDepth.depth.setTo(kNaN);
+    black.gray.setTo(0);
+    noColour.gray.release();
+    for (const auto& [frame, reason] :
+         {std::pair(noDepth, "its depth image has no reading"),
+          std::pair(black, "its colour image is black"),
+          std::pair(noColour, "it has no colour image")})
+    {
+        const OdometryResult result = Outcome(frame).at;
+        EXPECT_EQ(result.status, TrackingStatus::Tracked) << reason;
+        EXPECT_THAT(result.reason, testing::EndsWith(reason));
+    }
+    black = good(0);
+    black.gray.setTo(0);
+    const OdometryResult first = CheckedOdometry().process(black);
+    EXPECT_EQ(first.status, TrackingStatus::First);
+    EXPECT_EQ(first.reason, "its colour image is black");
+    EXPECT_EQ(Outcome(good(kBad)).at.reason, "");
 }
 
 TEST(OdometryFailures, aMaskThatLeavesNoDepthIsTold)

@@ -164,11 +164,11 @@ TEST_F(DepthNoiseLearnerTest, whatIsSaidIsKept)
 TEST_F(DepthNoiseLearnerTest, imagesThatTellNothingLeaveWhatIsGiven)
 {
     DepthNoiseLearner learner({});
-    EXPECT_EQ(learner.noise().kind, "structuredLight");
+    EXPECT_EQ(learner.noise().kind, "learn");
     learner.update(cv::Mat(240, 320, CV_32FC1, cv::Scalar(std::nan(""))));
     learner.update(cv::Mat(5, 5, CV_32FC1, cv::Scalar(1)));
     learner.update(cv::Mat());
-    EXPECT_EQ(learner.noise().kind, "structuredLight");
+    EXPECT_EQ(learner.noise().kind, "learn");
     expectGiven(learner.noise());
 }
 

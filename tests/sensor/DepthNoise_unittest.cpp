@@ -58,6 +58,7 @@ TEST(DepthNoise, ofOtherKindsByHand)
     EXPECT_EQ(
         describe(noise), "timeOfFlight, 2 mm at 0.4 m; surfaces bent by 0.3 % of their depth");
     EXPECT_EQ(DepthNoise{}.weight(0.5), 1);
+    EXPECT_EQ(describe(DepthNoise{}), "assumed (nothing told it), 1.4 mm at 1 m, 13 mm at 3 m");
 }
 
 TEST(DepthNoise, backProjectionByHand)

@@ -195,7 +195,7 @@ TEST(SimulateApp, masksTellWhatMoves)
     args.emplace_back("--masks");
     const Finished done = run(args);
     ASSERT_EQ(done.code, 0) << done.err;
-    EXPECT_THAT(done.out, testing::HasSubstr("a_Masks: masks of 1 movers"));
+    EXPECT_THAT(done.out, testing::HasSubstr("a_Masks: masks of 1 mover\n"));
     const SimulatedSequence sequence("half", smallParams(), 9);
     for (int i = 0; i < sequence.numFrames(); ++i)
     {

@@ -133,9 +133,10 @@ std::string describe(const Coverage& coverage)
         std::snprintf(
             out,
             sizeof out,
-            "coverage %.1f %% of the recording: %zu frames tracked, %zu predicted, %zu lost",
+            "coverage %.1f %% of the recording: %zu frame%s tracked, %zu predicted, %zu lost",
             100 * coverage.share,
             coverage.tracked,
+            coverage.tracked == 1 ? "" : "s",
             coverage.predicted,
             coverage.lost);
     }

@@ -98,8 +98,25 @@ IndexPairs randomPairs(std::size_t n, std::int64_t count, std::uint64_t seed)
     throw std::runtime_error(
         "only " + std::to_string(used) + " of " + std::to_string(candidates) +
         " pairs have ground truth within " + std::to_string(truth.maxTimeDifference) +
-        " s of both ends; at least two are needed (is delta longer than the sequence, or are "
-        "these files of different sequences?)");
+        " s of both ends; at least two are needed (are these files of the same sequence?)");
+}
+
+/** \param index the poses in the unit of delta */
+void checkLength(
+    const Trajectory& estimate,
+    const std::vector<double>& index,
+    const IndexPairs& pairs,
+    const RpeOptions& options)
+{
+    if (pairs.size() < 2)
+    {
+        char length[32];
+        std::snprintf(length, sizeof length, "%.3g ", index.back() - index.front());
+        throw std::runtime_error(
+            "'" + estimate.name + "' covers " + length + nameOf(options.unit) +
+            ": fewer than two pairs of poses are " + nameOfDelta(options) +
+            " apart; choose a smaller delta");
+    }
 }
 
 void evaluateListed(
@@ -252,6 +269,7 @@ RpeResult relativePoseError(
     {
         const std::vector<double> index = indexOf(estimate, options.unit);
         IndexPairs pairs = fixedDeltaPairs(index, options);
+        checkLength(estimate, index, pairs, options);
         result.randomPairs = maxPairs > 0 && pairs.size() > maxPairs;
         if (result.randomPairs)
         {

@@ -174,11 +174,11 @@ void Odometry::Impl::place(const RgbdFrame& frame, OdometryResult& result)
         showPairs(alignment.associations, nullptr, shown);
         predict(current, alignment.reason, result);
     }
-    if (!alignment.reason.empty() && alignment.problem.points.empty())
+    if (alignment.problem.points.empty())
     {
         addReason(frontEnd.whyNoPoint(frame), result);
-        addReason(whyNoDepth(frame, current), result);
     }
+    addReason(whyNoDepth(frame, current), result);
 }
 
 /** Of the frame as it came. What was left out of it has been told already, but for the robot. */
@@ -239,6 +239,10 @@ void Odometry::Impl::restart(
     Reference reference = referenceOf(current);
     reference.points = frontEnd.pointReference(current);
     reference.images = frontEnd.keyframeImages(current);
+    if (reference.points.points.empty())
+    {
+        addReason(frontEnd.whyNoPoint(current.frame), result);
+    }
     shown.isKeyframe = true;
     showNewPoints(reference.points, shown);
     const PinholeCamera& camera = current.frame.camera;

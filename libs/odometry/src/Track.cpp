@@ -222,7 +222,7 @@ PoseGaussian Track::stay(double stamp)
 
 PoseGaussian Track::coast(double stamp)
 {
-    const bool known = started_ && stamp >= latestStamp_ && std::isfinite(stamp);
+    const bool known = stamp >= latestStamp_ && std::isfinite(stamp);
     const double dt = known ? stepBetween(latestStamp_, stamp) : MotionModel::kUsualStep;
     JointCovariance::Prediction errors;
     if (dt > maxGap_)
@@ -236,16 +236,15 @@ PoseGaussian Track::coast(double stamp)
     errors.velocityGain = motion_.velocityGain(dt);
     errors.after = motion_.after(dt);
     motion_.coast(dt);
-    if (!started_)
-    {
-        wasLost_ = true;
-        return increment;
-    }
-    history_.predict(increment.mean, errors);
     if (std::isfinite(stamp))
     {
-        latestStamp_ = std::max(latestStamp_, stamp);
+        latestStamp_ = std::fmax(latestStamp_, stamp);
     }
+    if (started_)
+    {
+        history_.predict(increment.mean, errors);
+    }
+    wasLost_ = wasLost_ || !started_;
     return increment;
 }
 

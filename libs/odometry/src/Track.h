@@ -9,6 +9,7 @@
 #include <pointplane/odometry/uncertainty/MotionModel.h>
 
 #include <deque>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -144,7 +145,7 @@ class Track
     ReferenceWindow window_;
     std::optional<Reference> unmatched_;  //!< has features, but none that the window knows
     PinholeCamera camera_;
-    double latestStamp_{0};
+    double latestStamp_{std::numeric_limits<double>::quiet_NaN()};  //!< NaN: none
     std::optional<double> lateStamp_;  //!< of the latest frame, when it was not after latestStamp_
     bool started_{false};              //!< there was a good frame
     bool wasLost_{false};              //!< there were others before it

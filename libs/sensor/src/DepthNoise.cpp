@@ -42,7 +42,8 @@ std::string describe(const DepthNoise& noise)
         }
     }
     std::ostringstream out = numberStream();
-    out << std::setprecision(2) << noise.kind;
+    out << std::setprecision(2)
+        << (noise.kind == "learn" ? "assumed (nothing told it)" : noise.kind);
     for (const double z : distances)
     {
         out << ", " << 1e3 * unbent.sigmaZ(z) << " mm at " << z << " m";

@@ -277,9 +277,13 @@ std::vector<NoiseAtDepth> DepthNoiseLearner::measured() const
 
 std::string DepthNoiseLearner::judgedKind(const std::vector<NoiseAtDepth>& depths) const
 {
-    if (hasLevels() || depths.empty())
+    if (hasLevels())
     {
         return "structuredLight";
+    }
+    if (depths.empty())
+    {
+        return "learn";  // nothing told it yet
     }
     if (std::any_of(
             depths.begin(),
@@ -305,7 +309,8 @@ void DepthNoiseLearner::decide()
     noise_.kind = given_.kind == "learn" ? judgedKind(depths) : given_.kind;
     noise_.sigmaDepth = noise_.sigmaRelative = 0;
     const bool isStructured = noise_.kind == "structuredLight";
-    if (noise_.kind == "rendered" || (isStructured && (given_.kind != "learn" || hasLevels())))
+    if (noise_.kind == "learn" || noise_.kind == "rendered" ||
+        (isStructured && (given_.kind != "learn" || hasLevels())))
     {
         return;
     }

@@ -70,7 +70,7 @@ struct FrameDiagnostics
 struct OdometryResult
 {
     TrackingStatus status{TrackingStatus::Lost};
-    std::string reason;      //!< why not tracked, or not in full; or empty. No full stop
+    std::string reason;      //!< why not tracked, or what it lacks; or empty. No full stop
     double stamp{0};         //!< of the frame [s]
     PoseGaussian increment;  //!< T_prev_cur, camera optical frames; strictly positive definite
     PoseGaussian pose;       //!< T_world_cur, accumulated

@@ -39,7 +39,7 @@ class DepthNoiseLearner
     /** Another camera: forgets the images so far. */
     void reset() { *this = DepthNoiseLearner(DepthNoise(given_)); }
 
-    /** What is known by now. Its kind is never "learn". */
+    /** What is known by now. Its kind is "learn" until something told it. */
     [[nodiscard]] const DepthNoise& noise() const { return noise_; }
 
     /** What the planar cells at a depth tell, where there are enough of them. */
