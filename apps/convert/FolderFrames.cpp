@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FolderFrames.h"
 
+#include <pointplane/core/quantile.h>
 #include <pointplane/evaluation/association.h>
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/mrpt_poses.h>
@@ -12,7 +13,6 @@
 #include <sstream>
 
 #include "even_stamps.h"
-#include "quantile.h"
 
 namespace pointplane
 {

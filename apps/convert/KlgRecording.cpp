@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "KlgRecording.h"
 
+#include <pointplane/core/quantile.h>
 #include <pointplane/mrpt_io/mrpt_poses.h>
 
 #include <opencv2/imgcodecs.hpp>
@@ -14,7 +15,6 @@
 #include <limits>
 #include <sstream>
 
-#include "quantile.h"
 #include <zlib.h>
 
 namespace pointplane

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "convert_recording.h"
 
+#include <pointplane/core/quantile.h>
 #include <pointplane/mrpt_io/ObservationConverter.h>
 #include <pointplane/mrpt_io/OutputFile.h>
 #include <pointplane/mrpt_io/mrpt_poses.h>
@@ -63,9 +64,7 @@ class CameraCommentWriter
     {
         return 0;
     }
-    const auto middle = readings.begin() + static_cast<std::ptrdiff_t>(readings.size() / 2);
-    std::nth_element(readings.begin(), middle, readings.end());
-    return *middle / scan.unitsPerMetre;
+    return median(std::move(readings)) / scan.unitsPerMetre;
 }
 
 /** \throws InputError if nothing was read, or, of strict conversions, if not all was */

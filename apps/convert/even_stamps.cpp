@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "even_stamps.h"
 
+#include <pointplane/core/quantile.h>
 #include <pointplane/mrpt_io/errors.h>
 
 #include <algorithm>
@@ -10,8 +11,6 @@
 #include <sstream>
 #include <string>
 #include <utility>
-
-#include "quantile.h"
 
 namespace pointplane
 {

@@ -20,26 +20,9 @@ namespace pointplane
 {
 namespace fs = std::filesystem;
 
-void requireFolder(const std::string& path)
+namespace
 {
-    std::error_code error;
-    const fs::file_type type = fs::status(path, error).type();
-    if (type == fs::file_type::none ||
-        (type == fs::file_type::directory && ::access(path.c_str(), R_OK | X_OK) != 0))
-    {
-        throw InputError(
-            "cannot open " + path + ": " + (error ? error.message() : std::strerror(errno)));
-    }
-    if (type == fs::file_type::not_found)
-    {
-        throw InputError(path + ": no such folder");
-    }
-    if (type != fs::file_type::directory)
-    {
-        throw InputError(path + ": is a file, not a folder; archives have to be unpacked");
-    }
-}
-
+/** All numbers of a text file, separated by blanks or commas. */
 std::vector<double> numbersInFile(const fs::path& path)
 {
     std::error_code error;
@@ -62,6 +45,27 @@ std::vector<double> numbersInFile(const fs::path& path)
         out.push_back(*value);
     }
     return out;
+}
+}  // namespace
+
+void requireFolder(const std::string& path)
+{
+    std::error_code error;
+    const fs::file_type type = fs::status(path, error).type();
+    if (type == fs::file_type::none ||
+        (type == fs::file_type::directory && ::access(path.c_str(), R_OK | X_OK) != 0))
+    {
+        throw InputError(
+            "cannot open " + path + ": " + (error ? error.message() : std::strerror(errno)));
+    }
+    if (type == fs::file_type::not_found)
+    {
+        throw InputError(path + ": no such folder");
+    }
+    if (type != fs::file_type::directory)
+    {
+        throw InputError(path + ": is a file, not a folder; archives have to be unpacked");
+    }
 }
 
 PinholeCamera cameraOfMatrix(const fs::path& path)

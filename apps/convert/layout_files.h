@@ -19,9 +19,6 @@ namespace pointplane
 /** \throws InputError if it is none, or cannot be read */
 void requireFolder(const std::string& path);
 
-/** All numbers of a text file, separated by blanks or commas. */
-[[nodiscard]] std::vector<double> numbersInFile(const std::filesystem::path& path);
-
 /** A 3x3 or 4x4 matrix, row by row. Its size is not in the file: 0x0. */
 [[nodiscard]] PinholeCamera cameraOfMatrix(const std::filesystem::path& path);
 

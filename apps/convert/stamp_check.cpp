@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "stamp_check.h"
 
+#include <pointplane/core/quantile.h>
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
-
-#include "quantile.h"
 
 namespace pointplane
 {

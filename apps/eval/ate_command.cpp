@@ -80,18 +80,6 @@ void AteCommand::addTo(CLI::App& command)
     report.addTo(command);
 }
 
-/** What evaluate_ate.py --verbose prints. */
-void printScriptLines(const Statistics& s, std::ostream& out)
-{
-    out << format("compared_pose_pairs %zu pairs\n", s.count)
-        << format("absolute_translational_error.rmse %f m\n", s.rmse)
-        << format("absolute_translational_error.mean %f m\n", s.mean)
-        << format("absolute_translational_error.median %f m\n", s.median)
-        << format("absolute_translational_error.std %f m\n", s.std)
-        << format("absolute_translational_error.min %f m\n", s.min)
-        << format("absolute_translational_error.max %f m\n", s.max);
-}
-
 /** The errors pose by pose, CSV; x, y, z in the ground truth's world. */
 std::string singlesOf(const Trajectory& estimate, const AteResult& result)
 {
@@ -174,7 +162,8 @@ void AteCommand::run(CommandContext& context) const
     scored.singles = singlesOf(measured, result);
     if (verbose)
     {
-        printScriptLines(result.translation, context.out);
+        context.out << format("compared_pose_pairs %zu pairs\n", result.translation.count);
+        printAsScripts("absolute_translational_error", result.translation, "m", context.out);
     }
     writeResult(scored, files, context.out, !verbose);
     writeTrajectoryReport(run, report, inputs, context);

@@ -55,6 +55,10 @@ std::vector<double> numbersFromOption(const std::string& text)
     return out;
 }
 
+namespace
+{
+/** Pose from "x,y,z,yaw,pitch,roll" [m, deg], in MRPT's order and convention, or from "optical":
+ * optical axes (x right, y down, z forward) in a body with x forward, y left, z up. */
 Eigen::Isometry3d poseFromOption(const std::string& text)
 {
     if (text == "optical")
@@ -75,6 +79,7 @@ Eigen::Isometry3d poseFromOption(const std::string& text)
     pose.translation() << v[0], v[1], v[2];
     return pose;
 }
+}  // namespace
 
 Eigen::Isometry3d InputOptions::T_truth_body() const
 {

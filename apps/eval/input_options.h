@@ -70,8 +70,4 @@ void checkTruthRate(const Trajectory& truth, const Trajectory& estimate, Command
 
 /** Numbers from "a,b,c"; none when the text is anything else. */
 [[nodiscard]] std::vector<double> numbersFromOption(const std::string& text);
-
-/** Pose from "x,y,z,yaw,pitch,roll" [m, deg], in MRPT's order and convention, or from "optical":
- * optical axes (x right, y down, z forward) in a body with x forward, y left, z up. */
-[[nodiscard]] Eigen::Isometry3d poseFromOption(const std::string& text);
 }  // namespace pointplane

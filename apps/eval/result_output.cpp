@@ -9,6 +9,7 @@
 #include <cstdarg>
 #include <cstdio>
 #include <ostream>
+#include <utility>
 
 #include "OutputGuard.h"
 #include "TextOutput.h"
@@ -102,6 +103,21 @@ std::string format(const char* text, ...)
     std::vsnprintf(out, sizeof out, text, args);
     va_end(args);
     return out;
+}
+
+void printAsScripts(const char* name, const Statistics& error, const char* unit, std::ostream& out)
+{
+    const std::pair<const char*, double> values[] = {
+        {"rmse", error.rmse},
+        {"mean", error.mean},
+        {"median", error.median},
+        {"std", error.std},
+        {"min", error.min},
+        {"max", error.max}};
+    for (const auto& [what, value] : values)
+    {
+        out << format("%s.%s %f %s\n", name, what, value, unit);
+    }
 }
 
 std::string shownName(const std::string& name, std::size_t most)

@@ -65,6 +65,9 @@ void printTable(const ScoredResult& result, std::ostream& out);
 void writeResult(
     const ScoredResult& result, const OutputFiles& files, std::ostream& out, bool table = true);
 
+/** Lines "NAME.rmse 0.01 m" and so on, as evaluate_rpe.py and evaluate_ate.py --verbose. */
+void printAsScripts(const char* name, const Statistics& error, const char* unit, std::ostream& out);
+
 /** Reports to context.err and sets exit code 1 when the row's RMSE exceeds the threshold (negative:
  * none was given). */
 void checkThreshold(

@@ -64,23 +64,6 @@ void RpeCommand::addTo(CLI::App& command)
     report.addTo(command);
 }
 
-/** What evaluate_rpe.py --verbose prints. */
-void printScriptLines(const RpeResult& result, std::ostream& out)
-{
-    out << format("compared_pairs %zu pairs\n", result.translation.count);
-    const auto print = [&](const char* name, const Statistics& s, const char* unit)
-    {
-        out << format("%s.rmse %f %s\n", name, s.rmse, unit)
-            << format("%s.mean %f %s\n", name, s.mean, unit)
-            << format("%s.median %f %s\n", name, s.median, unit)
-            << format("%s.std %f %s\n", name, s.std, unit)
-            << format("%s.min %f %s\n", name, s.min, unit)
-            << format("%s.max %f %s\n", name, s.max, unit);
-    };
-    print("translational_error", result.translation, "m");
-    print("rotational_error", scaled(result.rotation, kDegreesPerRadian), "deg");
-}
-
 /** The errors pair by pair, CSV. */
 std::string singlesOf(const Trajectory& estimate, const RpeResult& result)
 {
@@ -152,11 +135,13 @@ void RpeCommand::run(CommandContext& context) const
     {
         throw InputError("--save: too many pairs to write; give --fixed-delta or --max-pairs");
     }
+    const ScoredResult score = scored(rpe, result, measured);
     if (verbose)
     {
-        printScriptLines(result, context.out);
+        context.out << format("compared_pairs %zu pairs\n", result.translation.count);
+        printAsScripts("translational_error", score.rows[0].statistics, "m", context.out);
+        printAsScripts("rotational_error", score.rows[1].statistics, "deg", context.out);
     }
-    const ScoredResult score = scored(rpe, result, measured);
     writeResult(score, files, context.out, !verbose);
     writeTrajectoryReport(run, report, inputs, context);
     checkThreshold("translation RMSE", score.rows[0], maxRmse, context);

@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <future>
 #include <ostream>
 #include <thread>
 
@@ -106,32 +107,16 @@ CaptureEnd GrabberRun::captureWithStatus()
         err_ << "pointplane-grabber: " << describe(camera_->facts()) << std::endl;
     }
     // The terminal may be slow: the camera gets a thread of its own.
-    std::atomic<bool> done{false};
-    CaptureEnd end = CaptureEnd::Error;
-    std::thread thread(
-        [&]
-        {
-            end = capture_->run(stop_);
-            done = true;
-        });
-    // Whatever happens here, the recording gets its end.
-    struct Joiner
+    auto end = std::async(std::launch::async, [this] { return capture_->run(stop_); });
+    struct Stopper  // whatever happens here, the recording gets its end
     {
-        std::thread& thread;
         std::atomic<bool>& stop;
-        ~Joiner()
-        {
-            if (thread.joinable())
-            {
-                stop = true;
-                thread.join();
-            }
-        }
-    } const joiner{thread, stop_};
+        ~Stopper() { stop = true; }
+    } const stopper{stop_};
     StatusLine status(err_, standardErrorIsTerminal());
-    while (!done)
+    for (bool done = false; !done;)
     {
-        std::this_thread::sleep_for(kPoll);
+        done = end.wait_for(kPoll) == std::future_status::ready;
         stop_ = stop_ || stopRequested() || outputs_->hasFailed();
         watchDisk();
         if (!options_.quiet)
@@ -139,9 +124,8 @@ CaptureEnd GrabberRun::captureWithStatus()
             status.update(state());
         }
     }
-    thread.join();
     status.end();
-    return end;
+    return end.get();
 }
 
 void GrabberRun::watchDisk()

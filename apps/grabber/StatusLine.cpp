@@ -14,8 +14,8 @@ namespace pointplane
 namespace
 {
 constexpr double kMega = 1e6;
-}
 
+/** "30.0 fps  372 frames  lost: camera 0 ..." */
 std::string statusText(const RunState& state)
 {
     if (!state.capture.started)
@@ -47,6 +47,7 @@ std::string statusText(const RunState& state)
     }
     return text;
 }
+}  // namespace
 
 StatusLine::StatusLine(std::ostream& out, bool isTerminal) : out_(out), isTerminal_(isTerminal) {}
 

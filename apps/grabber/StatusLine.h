@@ -23,9 +23,6 @@ struct RunState
     double bytesPerSecond{0};     //!< written, over the whole recording
 };
 
-/** "30.0 fps  372 frames  lost: camera 0 ..." */
-[[nodiscard]] std::string statusText(const RunState& state);
-
 /** One line that is redrawn on a terminal; elsewhere a line every ten seconds. */
 class StatusLine
 {

@@ -4,11 +4,10 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
-#include <exception>
 #include <filesystem>
 #include <fstream>
+#include <future>
 #include <mutex>
-#include <thread>
 
 #include <fcntl.h>
 #include <spawn.h>
@@ -62,7 +61,6 @@ void runProcesses(
 {
     std::atomic<std::size_t> next{0};
     std::mutex mutex;
-    std::exception_ptr problem;
     const auto work = [&]
     {
         for (std::size_t k = next++; k < jobs.size(); k = next++)
@@ -76,26 +74,19 @@ void runProcesses(
                     onDone(k, exitCode);
                 }
             }
-            catch (...)  // a thread that throws ends the program
+            catch (...)
             {
-                problem = problem ? problem : std::current_exception();
                 next = jobs.size();
+                throw;
             }
         }
     };
-    std::vector<std::thread> threads;
+    std::vector<std::future<void>> workers;
     for (std::size_t k = 0; k < std::min(std::max<std::size_t>(parallel, 1), jobs.size()); ++k)
     {
-        threads.emplace_back(work);
+        workers.push_back(std::async(std::launch::async, work));
     }
-    for (std::thread& thread : threads)
-    {
-        thread.join();
-    }
-    if (problem)
-    {
-        std::rethrow_exception(problem);
-    }
+    std::for_each(workers.begin(), workers.end(), [](auto& worker) { worker.get(); });
 }
 
 std::string siblingProgram(const std::string& name)

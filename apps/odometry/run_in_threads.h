@@ -4,9 +4,8 @@
 #include <pointplane/core/BoundedQueue.h>
 
 #include <cstddef>
+#include <future>
 #include <utility>
-
-#include "Worker.h"
 
 namespace pointplane
 {
@@ -32,7 +31,8 @@ void runInThreads(const Read& read, const Work& work, const Write& write)
     constexpr std::size_t kDepth = 4;  // items waiting between two threads
     BoundedQueue<In> waiting(kDepth);
     BoundedQueue<Out> done(kDepth);
-    Worker reader(
+    auto reader = std::async(
+        std::launch::async,
         [&]
         {
             const Closer closer{waiting};
@@ -45,7 +45,8 @@ void runInThreads(const Read& read, const Work& work, const Write& write)
             }
         });
     const Closer endsReader{waiting};  // where there is no memory for another thread
-    Worker writer(
+    auto writer = std::async(
+        std::launch::async,
         [&]
         {
             const Closer closer{done};  // a writer that fails stops the others
@@ -55,7 +56,8 @@ void runInThreads(const Read& read, const Work& work, const Write& write)
             }
         });
     const Closer endsWriter{done};
-    Worker worker(
+    auto worker = std::async(
+        std::launch::async,
         [&]
         {
             const Closer closesOut{done};
@@ -68,11 +70,10 @@ void runInThreads(const Read& read, const Work& work, const Write& write)
                 }
             }
         });
-    worker.join();
-    reader.join();
-    writer.join();
-    writer.rethrow();
-    worker.rethrow();
-    reader.rethrow();
+    worker.wait();
+    reader.wait();
+    writer.get();
+    worker.get();
+    reader.get();
 }
 }  // namespace pointplane

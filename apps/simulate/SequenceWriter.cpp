@@ -102,7 +102,8 @@ void writeMasks(const SimulatedSequence& sequence, const std::string& folder)
     {
         const double stamp = sequence.stamp(i);
         const Eigen::Isometry3d T_world_cam = sequence.truth(stamp);
-        text += tumLine(fromSeconds(stamp), robot ? robotFromCamera(T_world_cam) : T_world_cam);
+        text += tumLine(
+            fromSeconds(stamp), robot ? T_world_cam * opticalInBody().inverse() : T_world_cam);
         text += "\n";
     }
     return text;
@@ -160,11 +161,6 @@ std::string masksFolderOf(const std::string& rawlog)
 {
     const std::string images = imagesFolderOf(rawlog), suffix = "_Images";
     return images.substr(0, images.size() - suffix.size()) + "_Masks";
-}
-
-Eigen::Isometry3d robotFromCamera(const Eigen::Isometry3d& T_world_cam)
-{
-    return T_world_cam * opticalInBody().inverse();
 }
 
 void writeSequence(

@@ -23,10 +23,6 @@ struct SequenceOutput
 /** NAME_Masks beside NAME.rawlog. */
 [[nodiscard]] std::string masksFolderOf(const std::string& rawlog);
 
-/** Pose of the robot, MRPT axes (x forward, y left, z up), whose camera has sensorPose = identity:
- * what the odometry reports poses of. */
-[[nodiscard]] Eigen::Isometry3d robotFromCamera(const Eigen::Isometry3d& T_world_cam);
-
 /** Renders all frames into a rawlog and writes the truth beside it, as TUM text; not where the
  * rawlog is a pipe or a device. Frames are
  * rendered by several threads; the bytes do not depend on how many. \throws EnvironmentError */

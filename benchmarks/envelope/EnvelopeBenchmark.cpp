@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "EnvelopeBenchmark.h"
 
+#include <pointplane/core/quantile.h>
 #include <pointplane/mrpt_io/errors.h>
 
 #include <opencv2/core/utility.hpp>
@@ -106,9 +107,7 @@ struct RunResult
     {
         steps.push_back(frames[k].stamp - frames[k - 1].stamp);
     }
-    const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-    std::nth_element(steps.begin(), middle, steps.end());
-    return 1 / *middle;
+    return 1 / median(std::move(steps));
 }
 
 [[nodiscard]] std::regex regexOf(const std::string& text)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rotation_fit.h"
 
+#include <pointplane/core/quantile.h>
 #include <pointplane/core/se3.h>
 
 #include <Eigen/Cholesky>
@@ -50,9 +51,7 @@ struct RowRotation
     {
         lengths.push_back(r.norm());
     }
-    const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-    std::nth_element(lengths.begin(), middle, lengths.end());
-    return std::max(kSigmaOfMedian * *middle, kMinSigma);
+    return std::max(kSigmaOfMedian * median(std::move(lengths)), kMinSigma);
 }
 
 [[nodiscard]] double tukeyWeight(double u) { return u < 1 ? std::pow(1 - u * u, 2) : 0; }

@@ -28,8 +28,7 @@ namespace pointplane
 {
 namespace
 {
-using mrpt::obs::CObservation3DRangeScan;
-using test::readAll;
+using test::scansOf;
 using test::TempDir;
 using test::writeBytes;
 using testing::HasSubstr;
@@ -77,19 +76,6 @@ class ConvertApp : public testing::Test
         const int code = runConvert(args, out, err);
         text_ = out.str() + err.str();
         return code;
-    }
-
-    [[nodiscard]] std::vector<CObservation3DRangeScan::Ptr> scansOf(const std::string& path)
-    {
-        std::vector<CObservation3DRangeScan::Ptr> out;
-        for (const auto& object : readAll(path).objects)
-        {
-            if (auto scan = std::dynamic_pointer_cast<CObservation3DRangeScan>(object))
-            {
-                out.push_back(scan);
-            }
-        }
-        return out;
     }
 
     TempDir dir_;
@@ -166,18 +152,9 @@ TEST_F(ConvertApp, pairsAreThoseOfAssociateAndNothingIsLost)
 TEST_F(ConvertApp, cameraAndDelayReachEachFrame)
 {
     ASSERT_EQ(run({in_, "-o", out_}), kExitOk) << text_;
-    ObservationConverter converter;
     std::vector<double> delays;
-    for (const auto& object : readAll(out_).objects)
+    for (const ConvertedFrame& converted : test::convertedFrames(out_))
     {
-        if (const auto comment = std::dynamic_pointer_cast<mrpt::obs::CObservationComment>(object))
-        {
-            converter.readComment(*comment);
-            continue;
-        }
-        const auto scan = std::dynamic_pointer_cast<mrpt::obs::CObservation3DRangeScan>(object);
-        ASSERT_TRUE(scan);
-        const ConvertedFrame converted = converter.convert(*scan);
         ASSERT_EQ(converted.problem, "");
         EXPECT_DOUBLE_EQ(converted.frame.camera.fy, -26.1);
         EXPECT_DOUBLE_EQ(converted.frame.camera.distortion[0], 0.1);

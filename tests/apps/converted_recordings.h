@@ -34,37 +34,17 @@ class ConvertedRecording : public testing::Test
 
     [[nodiscard]] std::vector<mrpt::obs::CObservation3DRangeScan::Ptr> scans() const
     {
-        std::vector<mrpt::obs::CObservation3DRangeScan::Ptr> out;
-        for (const auto& object : readAll(out_).objects)
-        {
-            if (auto scan = std::dynamic_pointer_cast<mrpt::obs::CObservation3DRangeScan>(object))
-            {
-                out.push_back(scan);
-            }
-        }
-        return out;
+        return scansOf(out_);
     }
 
     /** Frames as the odometry takes them; all must be usable. */
     [[nodiscard]] std::vector<RgbdFrame> frames() const
     {
-        ObservationConverter converter;
         std::vector<RgbdFrame> out;
-        for (const auto& object : readAll(out_).objects)
+        for (const ConvertedFrame& converted : convertedFrames(out_))
         {
-            if (const auto comment =
-                    std::dynamic_pointer_cast<mrpt::obs::CObservationComment>(object))
-            {
-                converter.readComment(*comment);
-            }
-            else if (
-                const auto scan =
-                    std::dynamic_pointer_cast<mrpt::obs::CObservation3DRangeScan>(object))
-            {
-                const ConvertedFrame converted = converter.convert(*scan);
-                EXPECT_EQ(converted.problem, "");
-                out.push_back(converted.frame);
-            }
+            EXPECT_EQ(converted.problem, "");
+            out.push_back(converted.frame);
         }
         return out;
     }

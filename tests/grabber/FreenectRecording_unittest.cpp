@@ -66,7 +66,7 @@ TEST_F(FreenectRecording, keepsPixelsAndTheKinectsClockAcrossItsOverflow)
     // The 32-bit counter overflows at frame 15.
     const FakenectSession session(frames, 0U - 15U * FakenectSession::kPeriodTicks);
     ASSERT_EQ(record(session, {"--frames", "18"}), 0) << err_;
-    const auto scans = readRawlog(out_);
+    const auto scans = scansOf(out_);
     ASSERT_EQ(scans.size(), 18U);
     const auto first =
         static_cast<std::size_t>(scans.front()->intensityImage.asCvMatRef().at<cv::Vec3b>(0, 0)[2]);
@@ -126,7 +126,7 @@ TEST_F(FreenectRecording, odometryOnTheRecordingFindsTheTrueMotion)
     const RenderedMotion motion(60);
     const FakenectSession session(motion.frames(), 12345U);
     ASSERT_EQ(record(session, {"--frames", "40"}), 0) << err_;
-    const auto scans = readRawlog(out_);
+    const auto scans = scansOf(out_);
     ASSERT_EQ(scans.size(), 40U);
     motion.expectOdometryFinds(scans, 0.02);
 }

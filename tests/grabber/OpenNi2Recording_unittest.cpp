@@ -75,7 +75,7 @@ class OpenNi2Recording : public ::testing::Test
 TEST_F(OpenNi2Recording, recordsEveryPixelOfConsecutiveFrames)
 {
     ASSERT_EQ(record("skewUs 3000", {"--frames", "45"}), 0) << err_;
-    const auto scans = readRawlog(out_);
+    const auto scans = scansOf(out_);
     ASSERT_EQ(scans.size(), 45U);
     const auto first = static_cast<std::size_t>(depthOf(*scans[0]).at<std::uint16_t>(0, 1) - 1001);
     for (std::size_t k = 0; k < scans.size(); ++k)
@@ -98,7 +98,7 @@ TEST_F(OpenNi2Recording, stampsAreUtcWithTheCamerasSpacing)
     const double before = mrpt::Clock::nowDouble();
     ASSERT_EQ(record("", {"--frames", "60"}), 0) << err_;
     const double after = mrpt::Clock::nowDouble();
-    const auto scans = readRawlog(out_);
+    const auto scans = scansOf(out_);
     ASSERT_EQ(scans.size(), 60U);
     EXPECT_GT(stampOf(*scans.front()), before);
     EXPECT_LT(stampOf(*scans.back()), after);
@@ -119,7 +119,7 @@ TEST_F(OpenNi2Recording, stampsAreUtcWithTheCamerasSpacing)
 TEST_F(OpenNi2Recording, wrongTimeUnitOfADriverIsCorrected)
 {
     ASSERT_EQ(record("ticksPerUs 60", {"--frames", "30"}), 0) << err_;
-    const auto scans = readRawlog(out_);
+    const auto scans = scansOf(out_);
     ASSERT_EQ(scans.size(), 30U);
     EXPECT_NEAR(stampOf(*scans[29]) - stampOf(*scans[0]), 29 * kPeriod, 1e-3);
     EXPECT_THAT(err_, HasSubstr("time stamps are in a wrong unit"));
@@ -128,7 +128,7 @@ TEST_F(OpenNi2Recording, wrongTimeUnitOfADriverIsCorrected)
 TEST_F(OpenNi2Recording, lostImagesAreReportedAndNothingIsJoinedWrongly)
 {
     ASSERT_EQ(record("dropColourEvery 5", {"--duration", "2"}), 0) << err_;
-    const auto scans = readRawlog(out_);
+    const auto scans = scansOf(out_);
     EXPECT_NEAR(static_cast<double>(scans.size()), 48.0, 2.0);
     EXPECT_THAT(err_, ::testing::ContainsRegex("lost: 0 depth and 1[0-3] colour images"));
     EXPECT_THAT(err_, ::testing::ContainsRegex("1[0-3] depth and 0 colour images without"));
@@ -151,7 +151,7 @@ TEST_F(OpenNi2Recording, unpluggingKeepsEverythingBefore)
 {
     EXPECT_EQ(record("unplugAt 40", {}), 3);
     EXPECT_THAT(err_, HasSubstr("camera virtual://0 was unplugged; everything before is kept"));
-    const auto scans = readRawlog(out_);
+    const auto scans = scansOf(out_);
     EXPECT_GE(scans.size(), 25U);
     EXPECT_LE(scans.size(), 39U);
 }
@@ -165,7 +165,7 @@ TEST_F(OpenNi2Recording, aSilentStreamEndsWithItsName)
 TEST_F(OpenNi2Recording, aSlowStartIsNotLost)
 {
     EXPECT_EQ(record("startDelayMs 1500", {"--frames", "10", "--timeout", "5"}), 0) << err_;
-    EXPECT_EQ(readRawlog(out_).size(), 10U);
+    EXPECT_EQ(scansOf(out_).size(), 10U);
 }
 
 TEST_F(OpenNi2Recording, aCameraWithoutColourNeedsDepthOnly)
@@ -173,7 +173,7 @@ TEST_F(OpenNi2Recording, aCameraWithoutColourNeedsDepthOnly)
     EXPECT_EQ(record("noColour 1", {"--frames", "5"}), 3);
     EXPECT_THAT(err_, HasSubstr("has no colour stream; --depth-only records without it"));
     EXPECT_EQ(record("noColour 1", {"--frames", "5", "--depth-only"}), 0) << err_;
-    const auto scans = readRawlog(out_);
+    const auto scans = scansOf(out_);
     ASSERT_EQ(scans.size(), 5U);
     EXPECT_FALSE(scans[0]->hasIntensityImage);
 }
@@ -182,7 +182,7 @@ TEST_F(OpenNi2Recording, unregisteredDepthIsStoredAsSuch)
 {
     EXPECT_EQ(record("noRegistration 1", {"--frames", "3"}), 0) << err_;
     EXPECT_THAT(err_, HasSubstr("depth not registered"));
-    EXPECT_FALSE(readRawlog(out_).front()->doDepthAndIntensityCamerasCoincide());
+    EXPECT_FALSE(scansOf(out_).front()->doDepthAndIntensityCamerasCoincide());
     fs::remove(out_);
     EXPECT_EQ(record("noRegistration 1", {"--registration", "on"}), 2);
     EXPECT_THAT(err_, HasSubstr("cannot register depth to colour"));
@@ -227,7 +227,7 @@ TEST_F(OpenNi2Recording, waitsForACameraToAppear)
 {
     EXPECT_EQ(record("appearAfterMs 1500", {"--wait", "--frames", "5"}), 0) << err_;
     EXPECT_THAT(err_, HasSubstr("waiting for a camera"));
-    EXPECT_EQ(readRawlog(out_).size(), 5U);
+    EXPECT_EQ(scansOf(out_).size(), 5U);
     fs::remove(out_);
     EXPECT_EQ(record("noDevice 1", {"--wait=1"}), 3);
     for (const char* value : {"-1", "nan", "inf", "abc"})
@@ -301,7 +301,7 @@ TEST_F(OpenNi2Recording, ctrlCAndTermEndCleanly)
         process->signal(number);
         EXPECT_EQ(process->wait(seconds(10)), 0) << process->err();
         EXPECT_THAT(process->err(), HasSubstr("recorded"));
-        EXPECT_GE(readRawlog(out_).size(), 10U);
+        EXPECT_GE(scansOf(out_).size(), 10U);
         fs::remove(out_);
     }
 }
@@ -367,7 +367,7 @@ TEST_F(OpenNi2Recording, toOniFileAndBackLosesNothing)
         virtualCamera, {"-o", oni, "--mode", "64x48@30", "--duration", "2", "--warm-up", "0.2"});
     ASSERT_EQ(writing->wait(), 0) << writing->err();
     ASSERT_EQ(record("noDevice 1", {"--device", oni}), 0) << err_;
-    const auto scans = readRawlog(out_);
+    const auto scans = scansOf(out_);
     ASSERT_GE(scans.size(), 58U);
     for (std::size_t k = 1; k < scans.size(); ++k)
     {
@@ -435,7 +435,7 @@ TEST_F(OpenNi2Recording, odometryOnTheRecordingFindsTheTrueMotion)
         {"-o", out_, "--frames", "48", "--warm-up", "0.2", "--live", "--live-output", poses});
     ASSERT_EQ(process->wait(), 0) << process->err();
     EXPECT_THAT(process->err(), HasSubstr("0 pairs because the queue was full"));
-    const auto scans = readRawlog(out_);
+    const auto scans = scansOf(out_);
     ASSERT_EQ(scans.size(), 48U);
     motion.expectOdometryFinds(scans, 0.02);
 

@@ -96,7 +96,7 @@ TEST_F(Recording, isLosslessAndInOrderAtEveryCompression)
         o.path = dir_ / ("level" + std::to_string(level) + ".rawlog");
         o.encoding.compression = level;
         record(o);
-        const auto scans = readRawlog(o.path);
+        const auto scans = scansOf(o.path);
         ASSERT_EQ(scans.size(), frames_.size());
         for (std::size_t k = 0; k < scans.size(); ++k)
         {
@@ -108,7 +108,7 @@ TEST_F(Recording, isLosslessAndInOrderAtEveryCompression)
 TEST_F(Recording, observationCarriesTheCalibration)
 {
     record(options());
-    const auto scan = readRawlog(options().path).front();
+    const auto scan = scansOf(options().path).front();
     EXPECT_EQ(scan->sensorLabel, "OPENNI2");
     EXPECT_EQ(scan->rangeUnits, 0.001F);
     EXPECT_TRUE(scan->range_is_depth);
@@ -159,7 +159,7 @@ TEST_F(Recording, jpegIsSmallerAndClose)
     o.encoding.jpegQuality = 95;
     record(o);
     EXPECT_LT(fs::file_size(dir_ / "jpeg.rawlog"), fs::file_size(dir_ / "raw.rawlog"));
-    const auto scans = readRawlog(dir_ / "jpeg.rawlog");
+    const auto scans = scansOf(dir_ / "jpeg.rawlog");
     ASSERT_EQ(scans.size(), frames_.size());
     EXPECT_TRUE(samePixels(depthOf(*scans[3]), frames_[3].depth));
     cv::Mat difference;
@@ -176,9 +176,9 @@ TEST_F(Recording, splitsByRecordedTime)
     const std::vector<std::string> expected{
         dir_ / "out_001.rawlog", dir_ / "out_002.rawlog", dir_ / "out_003.rawlog"};
     EXPECT_EQ(paths_, expected);
-    EXPECT_EQ(readRawlog(expected[0]).size(), 15U);
-    EXPECT_EQ(readRawlog(expected[1]).size(), 15U);
-    EXPECT_EQ(readRawlog(expected[2]).size(), 10U);
+    EXPECT_EQ(scansOf(expected[0]).size(), 15U);
+    EXPECT_EQ(scansOf(expected[1]).size(), 15U);
+    EXPECT_EQ(scansOf(expected[2]).size(), 10U);
 }
 
 TEST_F(Recording, neverOverwrites)
@@ -339,7 +339,7 @@ TEST_F(Recording, aFullDiskKeepsEverythingBefore)
         EXPECT_THROW(writer.finish(), EnvironmentError);
     }
     EXPECT_TRUE(writer.hasFailed());
-    const auto scans = readRawlog(o.path);  // ends cleanly: no part of a record is left
+    const auto scans = scansOf(o.path);  // ends cleanly: no part of a record is left
     EXPECT_EQ(scans.size(), writer.stats().framesWritten);
     EXPECT_GE(scans.size(), 3U);
     EXPECT_LT(scans.size(), frames_.size());

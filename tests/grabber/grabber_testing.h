@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pointplane/mrpt_io/RawlogReader.h>
-
 #include <mrpt/obs/CObservation3DRangeScan.h>
 
 #include <opencv2/core.hpp>
@@ -13,6 +11,7 @@
 #include <vector>
 
 #include "TempDir.h"
+#include "rawlog_samples.h"
 #include "virtual_camera/frame_file.h"
 
 namespace pointplane::test
@@ -67,23 +66,6 @@ inline void writeFrameFile(
         cv::mixChannels(frame.colour, rgb, {0, 2, 1, 1, 2, 0});
         file.write(reinterpret_cast<const char*>(rgb.data), pixels * 3);
     }
-}
-
-/** All RGB-D observations of a rawlog; fails the test if the file does not end cleanly. */
-inline std::vector<mrpt::obs::CObservation3DRangeScan::Ptr> readRawlog(
-    const std::string& path, RawlogEnd expectedEnd = RawlogEnd::Clean)
-{
-    std::vector<mrpt::obs::CObservation3DRangeScan::Ptr> scans;
-    RawlogReader reader(path);
-    while (const auto object = reader.next())
-    {
-        if (auto scan = std::dynamic_pointer_cast<mrpt::obs::CObservation3DRangeScan>(object))
-        {
-            scans.push_back(scan);
-        }
-    }
-    EXPECT_EQ(reader.ending().kind, expectedEnd) << reader.ending().message;
-    return scans;
 }
 
 inline cv::Mat depthOf(const mrpt::obs::CObservation3DRangeScan& scan)

@@ -6,9 +6,6 @@
 #include <pointplane/mrpt_io/mrpt_poses.h>
 #include <pointplane/mrpt_io/rawlog_names.h>
 
-#include <mrpt/obs/CObservation3DRangeScan.h>
-#include <mrpt/obs/CObservationComment.h>
-
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
@@ -20,6 +17,7 @@
 #include <vector>
 
 #include "TempDir.h"
+#include "rawlog_samples.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -27,7 +25,7 @@ namespace pointplane
 {
 namespace
 {
-using mrpt::obs::CObservation3DRangeScan;
+using test::scansOf;
 
 RegisteredScan sample()
 {
@@ -46,22 +44,6 @@ RegisteredScan sample()
     cv::randu(scan.depth, 0, 65536);
     scan.unitsPerMetre = 1000;
     return scan;
-}
-
-/** Everything but comments. */
-std::vector<CObservation3DRangeScan::Ptr> scansOf(const std::string& path)
-{
-    RawlogReader reader(path);
-    std::vector<CObservation3DRangeScan::Ptr> out;
-    while (const auto object = reader.next())
-    {
-        if (auto scan = std::dynamic_pointer_cast<CObservation3DRangeScan>(object))
-        {
-            out.push_back(scan);
-        }
-    }
-    EXPECT_EQ(reader.ending().kind, RawlogEnd::Clean) << reader.ending().message;
-    return out;
 }
 
 TEST(RawlogNames, besideTheRawlog)

@@ -2,13 +2,8 @@
 #include "SimulateApp.h"
 
 #include <pointplane/evaluation/trajectory_text.h>
-#include <pointplane/mrpt_io/ObservationConverter.h>
-#include <pointplane/mrpt_io/RawlogReader.h>
 #include <pointplane/mrpt_io/mrpt_poses.h>
 #include <pointplane/simulation/SimulatedSequence.h>
-
-#include <mrpt/obs/CObservation3DRangeScan.h>
-#include <mrpt/obs/CObservationComment.h>
 
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -25,6 +20,7 @@
 #include "SmallDisk.h"
 #include "TempDir.h"
 #include "matchers.h"
+#include "rawlog_samples.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -33,6 +29,7 @@ namespace pointplane
 {
 namespace
 {
+using test::convertedFrames;
 using testing::HasSubstr;
 
 struct Finished
@@ -49,29 +46,6 @@ Finished run(const std::vector<std::string>& args)
     result.out = out.str();
     result.err = err.str();
     return result;
-}
-
-/** A rawlog as pointplane-odometry reads it. */
-std::vector<ConvertedFrame> readFrames(const std::string& path)
-{
-    RawlogReader reader(path);
-    ObservationConverter converter;
-    converter.setExternalsDirectory(reader.externalsDirectory());
-    std::vector<ConvertedFrame> out;
-    while (const auto object = reader.next())
-    {
-        if (const auto comment = std::dynamic_pointer_cast<mrpt::obs::CObservationComment>(object))
-        {
-            converter.readComment(*comment);
-        }
-        else if (
-            const auto scan = std::dynamic_pointer_cast<mrpt::obs::CObservation3DRangeScan>(object))
-        {
-            out.push_back(converter.convert(*scan));
-        }
-    }
-    EXPECT_EQ(reader.ending().kind, RawlogEnd::Clean) << reader.ending().message;
-    return out;
 }
 
 SimulationParams smallParams()
@@ -104,7 +78,7 @@ TEST(SimulateApp, rawlogHoldsTheFramesOfTheSequence)
     ASSERT_EQ(result.code, 0) << result.err;
     EXPECT_THAT(result.out, testing::HasSubstr("4 frames"));
     EXPECT_EQ(result.err, "");
-    const std::vector<ConvertedFrame> frames = readFrames(dir / "a.rawlog");
+    const std::vector<ConvertedFrame> frames = convertedFrames(dir / "a.rawlog");
     const SimulatedSequence sequence("corner", smallParams(), 9);
     ASSERT_EQ(frames.size(), 4U);
     for (int i = 0; i < 4; ++i)
@@ -177,7 +151,8 @@ TEST(SimulateApp, externalImagesAreTheEmbeddedOnes)
     args.emplace_back("--external");
     ASSERT_EQ(run(args).code, 0);
     EXPECT_LT(std::filesystem::file_size(dir / "ex.rawlog"), 5000U) << "images are still inside";
-    const auto embedded = readFrames(dir / "in.rawlog"), external = readFrames(dir / "ex.rawlog");
+    const auto embedded = convertedFrames(dir / "in.rawlog"),
+               external = convertedFrames(dir / "ex.rawlog");
     ASSERT_EQ(external.size(), embedded.size());
     for (std::size_t i = 0; i < external.size(); ++i)
     {
@@ -276,7 +251,7 @@ TEST(SimulateApp, shutterIsToldUnlessHidden)
     std::vector<std::string> args = smallRun(dir / "a.rawlog");
     args.emplace_back("--hide-shutter");
     ASSERT_EQ(run(args).code, 0);
-    const auto frames = readFrames(dir / "a.rawlog");
+    const auto frames = convertedFrames(dir / "a.rawlog");
     ASSERT_FALSE(frames.empty());
     EXPECT_TRUE(std::isnan(frames[0].frame.shutter.readoutColour));
     EXPECT_TRUE(std::isnan(frames[0].frame.shutter.depthDelay));
@@ -291,7 +266,7 @@ TEST(SimulateApp, idealAndSettingsReachTheCamera)
         args.emplace_back(arg);
     }
     ASSERT_EQ(run(args).code, 0);
-    const auto frames = readFrames(dir / "a.rawlog");
+    const auto frames = convertedFrames(dir / "a.rawlog");
     ASSERT_FALSE(frames.empty());
     EXPECT_EQ(frames[0].frame.shutter.readoutColour, 0);
     EXPECT_EQ(frames[0].frame.shutter.readoutDepth, 0.02);

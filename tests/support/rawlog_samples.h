@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pointplane/mrpt_io/ObservationConverter.h>
 #include <pointplane/mrpt_io/RawlogReader.h>
 #include <pointplane/mrpt_io/RawlogWriter.h>
 
@@ -18,6 +19,7 @@
 #include <mrpt/obs/CSensoryFrame.h>
 
 #include <cmath>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -144,6 +146,54 @@ struct RawlogContents
         out.objects.push_back(object);
     }
     out.ending = reader.ending();
+    return out;
+}
+
+inline void requireEnding(const RawlogEnding& ending, RawlogEnd expected)
+{
+    if (ending.kind != expected)
+    {
+        throw std::runtime_error("the rawlog ends otherwise: " + ending.message);
+    }
+}
+
+/** The RGB-D observations of a rawlog that ends so. */
+[[nodiscard]] inline std::vector<mrpt::obs::CObservation3DRangeScan::Ptr> scansOf(
+    const std::string& path, RawlogEnd expectedEnd = RawlogEnd::Clean)
+{
+    const RawlogContents contents = readAll(path);
+    requireEnding(contents.ending, expectedEnd);
+    std::vector<mrpt::obs::CObservation3DRangeScan::Ptr> out;
+    for (const auto& object : contents.objects)
+    {
+        if (auto scan = std::dynamic_pointer_cast<mrpt::obs::CObservation3DRangeScan>(object))
+        {
+            out.push_back(scan);
+        }
+    }
+    return out;
+}
+
+/** The frames of a whole rawlog as pointplane-odometry takes them. */
+[[nodiscard]] inline std::vector<ConvertedFrame> convertedFrames(const std::string& path)
+{
+    RawlogReader reader(path);
+    ObservationConverter converter;
+    converter.setExternalsDirectory(reader.externalsDirectory());
+    std::vector<ConvertedFrame> out;
+    while (const auto object = reader.next())
+    {
+        if (const auto comment = std::dynamic_pointer_cast<mrpt::obs::CObservationComment>(object))
+        {
+            converter.readComment(*comment);
+        }
+        else if (
+            const auto scan = std::dynamic_pointer_cast<mrpt::obs::CObservation3DRangeScan>(object))
+        {
+            out.push_back(converter.convert(*scan));
+        }
+    }
+    requireEnding(reader.ending(), RawlogEnd::Clean);
     return out;
 }
 }  // namespace pointplane::test

@@ -74,6 +74,24 @@ bool isTold(const Trajectory& estimate, std::size_t i, std::size_t j)
     const std::size_t n = posesBetween(estimate, i, j);
     return n > 0 && j < estimate.sinceCovs.size() && n <= estimate.sinceCovs[j].size();
 }
+
+/** Empty if the covariances of all these increments are in the file; else a note that they are
+ * right only if increments are independent. */
+std::string noteOnUntold(const Trajectory& estimate, const std::vector<NeesIncrement>& increments)
+{
+    const bool all = std::all_of(
+        increments.begin(),
+        increments.end(),
+        [&](const NeesIncrement& increment) { return isTold(estimate, increment.i, increment.j); });
+    if (all)
+    {
+        return "";
+    }
+    return "'" + estimate.name + "' does not tell the covariances of all these increments (" +
+           (isMap(estimate) ? kMapTellsNone : "pointplane-odometry --since") +
+           "); they are taken for the growth of the poses', which is right if increments are "
+           "independent";
+}
 }  // namespace
 
 Matrix6d incrementCovariance(const Trajectory& estimate, std::size_t i, std::size_t j)
@@ -182,21 +200,5 @@ NeesRun neesRun(
                    ". The poses are tested instead, each as the motion since the first one";
     }
     return out;
-}
-
-std::string noteOnUntold(const Trajectory& estimate, const std::vector<NeesIncrement>& increments)
-{
-    const bool all = std::all_of(
-        increments.begin(),
-        increments.end(),
-        [&](const NeesIncrement& increment) { return isTold(estimate, increment.i, increment.j); });
-    if (all)
-    {
-        return "";
-    }
-    return "'" + estimate.name + "' does not tell the covariances of all these increments (" +
-           (isMap(estimate) ? kMapTellsNone : "pointplane-odometry --since") +
-           "); they are taken for the growth of the poses', which is right if increments are "
-           "independent";
 }
 }  // namespace pointplane

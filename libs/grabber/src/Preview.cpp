@@ -24,14 +24,15 @@ void writePicture(const std::string& path, const cv::Mat& picture)
     file.write(png.data(), png.size());
     file.commit();
 }
-}  // namespace
 
-cv::Mat previewPicture(const ImagePair& pair, double maxDepth)
+/** Colour, and depth in false colours (red near, blue far, black none), side by side; CV_8UC3. */
+cv::Mat previewPicture(const ImagePair& pair)
 {
+    constexpr double kMaxDepth = 6;  // [m] shown as the deepest blue
     const cv::Mat& depth = pair.depth.pixels;
     cv::Mat nearness, colours;
-    // 255 at the camera, 0 at maxDepth: JET's red and blue.
-    depth.convertTo(nearness, CV_8U, -255.0 * pair.depth.depthUnit / maxDepth, 255.0);
+    // 255 at the camera, 0 at kMaxDepth: JET's red and blue.
+    depth.convertTo(nearness, CV_8U, -255.0 * pair.depth.depthUnit / kMaxDepth, 255.0);
     cv::applyColorMap(nearness, colours, cv::COLORMAP_JET);
     colours.setTo(cv::Scalar::all(0), depth == 0);
     if (pair.colour.pixels.empty())
@@ -51,6 +52,7 @@ cv::Mat previewPicture(const ImagePair& pair, double maxDepth)
     cv::hconcat(bgr, colours, picture);
     return picture;
 }
+}  // namespace
 
 Preview::Preview(std::string path) : path_(std::move(path))
 {

@@ -12,6 +12,8 @@ namespace pointplane
 {
 namespace
 {
+constexpr float kNoReading = std::numeric_limits<float>::quiet_NaN();
+
 /** Of images with noise, the first row differs. */
 bool isSame(const cv::Mat& a, const cv::Mat& b)
 {
@@ -49,7 +51,7 @@ void keepReadings(const cv::Mat& depth, float least, float most, cv::Mat& out)
         for (int u = 0; u < depth.cols; ++u)
         {
             const bool isReading = in[u] >= least && in[u] <= most;  // NaN is not
-            row[u] = isReading ? in[u] : std::numeric_limits<float>::quiet_NaN();
+            row[u] = isReading ? in[u] : kNoReading;
         }
     }
 }
@@ -67,28 +69,37 @@ void LatestImages::setMask(const cv::Mat& mask)
 
 cv::Mat LatestImages::mask() const { return leftOut_.empty() ? cv::Mat() : cv::Mat(leftOut_ == 0); }
 
-LatestImages::Novelty LatestImages::renew(RgbdFrame& frame)
+std::string LatestImages::renew(RgbdFrame& frame)
 {
-    Novelty out;
     makeOwn(readings_);
     keepReadings(frame.depth, minDepth_, maxDepth_, readings_);
     if (!leftOut_.empty())
     {
-        readings_.setTo(std::numeric_limits<float>::quiet_NaN(), leftOut_);
+        readings_.setTo(kNoReading, leftOut_);
     }
-    out.depth = !isSame(depth_, readings_);
-    if (out.depth)
+    // Noise makes any two others differ.
+    const bool repeatsDepth = isSame(depth_, readings_);
+    const bool repeatsGray = !frame.gray.empty() && isSame(gray_, frame.gray);
+    if (!repeatsDepth)
     {
         std::swap(depth_, readings_);
     }
-    frame.depth = depth_;
-    out.gray = frame.gray.empty() || !isSame(gray_, frame.gray);
-    if (out.gray)
+    if (!repeatsGray)
     {
         makeOwn(gray_);
         frame.gray.copyTo(gray_);
     }
-    frame.gray = gray_;
-    return out;
+    frame.depth = depth_;
+    const bool repeatsReadings = repeatsDepth && hasDepth(frame);
+    if (repeatsDepth)
+    {
+        frame.depth = cv::Mat(depth_.size(), depth_.type(), kNoReading);
+    }
+    frame.gray = repeatsGray ? cv::Mat() : gray_;
+    return repeatsDepth && frame.gray.empty()
+               ? "its images are those of the frame before, byte for byte"
+           : repeatsReadings ? "its depth image is that of the frame before, byte for byte"
+           : repeatsGray     ? "its colour image is that of the frame before, byte for byte"
+                             : "";
 }
 }  // namespace pointplane

@@ -3,10 +3,12 @@
 
 #include <pointplane/sensor/RgbdFrame.h>
 
+#include <string>
+
 namespace pointplane
 {
 /** Keeps copies of the latest images, so that the caller may reuse its buffers. Key frames share
- * these copies. It also tells which images came before: noise makes any two others differ. */
+ * these copies. */
 class LatestImages
 {
  public:
@@ -19,15 +21,11 @@ class LatestImages
     [[nodiscard]] cv::Mat mask() const;
     [[nodiscard]] cv::Size maskSize() const { return leftOut_.size(); }
 
-    /** Which images of a frame differ, be it by a byte, from those of the frame before. */
-    struct Novelty
-    {
-        bool depth{true}, gray{true};
-    };
-
-    /** Puts copies in the place of the frame's images. Depth that is no reading becomes NaN.
-     * \param frame of the mask's size, if there is one */
-    [[nodiscard]] Novelty renew(RgbdFrame& frame);
+    /** Puts copies in the place of the frame's images. Depth that is no reading becomes NaN. An
+     * image that is that of the frame before, byte for byte, is left out: a stream that hangs shows
+     * what was, not what is. \param frame of the mask's size, if there is one \return which images
+     * are left out for that reason, or empty */
+    [[nodiscard]] std::string renew(RgbdFrame& frame);
 
  private:
     float minDepth_, maxDepth_;

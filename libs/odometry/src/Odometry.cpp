@@ -2,7 +2,6 @@
 #include <pointplane/core/check.h>
 #include <pointplane/odometry/Odometry.h>
 
-#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -35,11 +34,14 @@ struct Odometry::Impl
 
     OdometryResult process(const RgbdFrame& frame);
     void place(const RgbdFrame& frame, OdometryResult& result);
+    [[nodiscard]] std::string whyUnusable(const RgbdFrame& frame);
     [[nodiscard]] std::string whyNoDepth(const RgbdFrame& frame, const Features& current) const;
-    Alignment align(const Features& current, FrameDiagnostics& diagnostics);
-    void restart(const Features& current, const std::string& reason, OdometryResult& result);
+    [[nodiscard]] Reference newReference(const Features& current);
+    [[nodiscard]] Alignment align(const Features& current, FrameDiagnostics& diagnostics);
+    void restart(const Features& current, OdometryResult& result);
     void measure(const Features& current, Alignment& alignment, OdometryResult& result);
-    void predict(const Features& current, const std::string& reason, OdometryResult& result);
+    [[nodiscard]] PoseAnalysis analyse(const Features& current, Alignment& alignment) const;
+    void predict(const Features& current, OdometryResult& result);
     void lose(double stamp, const std::string& reason, OdometryResult& result);
 
     OdometryParams params;
@@ -56,17 +58,6 @@ namespace
 void addReason(const std::string& reason, OdometryResult& result)
 {
     result.reason += (result.reason.empty() || reason.empty() ? "" : "; ") + reason;
-}
-
-void count(const FrameFeatures& features, FrameDiagnostics& diagnostics)
-{
-    diagnostics.numPoints = static_cast<int>(features.points.size());
-    for (const FrameFeatures::Point& point : features.points)
-    {
-        diagnostics.numPointsDoubted += point.use == FeatureUse::Doubted;
-        diagnostics.numPointsRejected += point.use == FeatureUse::Rejected;
-    }
-    diagnostics.movingShare = features.moving.share();
 }
 }  // namespace
 
@@ -90,56 +81,23 @@ OdometryResult Odometry::Impl::process(const RgbdFrame& frame)
         result.diagnostics.maxSigmaTranslation = sigma.head<3>().maxCoeff();
         result.diagnostics.maxSigmaRotation = sigma.tail<3>().maxCoeff();
     }
-    count(shown, result.diagnostics);
+    countShown(shown, result.diagnostics);
     result.diagnostics.lens = errors.camera().lens();
     result.diagnostics.msTotal = total.ms();
     return result;
 }
 
-namespace
-{
-/** A stream that hangs shows what was, not what is.
- * \return which images are missing for that reason, or empty */
-std::string leaveOutRepeated(const LatestImages::Novelty& isNew, RgbdFrame& frame)
-{
-    const bool repeatsDepth = !isNew.depth && hasDepth(frame);
-    if (!isNew.depth)
-    {
-        frame.depth = cv::Mat(
-            frame.depth.size(), frame.depth.type(), std::numeric_limits<float>::quiet_NaN());
-    }
-    if (!isNew.gray)
-    {
-        frame.gray.release();
-    }
-    const bool showsNothing = !isNew.depth && frame.gray.empty();
-    return showsNothing   ? "its images are those of the frame before, byte for byte"
-           : repeatsDepth ? "its depth image is that of the frame before, byte for byte"
-           : !isNew.gray  ? "its colour image is that of the frame before, byte for byte"
-                          : "";
-}
-}  // namespace
-
 /** The paper's Fig. 1: extraction, matching, pose estimation, validation. */
 void Odometry::Impl::place(const RgbdFrame& frame, OdometryResult& result)
 {
-    if (const std::string problem = problemOf(frame); !problem.empty())
+    if (const std::string problem = whyUnusable(frame); !problem.empty())
     {
         return lose(frame.stamp, problem, result);
-    }
-    if (const std::string problem = problemOf(images.maskSize(), frame); !problem.empty())
-    {
-        return lose(frame.stamp, problem, result);
-    }
-    if (!track.isEmpty() && track.isLate(frame.stamp))
-    {
-        return lose(frame.stamp, "its time stamp is not after the previous frame's", result);
     }
     RgbdFrame own = frame;
     own.camera.isNominal = own.camera.isNominal || params.lens.nominal;
-    const std::string repeated = leaveOutRepeated(images.renew(own), own);
-    result.reason = repeated;
-    if (!track.isEmpty() && own.gray.empty() && !repeated.empty() && !hasDepth(own))
+    result.reason = images.renew(own);
+    if (!track.isEmpty() && !result.reason.empty() && own.gray.empty() && !hasDepth(own))
     {
         // Nothing was measured: the camera, or what carries its images, has stopped.
         result.status = TrackingStatus::Predicted;
@@ -149,8 +107,6 @@ void Odometry::Impl::place(const RgbdFrame& frame, OdometryResult& result)
     const Features current = frontEnd.extract(own, result.diagnostics);
     addReason(current.depthIsNoise ? "its depth image is noise" : "", result);
     shown = shownPlanes(current);
-    const std::string interruption =
-        track.isEmpty() ? "" : track.interruption(frame.stamp, frame.camera);
     if (track.isEmpty() && !current.hasDepth)
     {
         addReason(whyNoDepth(frame, current), result);
@@ -159,12 +115,16 @@ void Odometry::Impl::place(const RgbdFrame& frame, OdometryResult& result)
         addReason("a path cannot begin without depth", result);
         return lose(frame.stamp, result.reason, result);
     }
+    const std::string interruption =
+        track.isEmpty() ? "" : track.interruption(frame.stamp, frame.camera);
+    addReason(interruption, result);
     if (track.isEmpty() || !interruption.empty())
     {
-        return restart(current, interruption, result);
+        return restart(current, result);
     }
 
     Alignment alignment = align(current, result.diagnostics);
+    addReason(alignment.reason, result);
     if (alignment.holds)
     {
         measure(current, alignment, result);
@@ -172,13 +132,22 @@ void Odometry::Impl::place(const RgbdFrame& frame, OdometryResult& result)
     else
     {
         showPairs(alignment.associations, nullptr, shown);
-        predict(current, alignment.reason, result);
+        predict(current, result);
     }
     if (alignment.problem.points.empty())
     {
         addReason(frontEnd.whyNoPoint(frame), result);
     }
     addReason(whyNoDepth(frame, current), result);
+}
+
+std::string Odometry::Impl::whyUnusable(const RgbdFrame& frame)
+{
+    const std::string problem = problemOf(frame, images.maskSize());
+    return !problem.empty() ? problem
+           : !track.isEmpty() && track.isLate(frame.stamp)
+               ? "its time stamp is not after the previous frame's"
+               : "";
 }
 
 /** Of the frame as it came. What was left out of it has been told already, but for the robot. */
@@ -230,21 +199,26 @@ Reference referenceOf(const Features& current)
 }
 }  // namespace
 
+/** With all that later frames are compared by, but for what the track adds. */
+Reference Odometry::Impl::newReference(const Features& current)
+{
+    Reference out = referenceOf(current);
+    out.points = frontEnd.pointReference(current);
+    out.images = frontEnd.keyframeImages(current);
+    showNewPoints(out.points, shown);
+    return out;
+}
+
 /** The first frame, or one that cannot be compared with those before. */
-void Odometry::Impl::restart(
-    const Features& current, const std::string& reason, OdometryResult& result)
+void Odometry::Impl::restart(const Features& current, OdometryResult& result)
 {
     result.status = track.isEmpty() ? TrackingStatus::First : TrackingStatus::Predicted;
-    addReason(reason, result);
-    Reference reference = referenceOf(current);
-    reference.points = frontEnd.pointReference(current);
-    reference.images = frontEnd.keyframeImages(current);
+    Reference reference = newReference(current);
     if (reference.points.points.empty())
     {
         addReason(frontEnd.whyNoPoint(current.frame), result);
     }
     shown.isKeyframe = true;
-    showNewPoints(reference.points, shown);
     const PinholeCamera& camera = current.frame.camera;
     if (!track.isOf(camera))
     {
@@ -257,17 +231,9 @@ void Odometry::Impl::restart(
 void Odometry::Impl::measure(const Features& current, Alignment& alignment, OdometryResult& result)
 {
     result.status = TrackingStatus::Tracked;
-    addReason(alignment.reason, result);
     const double dt = alignment.predicted.dt;
     const MotionGaussian& motion = alignment.estimate.motion;
-    PairBuilder(track.previous(), current, errors.camera())
-        .addCameraErrors(
-            alignment.associations,
-            motion.mean,
-            alignment.problem.points,
-            alignment.problem.planes);
-    PoseAnalysis analysis = aligner.analyse(alignment);
-    countMoving(alignment.associations, current, analysis.surfaces);
+    const PoseAnalysis analysis = analyse(current, alignment);
     const JointCovariance::Measurement measurement = errors.learn(
         {track.references(),
          alignment.estimate,
@@ -282,19 +248,17 @@ void Odometry::Impl::measure(const Features& current, Alignment& alignment, Odom
     shown.moving = frontEnd.findMoving(
         current, earlierViews(track, current.frame, motion.mean, errors.camera()));
     // Without depth, it shows nothing that others could be compared with.
-    const bool isKeyframe =
-        current.hasDepth &&
-        (track.needsKeyframe(
-             motion.mean.T_prev_cur, track.overlap(alignment.associations, current)) ||
-         Judge::needsNewView(alignment, shown.moving));
+    shown.isKeyframe = current.hasDepth && (track.needsKeyframe(
+                                                motion.mean.T_prev_cur,
+                                                track.overlap(alignment.associations, current)) ||
+                                            Judge::needsNewView(alignment, shown.moving));
     Reference reference = referenceOf(current);
     reference.surfaces = analysis.surfaces;
-    shown.isKeyframe = isKeyframe;
-    if (isKeyframe)
+    if (shown.isKeyframe)
     {
         reference.images = frontEnd.keyframeImages(current);
     }
-    if (isKeyframe && params.pipeline.usePoints)
+    if (shown.isKeyframe && params.pipeline.usePoints)
     {
         reference.points =
             frontEnd.pointReference(current, stillPart(current, shown.moving, analysis.surfaces));
@@ -302,7 +266,7 @@ void Odometry::Impl::measure(const Features& current, Alignment& alignment, Odom
     }
     track.measure(
         {std::move(reference),
-         isKeyframe,
+         shown.isKeyframe,
          Judge::isSurprising(motion.mean.T_prev_cur, alignment.predicted.pose),
          motion,
          dt,
@@ -310,16 +274,24 @@ void Odometry::Impl::measure(const Features& current, Alignment& alignment, Odom
          alignment.associations});
 }
 
+PoseAnalysis Odometry::Impl::analyse(const Features& current, Alignment& alignment) const
+{
+    PairBuilder(track.previous(), current, errors.camera())
+        .addCameraErrors(
+            alignment.associations,
+            alignment.estimate.motion.mean,
+            alignment.problem.points,
+            alignment.problem.planes);
+    PoseAnalysis out = aligner.analyse(alignment);
+    countMoving(alignment.associations, current, out.surfaces);
+    return out;
+}
+
 /** A usable frame that could not be measured. */
-void Odometry::Impl::predict(
-    const Features& current, const std::string& reason, OdometryResult& result)
+void Odometry::Impl::predict(const Features& current, OdometryResult& result)
 {
     result.status = TrackingStatus::Predicted;
-    addReason(reason, result);
-    std::optional<Reference> unmatched = referenceOf(current);
-    unmatched->points = frontEnd.pointReference(current);
-    unmatched->images = frontEnd.keyframeImages(current);
-    showNewPoints(unmatched->points, shown);
+    std::optional<Reference> unmatched = newReference(current);
     // [P17, section Matching]: consecutive frames, whatever became of the one before.
     const bool isAdjacent = params.reference.isAdjacent();
     if (!isAdjacent && unmatched->planes.planes.empty() && unmatched->points.points.empty())
@@ -342,18 +314,8 @@ void Odometry::Impl::lose(double stamp, const std::string& reason, OdometryResul
 
 const char* toString(TrackingStatus status)
 {
-    switch (status)
-    {
-        case TrackingStatus::First:
-            return "first";
-        case TrackingStatus::Tracked:
-            return "tracked";
-        case TrackingStatus::Predicted:
-            return "predicted";
-        case TrackingStatus::Lost:
-            break;
-    }
-    return "lost";
+    constexpr const char* kWords[] = {"first", "tracked", "predicted", "lost"};
+    return kWords[static_cast<size_t>(status)];
 }
 
 Odometry::Odometry(const OdometryParams& params)

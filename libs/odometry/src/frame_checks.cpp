@@ -17,19 +17,7 @@ bool sameCamera(const PinholeCamera& a, const PinholeCamera& b)
            a.cx == b.cx && a.cy == b.cy && a.distortion == b.distortion;
 }
 
-std::string problemOf(const cv::Size& maskSize, const RgbdFrame& frame)
-{
-    if (maskSize.empty() || maskSize == frame.depth.size())
-    {
-        return "";
-    }
-    std::ostringstream out;
-    out << "the mask (" << maskSize.width << "x" << maskSize.height
-        << ") is not of the images' size (" << frame.depth.cols << "x" << frame.depth.rows << ")";
-    return out.str();
-}
-
-std::string problemOf(const RgbdFrame& frame)
+std::string problemOf(const RgbdFrame& frame, const cv::Size& maskSize)
 {
     if (std::string problem = frame.camera.problem(); !problem.empty())
     {
@@ -66,6 +54,11 @@ std::string problemOf(const RgbdFrame& frame)
     {
         out << "the intensity image (" << frame.gray.cols << "x" << frame.gray.rows
             << ") does not fit the camera (" << size.width << "x" << size.height << ")";
+    }
+    else if (!maskSize.empty() && maskSize != size)
+    {
+        out << "the mask (" << maskSize.width << "x" << maskSize.height
+            << ") is not of the images' size (" << size.width << "x" << size.height << ")";
     }
     return out.str();
 }

@@ -11,11 +11,8 @@ namespace pointplane
 /** Nothing that pixels are turned into rays with differs. */
 [[nodiscard]] bool sameCamera(const PinholeCamera& a, const PinholeCamera& b);
 
-/** Why a frame cannot be used, or empty. */
-[[nodiscard]] std::string problemOf(const RgbdFrame& frame);
-
-/** Why a mask does not fit a frame, or empty. \param maskSize empty: there is none */
-[[nodiscard]] std::string problemOf(const cv::Size& maskSize, const RgbdFrame& frame);
+/** Why a frame cannot be used, or empty. \param maskSize empty: there is no mask */
+[[nodiscard]] std::string problemOf(const RgbdFrame& frame, const cv::Size& maskSize);
 
 /** Why hasDepth() is false of a frame's depth once readings that are out of range are left out, or
  * empty. */

@@ -123,4 +123,15 @@ void showNewPoints(const PointReference& reference, FrameFeatures& shown)
     }
     keepEachOnce(shown.points);
 }
+
+void countShown(const FrameFeatures& shown, FrameDiagnostics& diagnostics)
+{
+    diagnostics.numPoints = static_cast<int>(shown.points.size());
+    for (const FrameFeatures::Point& point : shown.points)
+    {
+        diagnostics.numPointsDoubted += point.use == FeatureUse::Doubted;
+        diagnostics.numPointsRejected += point.use == FeatureUse::Rejected;
+    }
+    diagnostics.movingShare = shown.moving.share();
+}
 }  // namespace pointplane

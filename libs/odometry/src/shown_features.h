@@ -22,4 +22,7 @@ void showPairs(
 
 /** Adds the points that a frame has been given as a reference, where there is none yet. */
 void showNewPoints(const PointReference& reference, FrameFeatures& shown);
+
+/** What is told in numbers of the features that are shown. */
+void countShown(const FrameFeatures& shown, FrameDiagnostics& diagnostics);
 }  // namespace pointplane

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "image_noise.h"
 
+#include <pointplane/core/quantile.h>
+
 #include <algorithm>
 #include <cstdlib>
+#include <utility>
 #include <vector>
 
 namespace pointplane
@@ -31,8 +34,6 @@ double imageNoise(const cv::Mat& gray)
     {
         return kLeast;
     }
-    const auto middle = responses.begin() + static_cast<std::ptrdiff_t>(responses.size() / 2);
-    std::nth_element(responses.begin(), middle, responses.end());
-    return std::max(kLeast, *middle / kMedianSigma / kGain);
+    return std::max(kLeast, median(std::move(responses)) / kMedianSigma / kGain);
 }
 }  // namespace pointplane

@@ -91,8 +91,7 @@ double NormalEquations::costAt(const Motion& motion) const
 
 Matrix123d NormalEquations::influence(size_t i) const
 {
-    const auto& [residual, W, squaredNorm] = residuals_[i];
-    return gain(i) * robust(i, squaredNorm).first * jacobian(i).transpose() * W;
+    return gain(i) * weight(i) * jacobian(i).transpose() * residuals_[i].W;
 }
 
 Matrix312d NormalEquations::jacobian(size_t i) const
@@ -100,31 +99,6 @@ Matrix312d NormalEquations::jacobian(size_t i) const
     Matrix312d J;
     J << residuals_[i].residual.J, residuals_[i].residual.J_V;
     return J;
-}
-
-NormalEquations::CameraColumns& NormalEquations::CameraColumns::operator+=(
-    const CameraColumns& other)
-{
-    H += other.H;
-    own.information += other.own.information;
-    own.gradient += other.own.gradient;
-    return *this;
-}
-
-NormalEquations::CameraColumns NormalEquations::cameraColumns(size_t i) const
-{
-    CameraColumns out;
-    const auto& [residual, W, squaredNorm] = residuals_[i];
-    const double w = robust(i, squaredNorm).first;
-    if (w > 0)
-    {
-        const ByCamera& K = residual.ofCamera;
-        const ByCamera weighted = gain(i) * w * W * K;
-        out.H << residual.J.transpose() * weighted, residual.J_V.transpose() * weighted;
-        out.own.information = K.transpose().lazyProduct(weighted);
-        out.own.gradient = weighted.transpose() * residual.r;
-    }
-    return out;
 }
 
 NormalEquations::Weighted NormalEquations::weighted(size_t i, const Motion& motion) const
@@ -271,6 +245,21 @@ PairNorms NormalEquations::norms() const
     return out;
 }
 
+/** Of these residuals, those that are chosen. */
+template <class IsChosen>
+double NormalEquations::medianOf(size_t begin, size_t end, const IsChosen& isChosen) const
+{
+    std::vector<double> norms;
+    for (size_t i = begin; i < end; ++i)
+    {
+        if (isChosen(i))
+        {
+            norms.push_back(relativeNorm(i));
+        }
+    }
+    return medianVariance(norms);
+}
+
 /** Each point counts for the surface that it stands for, which grows with the square of its depth:
  * what is close and moves may have most of the points, and must not set the scale by which it is
  * told apart. With the paper's weights all points count alike. */
@@ -278,7 +267,7 @@ double NormalEquations::robustVariance() const
 {
     if (solver_.weighting != PoseSolver::Weighting::Full)
     {
-        return relativeMedian(0, points_.size());
+        return medianOf(0, points_.size(), [&](size_t i) { return isUsable(i); });
     }
     std::vector<std::pair<double, double>> normsAndSurfaces;
     for (size_t i = 0; i < points_.size(); ++i)
@@ -292,36 +281,15 @@ double NormalEquations::robustVariance() const
     return medianVariance(normsAndSurfaces);
 }
 
-double NormalEquations::relativeMedian(size_t begin, size_t end) const
-{
-    std::vector<double> norms;
-    for (size_t i = begin; i < end; ++i)
-    {
-        if (isUsable_[i])
-        {
-            norms.push_back(relativeNorm(i));
-        }
-    }
-    return medianVariance(norms);
-}
-
-/** Of the points that count. What moves has residuals of its own. */
-double NormalEquations::pointVariance() const
-{
-    std::vector<double> norms;
-    for (size_t i = 0; i < points_.size(); ++i)
-    {
-        if (weight(i) > 0)
-        {
-            norms.push_back(relativeNorm(i));
-        }
-    }
-    return medianVariance(norms);
-}
-
 double NormalEquations::planeVariance() const
 {
-    return relativeMedian(points_.size(), residuals_.size());
+    return medianOf(points_.size(), residuals_.size(), [&](size_t i) { return isUsable(i); });
+}
+
+/** What moves has residuals of its own. */
+double NormalEquations::pointVariance() const
+{
+    return medianOf(0, points_.size(), [&](size_t i) { return weight(i) > 0; });
 }
 
 std::vector<double> NormalEquations::weights(size_t begin, size_t end) const

@@ -64,6 +64,7 @@ class NormalEquations
 
     [[nodiscard]] const Residual& residual(size_t i) const { return residuals_[i].residual; }
     [[nodiscard]] Matrix312d jacobian(size_t i) const;
+    [[nodiscard]] const Eigen::Matrix3d& weightMatrix(size_t i) const { return residuals_[i].W; }
 
     /** By the M-estimator. */
     [[nodiscard]] double weight(size_t i) const
@@ -74,6 +75,9 @@ class NormalEquations
     /** How far the surface that it is on agrees with the motion, in (0, 1]. */
     [[nodiscard]] double ofSurface(size_t i) const;
 
+    /** How much it counts for its type and its surface. */
+    [[nodiscard]] double gain(size_t i) const;
+
     /** With the points of this frame. */
     [[nodiscard]] const std::vector<InlierRatio>& surfaces() const { return surfaces_; }
 
@@ -83,17 +87,6 @@ class NormalEquations
 
     /** How the gradient changes with the residual. */
     [[nodiscard]] Matrix123d influence(size_t i) const;
-
-    /** The columns of the normal equations that belong to errors of the camera. */
-    struct CameraColumns
-    {
-        MotionByCamera H{MotionByCamera::Zero()};  //!< with pose and velocity
-        CameraInformation own;                     //!< with each other, motion not eliminated
-        CameraColumns& operator+=(const CameraColumns& other);
-    };
-
-    /** Those of one residual. */
-    [[nodiscard]] CameraColumns cameraColumns(size_t i) const;
 
  private:
     /** A residual, the weight matrix that it is given, and its squared norm by that. Of a pair that
@@ -108,12 +101,12 @@ class NormalEquations
     [[nodiscard]] Weighted weighted(size_t i, const Motion& motion) const;
     void countInliers();
     [[nodiscard]] size_t surfaceOf(size_t i) const;
-    [[nodiscard]] double gain(size_t i) const;
     [[nodiscard]] bool isPoint(size_t i) const { return i < points_.size(); }
     [[nodiscard]] std::pair<double, double> robust(size_t i, double squaredNorm) const;
     [[nodiscard]] int dof(size_t i) const;
     [[nodiscard]] double robustVariance() const;
-    [[nodiscard]] double relativeMedian(size_t begin, size_t end) const;
+    template <class IsChosen>
+    [[nodiscard]] double medianOf(size_t begin, size_t end, const IsChosen& isChosen) const;
     [[nodiscard]] std::vector<double> weights(size_t begin, size_t end) const;
 
     const PoseSolver::Settings& solver_;

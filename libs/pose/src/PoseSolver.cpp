@@ -13,11 +13,7 @@
 #include "NormalEquations.h"
 #include "Solution.h"
 #include "SolutionAnalysis.h"
-#include "camera_information.h"
-#include "patch_residuals.h"
-#include "plane_residuals.h"
 #include "point_support.h"
-#include "sensitivity.h"
 
 namespace pointplane
 {
@@ -249,7 +245,7 @@ PoseAnalysis PoseSolver::analyse(const PoseProblem& problem, const PoseEstimate&
     addCamera(solved, out);
     out.pointVariance = equations.pointVariance();
     out.planeVariance = equations.planeVariance();
-    out.planeResiduals = residualsOfPlanes(equations, problem);
+    out.planeResiduals = residualsOfPlanes(solved);
     out.patchResiduals = residualsOfPatches(solved, out.sensitivity);
     if (solved.points.size() + solved.planes.size() > 1)
     {

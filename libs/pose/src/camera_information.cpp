@@ -1,17 +1,48 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "camera_information.h"
-
 #include <Eigen/QR>
 
 #include <map>
+
+#include "SolutionAnalysis.h"
 
 namespace pointplane
 {
 namespace
 {
+/** The columns of the normal equations that belong to errors of the camera. */
+struct Columns
+{
+    MotionByCamera H{MotionByCamera::Zero()};  //!< with pose and velocity
+    CameraInformation own;                     //!< with each other, motion not eliminated
+
+    Columns& operator+=(const Columns& other)
+    {
+        H += other.H;
+        own.information += other.own.information;
+        own.gradient += other.own.gradient;
+        return *this;
+    }
+};
+
+/** Those of one residual. */
+Columns columnsOf(const NormalEquations& equations, size_t i)
+{
+    Columns out;
+    const double w = equations.weight(i);
+    if (w > 0)
+    {
+        const Residual& residual = equations.residual(i);
+        const ByCamera& K = residual.ofCamera;
+        const ByCamera weighted = equations.gain(i) * w * equations.weightMatrix(i) * K;
+        out.H << residual.J.transpose() * weighted, residual.J_V.transpose() * weighted;
+        out.own.information = K.transpose().lazyProduct(weighted);
+        out.own.gradient = weighted.transpose() * residual.r;
+    }
+    return out;
+}
+
 /** What one reference says of the camera, with a motion of its own. */
-CameraInformation withoutMotion(
-    const Solution& at, int reference, const NormalEquations::CameraColumns& columns)
+CameraInformation withoutMotion(const Solution& at, int reference, const Columns& columns)
 {
     Matrix6d H = Matrix6d::Zero();
     Vector6d gradient = Vector6d::Zero();
@@ -36,13 +67,13 @@ CameraInformation withoutMotion(
 
 void addCamera(const Solution& at, PoseAnalysis& out)
 {
-    NormalEquations::CameraColumns all;
-    std::map<int, NormalEquations::CameraColumns> byReference;
+    Columns all;
+    std::map<int, Columns> byReference;
     const auto add = [&](const auto& pairs, size_t offset)
     {
         for (size_t i = 0; i < pairs.size(); ++i)
         {
-            const NormalEquations::CameraColumns columns = at.equations.cameraColumns(offset + i);
+            const Columns columns = columnsOf(at.equations, offset + i);
             all += columns;
             byReference[pairs[i].reference] += columns;
         }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "patch_residuals.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
+
+#include "SolutionAnalysis.h"
 
 namespace pointplane
 {

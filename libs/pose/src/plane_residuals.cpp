@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "plane_residuals.h"
-
 #include <pointplane/pose/median_variance.h>
 
 #include <Eigen/Eigenvalues>
@@ -9,6 +7,8 @@
 #include <algorithm>
 #include <map>
 #include <vector>
+
+#include "SolutionAnalysis.h"
 
 namespace pointplane
 {
@@ -21,11 +21,11 @@ constexpr double kLeastLeft = 0.25;
 
 /** Poses follow planes by as many dimensions as planes tell of them: that of the frame does, and
  * those of the references did. Residuals have so many fewer. */
-PlaneResiduals residualsOfPlanes(const NormalEquations& equations, const PoseProblem& problem)
+PlaneResiduals residualsOfPlanes(const Solution& at)
 {
     PlaneResiduals out;
-    const Matrix6d byPlanes = equations.planes().H.topLeftCorner<6, 6>();
-    const Matrix6d byPoints = equations.points().H.topLeftCorner<6, 6>();
+    const Matrix6d byPlanes = at.equations.planes().H.topLeftCorner<6, 6>();
+    const Matrix6d byPoints = at.equations.points().H.topLeftCorner<6, 6>();
     const Matrix6d H = byPlanes + byPoints;
     const double dimensions = H.completeOrthogonalDecomposition().solve(byPlanes).trace();
     if (!byPoints.isZero(0))
@@ -37,11 +37,11 @@ PlaneResiduals residualsOfPlanes(const NormalEquations& equations, const PosePro
         out.followed = std::clamp(1 - parts.eigenvalues().maxCoeff(), 0.0, 1.0);
     }
     std::map<int, std::vector<double>> norms;
-    for (size_t i = 0; i < problem.planes.size(); ++i)
+    for (size_t i = 0; i < at.problem.planes.size(); ++i)
     {
-        if (const size_t pair = problem.points.size() + i; equations.isUsable(pair))
+        if (const size_t pair = at.problem.points.size() + i; at.equations.isUsable(pair))
         {
-            norms[problem.planes[i].reference].push_back(equations.relativeNorm(pair));
+            norms[at.problem.planes[i].reference].push_back(at.equations.relativeNorm(pair));
         }
     }
     for (auto& [reference, ofPlanes] : norms)

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sensitivity.h"
-
 #include <pointplane/core/covariance.h>
 
 #include <Eigen/Cholesky>
 
 #include <map>
 
+#include "SolutionAnalysis.h"
 #include "sorted_by_feature.h"
 
 namespace pointplane

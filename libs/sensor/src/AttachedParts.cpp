@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/quantile.h>
 #include <pointplane/sensor/AttachedParts.h>
 
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "CellChanges.h"
@@ -57,9 +59,7 @@ float medianDepth(const CellChanges& cells)
             depths.push_back(cell.nearest);
         }
     }
-    const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
-    std::nth_element(depths.begin(), middle, depths.end());
-    return *middle;
+    return median(std::move(depths));
 }
 
 /** How many times in a row each cell was nearer than what moves and stayed the same. */

@@ -175,9 +175,10 @@ void Canvas::boards(double boardWidth, double boardLength, double contrast, Rand
     }
 }
 
-void Canvas::soften(double sigmaTexels)
+void Canvas::soften()
 {
-    cv::GaussianBlur(picture_, picture_, {}, sigmaTexels, sigmaTexels, cv::BORDER_REPLICATE);
+    constexpr double kSigmaTexels = 0.7;
+    cv::GaussianBlur(picture_, picture_, {}, kSigmaTexels, kSigmaTexels, cv::BORDER_REPLICATE);
 }
 
 void Canvas::turnOver() { cv::flip(picture_, picture_, 0); }

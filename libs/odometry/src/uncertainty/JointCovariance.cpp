@@ -6,8 +6,6 @@
 #include <pointplane/core/se3.h>
 #include <pointplane/odometry/uncertainty/JointCovariance.h>
 
-#include <Eigen/Cholesky>
-
 #include <algorithm>
 #include <utility>
 
@@ -43,7 +41,7 @@ void JointCovariance::start(int frame, const Matrix6d& cov)
     Eigen::MatrixXd all = Eigen::MatrixXd::Zero(size, size);
     all.topLeftCorner<kSize, kSize>() = cov;
     errors_.start({{Kind::Pose, frame}, {Kind::Velocity, frame}, {Kind::Camera, 0}}, all);
-    previous_ = frame;
+    latest_ = previous_ = frame;
     restart(frame);
 }
 
@@ -72,6 +70,7 @@ void JointCovariance::predict(
     Q.topLeftCorner<kSize, kSize>() = propagate(Ad, prediction.motion);
     Q.bottomRightCorner<kSize, kSize>() = prediction.velocityGain.asDiagonal();
     errors_.prepend({{Kind::Pose, frame}, {Kind::Coasting, 0}}, A, Q);
+    latest_ = frame;
     dropCoasting(1);
 }
 
@@ -89,7 +88,7 @@ void JointCovariance::restart(int frame, const std::vector<int>& poses)
     previous_ = frame;
     earlier_.reset();
     keep({}, kept);
-    addView(Kind::View, {frame}, 0, Eigen::MatrixXd::Identity(1, 1));
+    errors_.prependAlike(Kind::View, {frame}, 0, Eigen::MatrixXd::Identity(1, 1));
 }
 
 /** Of pose and velocity on all blocks so far. The predicted motion starts at the previous frame
@@ -183,7 +182,7 @@ void JointCovariance::measure(
         smooth(frame, Ad, *measurement.previousVelocity);
     }
     earlier_ = {previous_, Ad};
-    previous_ = frame;
+    latest_ = previous_ = frame;
     dropCoasting();
 }
 
@@ -217,47 +216,9 @@ void JointCovariance::addViews(
     {
         if (!has(kind, frames[k]))
         {
-            addView(kind, frames, k, C);
+            errors_.prependAlike(kind, frames, k, C);
         }
     }
-}
-
-/** What is known of the error at other views foretells a part of it (kriging); the rest is new.
- * \param C correlation of the errors of `frames` */
-void JointCovariance::addView(
-    Kind kind, const std::vector<int>& frames, std::size_t added, const Eigen::MatrixXd& C)
-{
-    std::vector<std::size_t> known;
-    for (std::size_t k = 0; k < frames.size(); ++k)
-    {
-        if (has(kind, frames[k]))
-        {
-            known.push_back(k);
-        }
-    }
-    const Block block{kind, frames[added]};
-    const Eigen::Index size = block.size();
-    const auto I = Eigen::MatrixXd::Identity(size, size);
-    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(size, errors_.size());
-    double isNew = 1;
-    if (!known.empty())
-    {
-        const Eigen::VectorXd shared = C(known, added);
-        std::vector<Eigen::Index> rows;  // of one component: all are alike
-        for (const std::size_t k : known)
-        {
-            rows.push_back(find(kind, frames[k]));
-        }
-        const Eigen::VectorXd weights = C(known, known).ldlt().solve(shared);
-        // Views may have been alike by other distances then.
-        isNew = std::max(0.0, 1 - weights.dot(errors_.cov()(rows, rows) * weights));
-        for (std::size_t k = 0; k < known.size(); ++k)
-        {
-            A.middleCols(find(kind, frames[known[k]]), size) =
-                weights[static_cast<Eigen::Index>(k)] * I;
-        }
-    }
-    errors_.prepend({block}, A, isNew * I);
 }
 
 void JointCovariance::keep(const std::vector<int>& references, const std::vector<int>& poses)
@@ -295,15 +256,6 @@ Matrix6d JointCovariance::relative(int from, const Eigen::Isometry3d& T_world_fr
     const Eigen::Index n = newest(), k = find(Kind::Pose, from);
     return propagate(
         adjoint(T_world_from.inverse()), (at(n, n) - at(n, k) - at(k, n) + at(k, k)).eval());
-}
-
-/** First row of the latest pose. */
-Eigen::Index JointCovariance::newest() const
-{
-    const auto& blocks = errors_.blocks();
-    const auto it = std::find_if(
-        blocks.begin(), blocks.end(), [](const Block& b) { return b.kind == Kind::Pose; });
-    return find(Kind::Pose, it->frame);
 }
 
 Matrix6d JointCovariance::at(Eigen::Index row, Eigen::Index column) const

@@ -2,6 +2,8 @@
 #include <pointplane/odometry/uncertainty/JointGaussian.h>
 #include <pointplane/pose/pairs.h>
 
+#include <Eigen/Cholesky>
+
 #include <algorithm>
 #include <stdexcept>
 #include <string>
@@ -60,6 +62,33 @@ void JointGaussian::prepend(
     out.bottomLeftCorner(n, m) = out.topRightCorner(m, n).transpose();
     cov_ = 0.5 * (out + out.transpose());
     blocks_.insert(blocks_.begin(), blocks.begin(), blocks.end());
+}
+
+void JointGaussian::prependAlike(
+    Kind kind, const std::vector<int>& frames, std::size_t added, const Eigen::MatrixXd& C)
+{
+    std::vector<std::size_t> known;
+    std::vector<Eigen::Index> rows;  // of one component: all are alike
+    for (std::size_t k = 0; k < frames.size(); ++k)
+    {
+        if (has(kind, frames[k]))
+        {
+            known.push_back(k);
+            rows.push_back(find(kind, frames[k]));
+        }
+    }
+    const Block block{kind, frames[added]};
+    const Eigen::VectorXd weights = C(known, known).ldlt().solve(Eigen::VectorXd(C(known, added)));
+    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(block.size(), size());
+    for (std::size_t k = 0; k < rows.size(); ++k)
+    {
+        A.middleCols(rows[k], block.size())
+            .diagonal()
+            .setConstant(weights[static_cast<Eigen::Index>(k)]);
+    }
+    // Views may have been alike by other distances then.
+    const double isNew = std::max(0.0, 1 - weights.dot(cov_(rows, rows) * weights));
+    prepend({block}, A, isNew * Eigen::MatrixXd::Identity(block.size(), block.size()));
 }
 
 void JointGaussian::replace(Kind kind, int frame, const Eigen::MatrixXd& A)

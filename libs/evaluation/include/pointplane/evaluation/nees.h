@@ -80,9 +80,4 @@ struct NeesRun
     const Trajectory& estimate,
     const std::vector<NeesInterval>& intervals,
     const NeesOptions& options);
-
-/** Empty if the covariances of all these increments are in the file; else a note that they are
- * right only if increments are independent. */
-[[nodiscard]] std::string noteOnUntold(
-    const Trajectory& estimate, const std::vector<NeesIncrement>& increments);
 }  // namespace pointplane

@@ -9,10 +9,6 @@
 
 namespace pointplane
 {
-/** Colour, and depth in false colours (red near, blue far, black none), side by side; CV_8UC3.
- * \param maxDepth [m] shown as the deepest blue */
-[[nodiscard]] cv::Mat previewPicture(const ImagePair& pair, double maxDepth = 6.0);
-
 /** Keeps a PNG file of the latest pair fresh, at most once a second, in a thread of low priority.
  * Viewers never see half a picture. */
 class Preview

@@ -43,7 +43,7 @@ class Canvas
     void boards(double boardWidth, double boardLength, double contrast, Random& random);
 
     /** What a lens would do: removes what a texel grid cannot carry. */
-    void soften(double sigmaTexels = 0.7);
+    void soften();
 
     /** The texel rows are turned over, for surfaces whose t points up. */
     void turnOver();

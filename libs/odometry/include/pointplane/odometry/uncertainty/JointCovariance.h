@@ -178,7 +178,7 @@ class JointCovariance
 
     void dropCoasting(int kept = 0);
     void smooth(int frame, const Matrix6d& Ad, const MotionModel::Smoothed& velocity);
-    [[nodiscard]] Eigen::Index newest() const;
+    [[nodiscard]] Eigen::Index newest() const { return find(Kind::Pose, latest_); }
     [[nodiscard]] bool has(Kind kind, int frame) const { return errors_.has(kind, frame); }
     [[nodiscard]] Eigen::Index find(Kind kind, int frame) const
     {
@@ -187,8 +187,6 @@ class JointCovariance
     [[nodiscard]] Matrix6d at(Eigen::Index row, Eigen::Index column) const;
     void addViews(
         int frame, Kind kind, const std::vector<int>& references, const Eigen::MatrixXd& C);
-    void addView(
-        Kind kind, const std::vector<int>& frames, std::size_t added, const Eigen::MatrixXd& C);
     [[nodiscard]] Eigen::MatrixXd dependence(
         int frame,
         const Matrix6d& Ad,
@@ -197,7 +195,8 @@ class JointCovariance
 
     TParams params_;
     JointGaussian errors_;  //!< poses newest first
-    int previous_{0};
+    int latest_{0};         //!< frame
+    int previous_{0};       //!< the latest measured one
     /** The measured frame before that, and the adjoint of its pose. */
     struct Earlier
     {

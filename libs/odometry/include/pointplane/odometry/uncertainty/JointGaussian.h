@@ -48,6 +48,12 @@ class JointGaussian
     void prepend(
         const std::vector<Block>& blocks, const Eigen::MatrixXd& A, const Eigen::MatrixXd& Q);
 
+    /** Adds the block of one more frame, whose errors are of unit variance. What is known of those
+     * of the others foretells a part of them (kriging); the rest is new. \param frames of which
+     * `added` is the index \param C how the errors of `frames` correlate, in each component */
+    void prependAlike(
+        Kind kind, const std::vector<int>& frames, std::size_t added, const Eigen::MatrixXd& C);
+
     /** Gives a block other errors: A times those of all. */
     void replace(Kind kind, int frame, const Eigen::MatrixXd& A);
 

@@ -9,7 +9,8 @@
 namespace pointplane
 {
 /** The value that `share` of the values are below. \param values at least one */
-[[nodiscard]] inline double quantile(std::vector<double> values, double share)
+template <class T>
+[[nodiscard]] T quantile(std::vector<T> values, double share)
 {
     const auto below = static_cast<std::size_t>(share * static_cast<double>(values.size()));
     const auto at =
@@ -18,7 +19,8 @@ namespace pointplane
     return *at;
 }
 
-[[nodiscard]] inline double median(std::vector<double> values)
+template <class T>
+[[nodiscard]] T median(std::vector<T> values)
 {
     return quantile(std::move(values), 0.5);
 }
