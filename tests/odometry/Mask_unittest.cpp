@@ -196,4 +196,61 @@ TEST(Mask, whatIsNoMaskIsRefused)
     const cv::Mat nearlyWhite = robotMask() / 2 + 128;
     EXPECT_THROW(odometry.setMask(nearlyWhite), std::invalid_argument);
 }
+
+/** Where most corners are text that is drawn into the images, the camera seems to stand. */
+TEST(Mask, textInTheImagesIsFound)
+{
+    SimulationParams simulation;
+    simulation.width = kWidth;
+    simulation.height = kHeight;
+    simulation.duration = 1.5;
+    simulation.motionSpeed = 2;
+    const SimulatedSequence sequence("room", simulation, 2);
+    Odometry odometry{OdometryParams()};
+    const auto withText = [](RgbdFrame frame)
+    {
+        for (int line = 1; line <= 4; ++line)
+        {
+            const cv::Point place(10, line * kHeight / 5);
+            cv::putText(frame.gray, "CAM 01 2024-03-02 REC", place, 0, 0.8, 255, 2);
+        }
+        return frame;
+    };
+    int foundAt = sequence.numFrames();
+    Eigen::Isometry3d T_world_found, T_world_last;
+    for (int i = 0; i < sequence.numFrames(); ++i)
+    {
+        const OdometryResult result = odometry.process(withText(sequence.frame(i)));
+        T_world_last = result.pose.mean;
+        if (result.reason.find("fixed to the image, like text") != std::string::npos)
+        {
+            EXPECT_EQ(result.status, TrackingStatus::Predicted);
+            foundAt = i;
+            T_world_found = T_world_last;
+        }
+    }
+    ASSERT_LT(foundAt, 10);
+    const Eigen::Isometry3d truth = sequence.trueMotion(foundAt, sequence.numFrames() - 1);
+    const Eigen::Isometry3d motion = T_world_found.inverse() * T_world_last;
+    EXPECT_GT(truth.translation().norm(), 0.2);
+    EXPECT_LT((motion.translation() - truth.translation()).norm(), 0.03);
+}
+
+/** Depth of a camera that stands may be wrong for a frame, as that of time of flight is. */
+TEST(Mask, depthThatJumpsOnceIsNoText)
+{
+    RgbdFrame frame = maskedDesk().frame(0);
+    Odometry odometry{OdometryParams()};
+    for (int i = 0; i < 9; ++i)
+    {
+        frame.stamp = maskedDesk().frame(i).stamp;
+        frame.gray.at<std::uint8_t>(i, i) += 1;  // not the same bytes
+        RgbdFrame seen = frame;
+        seen.depth = cv::Mat(frame.depth * (i % 4 == 2 ? 1.1 : 1 + 1e-5 * i));
+        const OdometryResult result = odometry.process(seen);
+        const bool isMeasured = result.status == TrackingStatus::Tracked;
+        EXPECT_EQ(isMeasured, i % 4 != 2 && i > 0) << i << ": " << result.reason;
+        EXPECT_LT(result.pose.mean.translation().norm(), 1e-3);
+    }
+}
 }  // namespace pointplane

@@ -96,6 +96,12 @@ Alignment Aligner::align(
             searchImages(scene, out);
         }
     }
+    if (out.unsettled.empty() && !frontEnd.marks().areKnown() && !out.marks.empty())
+    {
+        out.unsettled =
+            "points stand in the image while the depth behind them changes: either they are fixed "
+            "to the image, or its depth is wrong";
+    }
     judge_.contradict(out, errors.usual());
     if (out.holds && Judge::restsOnChance(out))
     {
@@ -126,6 +132,7 @@ Alignment Aligner::attempt(const Scene& scene, const Motion& start, Search searc
     judge_.judge(out);
     settleRivals(scene, out);
     verify(scene, out);
+    out.marks = marksIn(out.associations);
     if (params_.fuses() && (out.isUnforeseen || out.agreement.seen() == 0))
     {
         out.pointSupport = solver_.pointSupport(out.problem, out.estimate);

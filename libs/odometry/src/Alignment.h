@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "ImageMarks.h"
 #include "Track.h"
 
 namespace pointplane
@@ -28,10 +29,11 @@ struct Alignment
     double pointSupport{std::numeric_limits<double>::infinity()};
     /** The motion is that of points that the covariance does not count: no minimum of `problem`. */
     bool isOfDoubtedPoints{false};
-    std::string unsettled;  //!< why another motion may be the camera's (RivalMotions), or empty
-    bool holds{false};      //!< the estimate is to be believed
-    double msPose{0};       //!< time that solving took [ms]
-    std::string reason;     //!< why it does not hold, or how much of it is predicted
+    std::vector<Mark> marks;  //!< of this and of other attempts at the frame
+    std::string unsettled;    //!< why another motion may be the camera's (RivalMotions), or empty
+    bool holds{false};        //!< the estimate is to be believed
+    double msPose{0};         //!< time that solving took [ms]
+    std::string reason;       //!< why it does not hold, or how much of it is predicted
 
     [[nodiscard]] size_t numMatches() const
     {

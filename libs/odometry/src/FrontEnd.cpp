@@ -36,6 +36,7 @@ bool isNoise(const cv::Mat& depth, const DepthNoise& noise)
 FrontEnd::FrontEnd(const OdometryParams& params)
     : params_(params.pipeline),
       depthNoise_(params.depthNoise),
+      marks_(params.pointTracker.windowPx),
       planeExtractor_(params.planeExtractor, params.depthNoise),
       planeMatcher_(params.planeMatcher),
       pointStage_(
@@ -58,6 +59,7 @@ Features FrontEnd::extract(const RgbdFrame& frame, FrameDiagnostics& diagnostics
     {
         depthNoise_.reset();
         attached_ = {};
+        marks_.forget();
     }
     camera_ = frame.camera;
     depthNoise_.update(frame.depth);
@@ -113,7 +115,17 @@ void FrontEnd::leaveOutAttached(RgbdFrame& frame, FrameDiagnostics& diagnostics)
 
 PointReference FrontEnd::pointReference(const Features& features, const RgbdFrame& part) const
 {
-    return params_.usePoints ? pointStage_.makeReference(part, features.points) : PointReference();
+    if (!params_.usePoints)
+    {
+        return {};
+    }
+    RgbdFrame seen = part;
+    if (!marks_.mask().empty())
+    {
+        seen.depth = part.depth.clone();
+        seen.depth.setTo(std::numeric_limits<float>::quiet_NaN(), marks_.mask());
+    }
+    return pointStage_.makeReference(seen, features.points);
 }
 
 std::string FrontEnd::whyNoPoint(const RgbdFrame& frame) const
@@ -212,6 +224,10 @@ Association FrontEnd::associate(
     {
         out.points = pointStage_.correspond(
             reference.points, current.frame, current.points, T_cur_ref, radiusFactor);
+        if (params_.fuses())
+        {
+            marks_.split(out);
+        }
     }
     return out;
 }

@@ -14,6 +14,8 @@
 #include <string>
 #include <vector>
 
+#include "ImageMarks.h"
+
 namespace pointplane
 {
 /** Takes points and planes from images, and finds what two frames have in common. Of the past it
@@ -74,6 +76,10 @@ class FrontEnd
         const Eigen::Isometry3d& T_cur_ref,
         double radiusFactor) const;
 
+    /** What is fixed to the image. */
+    [[nodiscard]] const ImageMarks& marks() const { return marks_; }
+    [[nodiscard]] ImageMarks& marks() { return marks_; }
+
     /** PointStage::searchRadius_px(). */
     [[nodiscard]] double searchRadius_px(const RgbdFrame& frame) const
     {
@@ -91,6 +97,7 @@ class FrontEnd
     std::optional<PinholeCamera> camera_;  //!< of the frame before
     DepthNoiseLearner depthNoise_;
     AttachedParts attached_;
+    ImageMarks marks_;
     PlaneExtractor planeExtractor_;
     PlaneMatcher planeMatcher_;
     PointStage pointStage_;

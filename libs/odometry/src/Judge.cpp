@@ -128,10 +128,13 @@ std::string Judge::fewPointsAgree(const Alignment& alignment)
 void Judge::keepBetter(Alignment& best, Alignment other, const NoiseFactors& usual)
 {
     best.numSought = other.numSought = std::max(best.numSought, other.numSought);
+    std::vector<Mark> marks = std::move(best.marks);
+    marks.insert(marks.end(), other.marks.begin(), other.marks.end());
     if (evidence(other, usual) > evidence(best, usual))
     {
         best = std::move(other);
     }
+    best.marks = std::move(marks);
 }
 
 bool Judge::areSame(const Alignment& a, const Alignment& b)

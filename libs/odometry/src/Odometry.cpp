@@ -124,6 +124,14 @@ void Odometry::Impl::place(const RgbdFrame& frame, OdometryResult& result)
     }
 
     Alignment alignment = align(current, result.diagnostics);
+    if (frontEnd.marks().learn(alignment.associations, alignment.marks, frame.camera))
+    {
+        addReason(
+            "points are fixed to the image, like text; frames before may have followed them, so it "
+            "is not compared with these",
+            result);
+        return restart(current, result);
+    }
     addReason(alignment.reason, result);
     if (alignment.holds)
     {
@@ -233,6 +241,13 @@ void Odometry::Impl::measure(const Features& current, Alignment& alignment, Odom
     result.status = TrackingStatus::Tracked;
     const double dt = alignment.predicted.dt;
     const MotionGaussian& motion = alignment.estimate.motion;
+    if (alignment.observableDirections == 6 && !alignment.isOfDoubtedPoints)
+    {
+        frontEnd.marks().learn(
+            alignment.associations,
+            current.frame.camera,
+            motion.mean.T_prev_cur.inverse() * track.previous().T_world_cam.inverse());
+    }
     const PoseAnalysis analysis = analyse(current, alignment);
     const JointCovariance::Measurement measurement = errors.learn(
         {track.references(),

@@ -103,9 +103,12 @@ void showPairs(
             FeatureUse& use = shown.planeUses.at(static_cast<size_t>(match.cur));
             use = std::min(use, FeatureUse::Rejected);
         }
-        for (const PointTrack& track : association.movingPoints)
+        for (const auto* rejected : {&association.movingPoints, &association.fixedPoints})
         {
-            shown.points.push_back({track.cur.uv_px, FeatureUse::Rejected});
+            for (const PointTrack& track : *rejected)
+            {
+                shown.points.push_back({track.cur.uv_px, FeatureUse::Rejected});
+            }
         }
         for (const PointTrack& track : association.doubtedPoints)
         {

@@ -50,6 +50,8 @@ struct Association
     std::vector<PointTrack> movingPoints;
     /** Found again, but so few that chance may have made them agree: likewise. */
     std::vector<PointTrack> doubtedPoints;
+    /** Points of what is fixed to the image, like text: they count as not found. */
+    std::vector<PointTrack> fixedPoints;
 
     [[nodiscard]] size_t numPointsFound() const
     {
