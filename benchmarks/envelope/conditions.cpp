@@ -154,7 +154,9 @@ void addOtherCameras(std::size_t numFrames, std::vector<Condition>& out)
         {"depth up to 1 m", [](const RgbdFrame& f) { return withDepthUpTo(f, 1.0F); }},
         {"depth with holes", [](const RgbdFrame& f) { return withHoles(f, 0.6); }},
         {"noisy depth", [](const RgbdFrame& f) { return withNoisyDepth(f, 0.004); }},
-        {"dim light", [](const RgbdFrame& f) { return dimmed(f, 0.25, 3); }}};
+        {"dim light", [](const RgbdFrame& f) { return dimmed(f, 0.25, 3); }},
+        {"text in the images", withText},
+        {"spots in the images", withSpots}};
     for (const auto& change : changes)
     {
         Condition condition = atRate(change.first, numFrames, 1, 1);

@@ -6,6 +6,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -129,6 +130,45 @@ RgbdFrame dimmed(const RgbdFrame& frame, double light, double noise)
     cv::Mat_<float> grain(brightness.size());
     randomOf(frame).fill(grain, cv::RNG::NORMAL, 0, noise);
     cv::Mat(brightness + grain).convertTo(out.gray, CV_8U);
+    return out;
+}
+
+RgbdFrame withText(const RgbdFrame& frame)
+{
+    constexpr int kLines = 4;
+    RgbdFrame out = frame;
+    out.gray = frame.gray.clone();
+    for (int line = 1; line <= kLines; ++line)
+    {
+        const cv::Point place(out.gray.cols / 32, line * out.gray.rows / (kLines + 1));
+        cv::putText(
+            out.gray,
+            "CAM 01 2024-03-02 REC",
+            place,
+            cv::FONT_HERSHEY_SIMPLEX,
+            out.gray.cols / 400.0,
+            255,
+            std::max(1, out.gray.cols / 250));
+    }
+    return out;
+}
+
+RgbdFrame withSpots(const RgbdFrame& frame)
+{
+    constexpr int kSpots = 1500, kMargin = 2;
+    constexpr double kRadius_px = 1, kBrightness = 120;
+    cv::Mat_<float> light(frame.gray.size(), 0.0F);
+    cv::RNG random(0x9E3779B97F4A7C15);
+    for (int i = 0; i < kSpots; ++i)
+    {
+        const int v = random.uniform(kMargin, light.rows - kMargin);
+        light(v, random.uniform(kMargin, light.cols - kMargin)) = 1;
+    }
+    cv::GaussianBlur(light, light, {}, kRadius_px);
+    cv::normalize(light, light, 0, kBrightness, cv::NORM_MINMAX);
+    RgbdFrame out = frame;
+    out.gray = cv::Mat();
+    cv::add(frame.gray, light, out.gray, cv::noArray(), CV_8U);
     return out;
 }
 

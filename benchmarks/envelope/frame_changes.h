@@ -34,6 +34,13 @@ namespace pointplane
  * \param noise standard deviation, independent between pixels [grey values] */
 [[nodiscard]] RgbdFrame dimmed(const RgbdFrame& frame, double light, double noise);
 
+/** Four lines of text across the colour image, as cameras write date and time into it. */
+[[nodiscard]] RgbdFrame withText(const RgbdFrame& frame);
+
+/** 1500 bright spots in the colour image, the same in each frame: what a projector beside the
+ * camera throws on a wall, seen by an infrared camera. */
+[[nodiscard]] RgbdFrame withSpots(const RgbdFrame& frame);
+
 /** The same view in fewer pixels: brightness is averaged, depth too, but not across edges.
  * \param factor divides both sides; a remainder of columns and rows is left out */
 [[nodiscard]] RgbdFrame shrunk(const RgbdFrame& frame, int factor);

@@ -149,7 +149,8 @@ TEST(FrameChanges, NoiseOfDepthGrowsWithItsSquareAndMissingDepthStaysMissing)
     RgbdFrame frame = slantedPlane();
     frame.depth.at<float>(3, 4) = kNone;
     const cv::Mat noisy = withNoisyDepth(frame, 0.004).depth;
-    cv::Mat_<float> standard = (noisy - frame.depth).mul(1 / frame.depth.mul(frame.depth));
+    cv::Mat_<float> standard;
+    cv::divide(noisy - frame.depth, frame.depth.mul(frame.depth), standard);
     standard(3, 4) = 0;
     EXPECT_NEAR(cv::norm(standard) / std::sqrt(640 * 480), 0.004, 1e-4);
     EXPECT_NEAR(cv::mean(standard)[0], 0, 1e-4);
@@ -169,4 +170,21 @@ TEST(FrameChanges, DimLightTakesContrastAndAddsNoise)
     EXPECT_NEAR(cv::mean(difference(bright))[0], 0, 0.1);
     EXPECT_NEAR(cv::norm(difference(bright)) / std::sqrt(160 * 480), 3, 0.1);
     EXPECT_EQ(frame.gray.at<uchar>(0, 639), 159) << "the given frame is as it was";
+}
+
+TEST(FrameChanges, MarksInTheImagesAreTheSameInEachFrame)
+{
+    RgbdFrame frame = slantedPlane();
+    const cv::Mat given = frame.gray.clone();
+    for (const auto& change : {withText, withSpots})
+    {
+        const cv::Mat marks = change(frame).gray != given;
+        EXPECT_GT(cv::countNonZero(marks), 0.01 * 640 * 480);
+        EXPECT_LT(cv::countNonZero(marks), 0.2 * 640 * 480);
+        EXPECT_EQ(cv::countNonZero(frame.gray != given), 0) << "the given frame is as it was";
+        RgbdFrame dark = frame;
+        dark.gray = cv::Mat(given.size(), CV_8UC1, cv::Scalar(0));
+        dark.stamp += 1;
+        EXPECT_EQ(cv::countNonZero((change(dark).gray > 0) != marks), 0);
+    }
 }
