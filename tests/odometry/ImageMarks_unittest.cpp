@@ -220,6 +220,19 @@ TEST(ImageMarks, onceMarksAreKnownNothingThatStandsCounts)
     EXPECT_EQ(moved.association.points.size(), moved.reference.points.points.size());
 }
 
+TEST(ImageMarks, whatIsFoundWhereAMarkIsDoesNotCount)
+{
+    const ImageMarks marks = thatKnows();
+    Pair onMarks([](const PointFeature& point)
+                 { return pointAt(point.uv_px + Eigen::Vector2d(40, 2), 2); });
+    Pair between([](const PointFeature& point)
+                 { return pointAt(point.uv_px + Eigen::Vector2d(20, 2), 2); });
+    (void)onMarks.split(marks);
+    (void)between.split(marks);
+    EXPECT_EQ(onMarks.association.points.size(), 6);  // beyond the image
+    EXPECT_TRUE(between.association.doubtedPoints.empty());
+}
+
 TEST(ImageMarks, whatShouldHaveMovedIsAMark)
 {
     Eigen::Isometry3d along = Eigen::Isometry3d::Identity();

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <utility>
 
 namespace pointplane
 {
@@ -117,13 +119,17 @@ void ImageMarks::split(Association& association) const
     {
         return;
     }
-    const auto firstStill = std::stable_partition(
-        association.points.begin(),
-        association.points.end(),
-        [&](const PointTrack& track) { return !stands(pointOf(association, track), track.cur); });
-    (areShown ? association.fixedPoints : association.doubtedPoints)
-        .assign(firstStill, association.points.end());
-    association.points.erase(firstStill, association.points.end());
+    std::vector<PointTrack> others;
+    for (const PointTrack& track : association.points)
+    {
+        const bool isStill = stands(pointOf(association, track), track.cur);
+        std::vector<PointTrack>& kind = isStill && areShown ? association.fixedPoints
+                                        : isStill || seesMark(track.cur.uv_px)
+                                            ? association.doubtedPoints
+                                            : others;
+        kind.push_back(track);
+    }
+    association.points = std::move(others);
 }
 
 bool ImageMarks::learn(
@@ -183,6 +189,12 @@ void ImageMarks::forget()
     areKnown_ = false;
     suspectedOf_ = kNone;
     mask_.release();
+}
+
+bool ImageMarks::seesMark(const Eigen::Vector2d& uv_px) const
+{
+    const cv::Point place(cvRound(uv_px.x()), cvRound(uv_px.y()));
+    return cv::Rect({}, mask_.size()).contains(place) && mask_.at<std::uint8_t>(place) > 0;
 }
 
 void ImageMarks::add(const Eigen::Vector2d& uv_px, const PinholeCamera& camera)

@@ -35,7 +35,8 @@ class ImageMarks
     explicit ImageMarks(int windowPx) : radius_px_(windowPx / 2) {}
 
     /** Takes points that stand in the image out of an association: to fixedPoints if the depth
-     * behind many of them has changed, else to doubtedPoints once marks are known. */
+     * behind many of them has changed, else to doubtedPoints once marks are known, as points that
+     * are found where a mark is. */
     void split(Association& association) const;
 
     [[nodiscard]] bool areKnown() const { return areKnown_; }
@@ -64,6 +65,7 @@ class ImageMarks
     [[nodiscard]] const cv::Mat& mask() const { return mask_; }
 
  private:
+    [[nodiscard]] bool seesMark(const Eigen::Vector2d& uv_px) const;
     void add(const Eigen::Vector2d& uv_px, const PinholeCamera& camera);
 
     static constexpr int kNone = -1;
