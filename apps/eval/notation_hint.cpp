@@ -78,7 +78,8 @@ std::string hintAtNotation(
     {
         const Trajectory measured = scaled(estimate, scale);
         const std::string hint = hintAtOrder(truth, measured, offset);
-        return hint.empty() ? hintAtUnit(truth, measured, offset) : hint;
+        // Who scales knows the units.
+        return hint.empty() && scale == 1 ? hintAtUnit(truth, measured, offset) : hint;
     }
     catch (const std::runtime_error&)  // too few pairs tell nothing
     {

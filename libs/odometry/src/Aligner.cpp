@@ -89,6 +89,7 @@ Alignment Aligner::align(
         }
         else
         {
+            wide.marks.insert(wide.marks.end(), out.marks.begin(), out.marks.end());
             out = std::move(wide);
         }
         if (params_.searchImages && !Judge::isConvincing(out, errors.usual()))
@@ -197,7 +198,8 @@ void Aligner::distrustPoints(const Scene& scene, Alignment& alignment) const
     const std::string fewAgree = Judge::fewPointsAgree(alignment);
     for (Association& association : alignment.associations)
     {
-        association.doubtedPoints = std::move(association.points);
+        association.doubtedPoints.insert(
+            association.doubtedPoints.end(), association.points.begin(), association.points.end());
         association.points.clear();
     }
     estimate(scene, motion, alignment);
@@ -307,6 +309,12 @@ void Aligner::verify(const Scene& scene, Alignment& alignment)
             alignment.agreement +=
                 scene.frontEnd.compare(*reference, scene.current, depth.T_cur_ref, depth.slack_m);
         }
+    }
+    for (const Association& association : alignment.associations)
+    {
+        // Those that ImageMarks left out cannot confirm a motion, nor contradict it.
+        const size_t leftOut = association.fixedPoints.size() + association.doubtedPoints.size();
+        alignment.numSought = std::max(0, alignment.numSought - static_cast<int>(leftOut));
     }
 }
 }  // namespace pointplane

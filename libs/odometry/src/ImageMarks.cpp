@@ -18,8 +18,9 @@ constexpr double kStill_px = 0.3;
 /** More than that noise, surely [px]. */
 constexpr double kMoved_px = 1;
 
-/** Fewer points than this are wrong matches. */
+/** Fewer points than this are wrong matches, and fewer that change lie at edges of depth. */
 constexpr int kLeastPoints = 20;
+constexpr size_t kLeastChanged = 10;
 
 /** Depth has changed if it differs by more than three standard deviations. */
 constexpr double kChanged2 = 9;
@@ -93,7 +94,8 @@ Still still(const Association& association)
             changes.push_back(change);
         }
     }
-    const bool haveChanged = static_cast<double>(changes.size()) >= kLeastShare * numStill &&
+    const bool haveChanged = changes.size() >= kLeastChanged &&
+                             static_cast<double>(changes.size()) >= kLeastShare * numStill &&
                              expectedFlow_px(places_px, changes) > kMoved_px;
     return numStill < kLeastPoints ? Still::Nothing : haveChanged ? Still::Marks : Still::Scene;
 }

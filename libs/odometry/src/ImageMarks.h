@@ -60,8 +60,7 @@ class ImageMarks
     /** For another camera. */
     void forget();
 
-    /** Not 0 (CV_8UC1, of the image's size) where a point would see a mark; empty if there is none.
-     */
+    /** Not 0 (CV_8UC1, of the image's size) near marks that were found; empty if there are none. */
     [[nodiscard]] const cv::Mat& mask() const { return mask_; }
 
  private:

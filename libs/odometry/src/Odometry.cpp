@@ -130,6 +130,7 @@ void Odometry::Impl::place(const RgbdFrame& frame, OdometryResult& result)
             "points are fixed to the image, like text; frames before may have followed them, so it "
             "is not compared with these",
             result);
+        track.forgetVelocity();
         return restart(current, result);
     }
     addReason(alignment.reason, result);

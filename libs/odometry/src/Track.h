@@ -96,6 +96,9 @@ class Track
      * compared with any more. \param frame without id and pose \return the increment */
     PoseGaussian restart(Reference frame);
 
+    /** What was measured of the camera's speed so far is not to be believed. */
+    void forgetVelocity();
+
     /** A measured frame. */
     struct Measured
     {
@@ -136,7 +139,6 @@ class Track
     void add(Reference frame, bool isKeyframe);
     [[nodiscard]] std::vector<int> placeIds() const;
     void forgetOthers();
-    void forgetVelocity();
 
     double maxGap_;
     bool fuses_, isFrameToFrame_;

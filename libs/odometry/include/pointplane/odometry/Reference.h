@@ -48,7 +48,8 @@ struct Association
     /** Found again as well, but they go with what moves: the pose does not depend on them. */
     std::vector<PlaneMatch> movingPlanes;
     std::vector<PointTrack> movingPoints;
-    /** Found again, but so few that chance may have made them agree: likewise. */
+    /** Found again, but so few that chance may have made them agree, or of what may be fixed to the
+     * image: likewise. */
     std::vector<PointTrack> doubtedPoints;
     /** Points of what is fixed to the image, like text: they count as not found. */
     std::vector<PointTrack> fixedPoints;
