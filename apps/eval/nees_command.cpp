@@ -287,7 +287,10 @@ void NeesCommand::addRun(
     if (hint.empty())
     {
         hint = hintAtNotation(
-            withBody(truth, report.options.T_truth_body), estimate, report.options.offset, 1);
+            withBody(truth, report.options.T_truth_body),
+            withoutLost(estimate),
+            report.options.offset,
+            1);
     }
     context.hint(hint);
     if (!html.directory.empty())

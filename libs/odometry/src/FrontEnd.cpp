@@ -35,6 +35,7 @@ bool isNoise(const cv::Mat& depth, const DepthNoise& noise)
 
 FrontEnd::FrontEnd(const OdometryParams& params)
     : params_(params.pipeline),
+      findsMarks_(params.pipeline.fuses() && !params.reference.isAdjacent()),
       depthNoise_(params.depthNoise),
       marks_(params.pointTracker.windowPx),
       planeExtractor_(params.planeExtractor, params.depthNoise),
@@ -224,7 +225,7 @@ Association FrontEnd::associate(
     {
         out.points = pointStage_.correspond(
             reference.points, current.frame, current.points, T_cur_ref, radiusFactor);
-        if (params_.fuses())
+        if (findsMarks_)
         {
             marks_.split(out);
         }

@@ -94,6 +94,7 @@ class FrontEnd
         const Reference& reference, const Features& current) const;
 
     PipelineParams params_;
+    bool findsMarks_;  //!< that takes two frames which are compared with the same one
     std::optional<PinholeCamera> camera_;  //!< of the frame before
     DepthNoiseLearner depthNoise_;
     AttachedParts attached_;
