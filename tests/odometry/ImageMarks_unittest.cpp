@@ -35,14 +35,16 @@ using Motion2 = std::function<PointFeature(const PointFeature&)>;
 /** Points all over the image, 2 m away, with where they are found again. */
 struct Pair
 {
-    explicit Pair(const Motion2& later, int step_px = 40)
+    /** \param rise_m of the depth, from the top of the image to its bottom */
+    explicit Pair(const Motion2& later, int step_px = 40, double rise_m = 0)
     {
         for (int v = 20; v < camera().height; v += step_px)
         {
             for (int u = 20; u < camera().width; u += step_px)
             {
                 const auto index = static_cast<int>(reference.points.points.size());
-                reference.points.points.push_back(pointAt({u, v}, 2));
+                reference.points.points.push_back(
+                    pointAt({u, v}, 2 + rise_m * v / camera().height));
                 association.points.push_back({index, later(reference.points.points.back())});
             }
         }
@@ -70,8 +72,11 @@ struct Pair
 
 PointFeature stays(const PointFeature& point) { return point; }
 
-/** Stands in the image, before other depth. */
-PointFeature mark(const PointFeature& point) { return pointAt(point.uv_px, 2.1); }
+/** Stands in the image, before a wall that turns. */
+PointFeature mark(const PointFeature& point)
+{
+    return pointAt(point.uv_px, 2 + (point.uv_px.x() - 160) / 1000);
+}
 
 Motion2 seenAfter(const Eigen::Isometry3d& T_cur_ref)
 {
@@ -98,6 +103,24 @@ TEST(ImageMarks, whatStandsBeforeChangingDepthIsAMark)
     const size_t all = pair.association.points.size();
     EXPECT_EQ(pair.split(ImageMarks(kWindowPx)), all);
     EXPECT_TRUE(pair.association.points.empty());
+}
+
+/** A sensor that warms up, before a camera that rests. */
+TEST(ImageMarks, depthThatChangesAllOverTheImageShowsNone)
+{
+    const std::vector<std::function<double(double)>> changes{
+        [](double z) { return z + 0.2; },
+        [](double z) { return 0.9 * z; },
+        [](double z) { return 1 / (1 / z + 0.05); }};
+    for (const auto& change : changes)
+    {
+        Pair pair(
+            [&](const PointFeature& point)
+            { return pointAt(point.uv_px, change(point.p_cam.mean.z())); },
+            40,
+            1);
+        EXPECT_EQ(pair.split(ImageMarks(kWindowPx)), 0) << change(2);
+    }
 }
 
 TEST(ImageMarks, aSceneThatStandsHasNone)
@@ -215,9 +238,11 @@ TEST(ImageMarks, onceMarksAreKnownNothingThatStandsCounts)
     Pair still(stays), moved(seenAfter(along));
     EXPECT_EQ(still.split(marks), 0);
     EXPECT_TRUE(still.association.points.empty());
+    EXPECT_NE(marks.whyNoPoint({still.association}), "");
     EXPECT_EQ(still.association.doubtedPoints.size(), still.reference.points.points.size());
     EXPECT_EQ(moved.split(marks), 0);
     EXPECT_EQ(moved.association.points.size(), moved.reference.points.points.size());
+    EXPECT_EQ(marks.whyNoPoint({moved.association}), "");
 }
 
 TEST(ImageMarks, whatIsFoundWhereAMarkIsDoesNotCount)
@@ -243,12 +268,14 @@ TEST(ImageMarks, whatShouldHaveMovedIsAMark)
         pointAt({40, 40}, 2);
     ImageMarks marks = thatKnows();
     (void)still.split(marks);
-    marks.learn({still.association}, camera(), Eigen::Isometry3d::Identity());
+    marks.learn({still.association}, camera(), {});
     EXPECT_EQ(marks.mask().at<std::uint8_t>(between), 0);  // the camera stood
-    marks.learn({still.association}, camera(), along);
+    marks.learn({still.association}, camera(), {along, 0.01 * Matrix6d::Identity()});
+    EXPECT_EQ(marks.mask().at<std::uint8_t>(between), 0);  // nobody knows whether it moved
+    marks.learn({still.association}, camera(), {along, 1e-6 * Matrix6d::Identity()});
     EXPECT_NE(marks.mask().at<std::uint8_t>(between), 0);
     ImageMarks unknown(kWindowPx);
-    unknown.learn({still.association}, camera(), along);
+    unknown.learn({still.association}, camera(), {along, Matrix6d::Zero()});
     EXPECT_TRUE(unknown.mask().empty());
 }
 }  // namespace pointplane

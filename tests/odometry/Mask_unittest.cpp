@@ -256,6 +256,25 @@ TEST(Mask, textInTheImagesIsFound)
     EXPECT_LT((motion.translation() - truth.translation()).norm(), 0.03);
 }
 
+/** A sensor that warms up, or whose first image is wrong. */
+TEST(Mask, depthThatStaysChangedIsNoText)
+{
+    RgbdFrame frame = maskedDesk().frame(0);
+    for (const int numWrong : {1, 4})
+    {
+        Odometry odometry{OdometryParams()};
+        for (int i = 0; i < 9; ++i)
+        {
+            frame.stamp = maskedDesk().frame(i).stamp;
+            frame.gray.at<std::uint8_t>(i, i) += 1;  // not the same bytes
+            RgbdFrame seen = frame;
+            seen.depth = cv::Mat(frame.depth * (i < numWrong ? 1.05 : 1 + 1e-5 * i));
+            const OdometryResult result = odometry.process(seen);
+            EXPECT_EQ(result.reason.find("in the image"), std::string::npos) << result.reason;
+        }
+    }
+}
+
 /** Depth of a camera that stands may be wrong for a frame, as that of time of flight is. */
 TEST(Mask, depthThatJumpsOnceIsNoText)
 {

@@ -153,9 +153,9 @@ void Aligner::searchAgain(
 {
     const RgbdFrame& frame = scene.current.frame;
     const double radius_px = scene.frontEnd.searchRadius_px(frame);
-    while (
-        params_.fuses() &&
-        areNearEdge(alignment.associations, frame.camera, fromWorld(scene, T_prev_cur), radius_px))
+    while (params_.fuses() &&
+           areNearEdge(
+               alignment.associations, frame.camera, scene.track.fromWorld(T_prev_cur), radius_px))
     {
         T_prev_cur = alignment.estimate.motion.mean.T_prev_cur;
         Alignment again;
@@ -250,17 +250,11 @@ void Aligner::searchImages(const Scene& scene, Alignment& best) const
     }
 }
 
-/** T_cur_world of a motion. */
-Eigen::Isometry3d Aligner::fromWorld(const Scene& scene, const Eigen::Isometry3d& T_prev_cur)
-{
-    return T_prev_cur.inverse() * scene.track.previous().T_world_cam.inverse();
-}
-
 std::vector<Association> Aligner::associate(
     const Scene& scene, const Eigen::Isometry3d& T_prev_cur, double radiusFactor)
 {
     std::vector<Association> out;
-    const Eigen::Isometry3d T_cur_world = fromWorld(scene, T_prev_cur);
+    const Eigen::Isometry3d T_cur_world = scene.track.fromWorld(T_prev_cur);
     for (const Reference* reference : scene.track.references())
     {
         out.push_back(scene.frontEnd.associate(
@@ -297,7 +291,7 @@ void Aligner::estimate(
 void Aligner::verify(const Scene& scene, Alignment& alignment)
 {
     const Motion& motion = alignment.estimate.motion.mean;
-    const Eigen::Isometry3d T_cur_world = fromWorld(scene, motion.T_prev_cur);
+    const Eigen::Isometry3d T_cur_world = scene.track.fromWorld(motion.T_prev_cur);
     for (const Reference* reference : scene.track.references())
     {
         alignment.numSought +=

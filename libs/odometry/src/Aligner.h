@@ -57,8 +57,6 @@ class Aligner
     void settleRivals(const Scene& scene, Alignment& alignment) const;
     void distrustPoints(const Scene& scene, Alignment& alignment) const;
     void searchImages(const Scene& scene, Alignment& best) const;
-    [[nodiscard]] static Eigen::Isometry3d fromWorld(
-        const Scene& scene, const Eigen::Isometry3d& T_prev_cur);
     [[nodiscard]] static std::vector<Association> associate(
         const Scene& scene, const Eigen::Isometry3d& T_prev_cur, double radiusFactor);
     void estimate(

@@ -120,13 +120,18 @@ PointReference FrontEnd::pointReference(const Features& features, const RgbdFram
     {
         return {};
     }
-    RgbdFrame seen = part;
+    return pointStage_.makeReference(withoutMarks(part), features.points);
+}
+
+RgbdFrame FrontEnd::withoutMarks(const RgbdFrame& frame) const
+{
+    RgbdFrame out = frame;
     if (!marks_.mask().empty())
     {
-        seen.depth = part.depth.clone();
-        seen.depth.setTo(std::numeric_limits<float>::quiet_NaN(), marks_.mask());
+        out.depth = frame.depth.clone();
+        out.depth.setTo(std::numeric_limits<float>::quiet_NaN(), marks_.mask());
     }
-    return pointStage_.makeReference(seen, features.points);
+    return out;
 }
 
 std::string FrontEnd::whyNoPoint(const RgbdFrame& frame) const
@@ -178,7 +183,7 @@ MatchedPoints FrontEnd::matchImages(const Reference& reference, const Features& 
     {
         if (!points)
         {
-            points = imageAligner_.describe(frame);
+            points = imageAligner_.describe(withoutMarks(frame));
         }
         return std::cref(*points);
     };

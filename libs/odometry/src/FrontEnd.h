@@ -87,6 +87,9 @@ class FrontEnd
     }
 
  private:
+    /** A frame without depth where marks are: no point is taken there. */
+    [[nodiscard]] RgbdFrame withoutMarks(const RgbdFrame& frame) const;
+
     /** Parts of the view that move with the camera tell nothing of its motion. */
     void leaveOutAttached(RgbdFrame& frame, FrameDiagnostics& diagnostics);
 

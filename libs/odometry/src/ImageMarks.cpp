@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ImageMarks.h"
 
+#include <pointplane/core/quantile.h>
+#include <pointplane/core/se3.h>
+
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <utility>
@@ -19,11 +23,11 @@ constexpr double kStill_px = 0.3;
 constexpr double kMoved_px = 1;
 
 /** Fewer points than this are wrong matches, and fewer that change lie at edges of depth. */
-constexpr int kLeastPoints = 20;
+constexpr size_t kLeastPoints = 20;
 constexpr size_t kLeastChanged = 10;
 
-/** Depth has changed if it differs by more than three standard deviations. */
-constexpr double kChanged2 = 9;
+/** By more standard deviations than this, something has changed. */
+constexpr double kSigmas = 3;
 
 /** Before a camera that stands, noise changes the depth of three points in a thousand, and what
  * moves covers the points behind it. */
@@ -39,15 +43,14 @@ bool stands(const PointFeature& ref, const PointFeature& cur)
     return (cur.uv_px - ref.uv_px).norm() < kStill_px;
 }
 
-/** Of the depth, or 0 if that is not more than noise. */
-double relativeChange(const PointFeature& ref, const PointFeature& cur)
+/** A point that stands in the image, and the depth behind it. */
+struct StandingPoint
 {
-    const double difference = cur.p_cam.mean.z() - ref.p_cam.mean.z();
-    const double variance = cur.p_cam.cov(2, 2) + ref.p_cam.cov(2, 2);
-    return difference * difference > kChanged2 * variance
-               ? std::abs(difference) / ref.p_cam.mean.z()
-               : 0;
-}
+    Eigen::Vector2d uv_px;
+    double z;       //!< before [m]
+    double change;  //!< of the depth [m]
+    double sigma;   //!< of the change [m]
+};
 
 /** How far points would have moved that stand where the camera goes to, or on the axis that it
  * circles: by as much of their distance from there as their depth has changed.
@@ -67,37 +70,88 @@ double expectedFlow_px(
     return n > 0 ? std::sqrt(std::max(0.0, sum2 / n - (sum / n).squaredNorm())) * change / n : 0;
 }
 
+/** Of the place of a point, by the uncertainty of the pose, at most [px]. */
+double sigma_px(const Eigen::Vector3d& p_cur, const Matrix6d& cov, const PinholeCamera& camera)
+{
+    Eigen::Matrix<double, 3, 6> dPoint_dPose;
+    dPoint_dPose << Eigen::Matrix3d::Identity(), -hat(p_cur);
+    const double variance = (dPoint_dPose * cov * dPoint_dPose.transpose()).trace();
+    return std::max(camera.fx, camera.fy) / p_cur.z() * std::sqrt(variance);
+}
+
+/** Whether depth has changed at enough points, by other than factor z^power. */
+bool hasChanged(const std::vector<StandingPoint>& points, double factor, int power)
+{
+    std::vector<Eigen::Vector2d> places_px;
+    std::vector<double> changes;
+    for (const StandingPoint& point : points)
+    {
+        const double change = point.change - factor * std::pow(point.z, power);
+        if (std::abs(change) > kSigmas * point.sigma)
+        {
+            places_px.push_back(point.uv_px);
+            changes.push_back(std::abs(change) / point.z);
+        }
+    }
+    return changes.size() >= kLeastChanged &&
+           static_cast<double>(changes.size()) >=
+               kLeastShare * static_cast<double>(points.size()) &&
+           expectedFlow_px(places_px, changes) > kMoved_px;
+}
+
+/** Depth that is measured before a resting camera can change all over the image: by an offset, as
+ * time of flight does, in scale, or by an offset of the disparity.
+ * \param power 0, 1 or 2 \return the median change, per z^power */
+double commonFactor(const std::vector<StandingPoint>& points, int power)
+{
+    std::vector<double> factors(points.size());
+    std::transform(
+        points.begin(),
+        points.end(),
+        factors.begin(),
+        [&](const StandingPoint& point) { return point.change / std::pow(point.z, power); });
+    return median(std::move(factors));
+}
+
 /** What the points that stand in the image tell. */
 enum class Still
 {
-    Nothing,  //!< they are few
+    Nothing,  //!< they are few, or depth has changed all over the image
     Scene,    //!< the depth behind them stays
-    Marks     //!< the depth behind many of them has changed
+    Marks     //!< the depth behind many of them has changed otherwise
 };
 
 Still still(const Association& association)
 {
-    int numStill = 0;
-    std::vector<Eigen::Vector2d> places_px;
-    std::vector<double> changes;
+    std::vector<StandingPoint> points;
     for (const PointTrack& track : association.points)
     {
         const PointFeature& ref = pointOf(association, track);
-        if (!ref.hasDepth || !track.cur.hasDepth || !stands(ref, track.cur))
+        const PointFeature& cur = track.cur;
+        if (ref.hasDepth && cur.hasDepth && stands(ref, cur))
         {
-            continue;
-        }
-        ++numStill;
-        if (const double change = relativeChange(ref, track.cur); change > 0)
-        {
-            places_px.push_back(ref.uv_px);
-            changes.push_back(change);
+            const double z = ref.p_cam.mean.z();
+            points.push_back(
+                {ref.uv_px,
+                 z,
+                 cur.p_cam.mean.z() - z,
+                 std::sqrt(cur.p_cam.cov(2, 2) + ref.p_cam.cov(2, 2))});
         }
     }
-    const bool haveChanged = changes.size() >= kLeastChanged &&
-                             static_cast<double>(changes.size()) >= kLeastShare * numStill &&
-                             expectedFlow_px(places_px, changes) > kMoved_px;
-    return numStill < kLeastPoints ? Still::Nothing : haveChanged ? Still::Marks : Still::Scene;
+    if (points.size() < kLeastPoints)
+    {
+        return Still::Nothing;
+    }
+    if (!hasChanged(points, 0, 0))
+    {
+        return Still::Scene;
+    }
+    const std::array<int, 3> powers{0, 1, 2};
+    const bool isOfSensor = std::any_of(
+        powers.begin(),
+        powers.end(),
+        [&](int power) { return !hasChanged(points, commonFactor(points, power), power); });
+    return isOfSensor ? Still::Nothing : Still::Marks;
 }
 }  // namespace
 
@@ -168,22 +222,32 @@ bool ImageMarks::learn(
 void ImageMarks::learn(
     const std::vector<Association>& associations,
     const PinholeCamera& camera,
-    const Eigen::Isometry3d& T_cur_world)
+    const PoseGaussian& T_cur_world)
 {
     for (const Association& association : associations)
     {
-        const Eigen::Isometry3d T_cur_ref = T_cur_world * association.reference->T_world_cam;
+        const Eigen::Isometry3d T_cur_ref = T_cur_world.mean * association.reference->T_world_cam;
         for (const PointTrack& track : association.doubtedPoints)
         {
             const PointFeature& ref = pointOf(association, track);
             const Eigen::Vector3d p_cur = T_cur_ref * ref.p_cam.mean;
             if (areKnown_ && stands(ref, track.cur) && p_cur.z() > 0 &&
-                (camera.project(p_cur) - ref.uv_px).norm() > kMoved_px)
+                (camera.project(p_cur) - ref.uv_px).norm() >
+                    kMoved_px + kSigmas * sigma_px(p_cur, T_cur_world.cov, camera))
             {
                 add(track.cur.uv_px, camera);
             }
         }
     }
+}
+
+std::string ImageMarks::whyNoPoint(const std::vector<Association>& associations) const
+{
+    const bool leavesOut = std::any_of(
+        associations.begin(),
+        associations.end(),
+        [](const Association& association) { return !association.doubtedPoints.empty(); });
+    return areKnown_ && leavesOut ? "all points that it finds again may be fixed to the image" : "";
 }
 
 void ImageMarks::forget()

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pointplane/core/PoseGaussian.h>
 #include <pointplane/odometry/Reference.h>
 #include <pointplane/sensor/PinholeCamera.h>
 
 #include <Eigen/Geometry>
 #include <opencv2/core/mat.hpp>
 
+#include <string>
 #include <vector>
 
 namespace pointplane
@@ -24,10 +26,11 @@ struct Mark
 /** Finds what is fixed to the colour image, like text, spots that the camera projects, or dirt on
  * the lens. Its corners say that the camera stands (docs/theory.md, "Marks in the images").
  *
- * What a standing camera sees keeps its place in the image, and its depth. Marks keep their place
- * while the depth behind them changes. In one frame that may be depth that jumped. In a second one,
- * if no frame between shows the depth as it was, it is marks. From then on, points that stand in
- * the image do not count. */
+ * What a standing camera sees keeps its place in the image, and its depth, but for changes of the
+ * sensor over the whole image. Marks keep their place while the depth behind them changes
+ * otherwise. In one frame that may be depth that is wrong. In a second one, if no frame between
+ * shows the depth as it was, it is marks. From then on, points that stand in the image do not
+ * count. */
 class ImageMarks
 {
  public:
@@ -51,11 +54,14 @@ class ImageMarks
         const PinholeCamera& camera);
 
     /** Learns from the motion of a frame, which was measured without the points that stand: those
-     * that it should have moved are marks. \param T_cur_world of the frame */
+     * that it should have moved, surely, are marks. */
     void learn(
         const std::vector<Association>& associations,
         const PinholeCamera& camera,
-        const Eigen::Isometry3d& T_cur_world);
+        const PoseGaussian& T_cur_world);
+
+    /** Why no point counts, or empty. */
+    [[nodiscard]] std::string whyNoPoint(const std::vector<Association>& associations) const;
 
     /** For another camera. */
     void forget();

@@ -146,6 +146,7 @@ void Odometry::Impl::place(const RgbdFrame& frame, OdometryResult& result)
     if (alignment.problem.points.empty())
     {
         addReason(frontEnd.whyNoPoint(frame), result);
+        addReason(frontEnd.marks().whyNoPoint(alignment.associations), result);
     }
     addReason(whyNoDepth(frame, current), result);
 }
@@ -247,7 +248,7 @@ void Odometry::Impl::measure(const Features& current, Alignment& alignment, Odom
         frontEnd.marks().learn(
             alignment.associations,
             current.frame.camera,
-            motion.mean.T_prev_cur.inverse() * track.previous().T_world_cam.inverse());
+            {track.fromWorld(motion.mean.T_prev_cur), inverse(motion.pose()).cov});
     }
     const PoseAnalysis analysis = analyse(current, alignment);
     const JointCovariance::Measurement measurement = errors.learn(

@@ -44,6 +44,12 @@ class Track
     /** \pre !isEmpty() */
     [[nodiscard]] const Reference& previous() const { return window_.previous(); }
 
+    /** T_cur_world of a frame by its motion since the previous one. \pre !isEmpty() */
+    [[nodiscard]] Eigen::Isometry3d fromWorld(const Eigen::Isometry3d& T_prev_cur) const
+    {
+        return T_prev_cur.inverse() * previous().T_world_cam.inverse();
+    }
+
     /** The previous frame first, then the key frames, newest first. */
     [[nodiscard]] std::vector<const Reference*> references() const { return window_.active(); }
 

@@ -87,7 +87,7 @@ enum class FeatureUse
 {
     Used,      //!< found again, and the pose follows it: robust weight above 1/2, of a plane over
                //!< that of the best plane
-    Doubted,   //!< found again, but it agrees badly with the others: the weight is lower
+    Doubted,   //!< found again, but it counts for little or nothing
     Rejected,  //!< found again, but it contradicts the others, or the frame was not tracked
     New        //!< not compared with an earlier frame
 };
