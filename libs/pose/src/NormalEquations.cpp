@@ -3,68 +3,25 @@
 
 #include <pointplane/pose/median_variance.h>
 
-#include <Eigen/LU>
-
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <utility>
 
 namespace pointplane
 {
-namespace
-{
-/** Sigma of unweighted residuals; sets only the balance with the prior. */
-constexpr double kUnweightedSigma = 0.01;
-
-double tukeyWeight(double squaredNorm, double limit)
-{
-    const double u = squaredNorm / (limit * limit);
-    return u < 1 ? (1 - u) * (1 - u) : 0;
-}
-
-double tukeyCost(double squaredNorm, double limit)
-{
-    const double u = std::min(1.0, squaredNorm / (limit * limit));
-    return limit * limit / 3 * (1 - (1 - u) * (1 - u) * (1 - u));
-}
-
-/** Of a point or a plane in both views. */
-bool isFinite(
-    const Eigen::Vector3d& ref,
-    const Eigen::Matrix3d& refCov,
-    const Eigen::Vector3d& cur,
-    const Eigen::Matrix3d& curCov)
-{
-    return ref.allFinite() && cur.allFinite() && refCov.allFinite() && curCov.allFinite();
-}
-}  // namespace
-
 NormalEquations::NormalEquations(const PoseSolver::Settings& solver, const PoseProblem& problem)
-    : solver_(solver),
-      points_(problem.points),
-      planes_(problem.planes),
-      noise_(problem.noise),
-      earlier_(problem.surfaces)
+    : solver_(solver), pairs_(solver, problem), noise_(problem.noise), earlier_(problem.surfaces)
 {
-    for (const PointPair& pair : points_)
-    {
-        isUsable_.push_back(isFinite(pair.ref.mean, pair.ref.cov, pair.cur.mean, pair.cur.cov));
-    }
-    for (const PlanePair& pair : planes_)
-    {
-        isUsable_.push_back(
-            isFinite(pair.ref.theta_m, pair.ref.cov_m, pair.cur.theta_m, pair.cur.cov_m));
-    }
 }
 
 void NormalEquations::evaluate(const Motion& motion, double widening)
 {
     residuals_.clear();
-    for (size_t i = 0; i < points_.size() + planes_.size(); ++i)
+    for (size_t i = 0; i < pairs_.size(); ++i)
     {
-        residuals_.push_back(weighted(i, motion));
+        residuals_.push_back(pairs_.at(i, motion));
     }
-    if (!points_.empty())
+    if (pairs_.numPoints() > 0)
     {
         // Below one only by chance or by a pessimistic noise model: never tighten the gate for it.
         const double least = solver_.weighting == PoseSolver::Weighting::None ? 0.1 : 1.0;
@@ -75,16 +32,16 @@ void NormalEquations::evaluate(const Motion& motion, double widening)
     planeSum_ = {};
     for (size_t i = 0; i < residuals_.size(); ++i)
     {
-        add(isPoint(i) ? pointSum_ : planeSum_, i);
+        add(pairs_.isPoint(i) ? pointSum_ : planeSum_, i);
     }
 }
 
 double NormalEquations::costAt(const Motion& motion) const
 {
     double cost = 0;
-    for (size_t i = 0; i < points_.size() + planes_.size(); ++i)
+    for (size_t i = 0; i < pairs_.size(); ++i)
     {
-        cost += gain(i) * robust(i, weighted(i, motion).squaredNorm).second;
+        cost += gain(i) * robust(i, pairs_.at(i, motion).squaredNorm).cost;
     }
     return cost;
 }
@@ -101,59 +58,22 @@ Matrix312d NormalEquations::jacobian(size_t i) const
     return J;
 }
 
-NormalEquations::Weighted NormalEquations::weighted(size_t i, const Motion& motion) const
+/** Of a squared Mahalanobis norm [P17, after Eq. 10]. */
+RobustCost NormalEquations::robust(size_t i, double squaredNorm) const
 {
-    Weighted out;
-    if (!isUsable_[i])
-    {
-        out.squaredNorm = std::numeric_limits<double>::infinity();
-        return out;
-    }
-    if (isPoint(i))
-    {
-        out.residual = pointResidual(points_[i], motion);
-    }
-    else
-    {
-        const PlanePair& pair = planes_[i - points_.size()];
-        out.residual = solver_.planeResidual == PoseSolver::PlaneResidual::Minimal
-                           ? planeResidualMinimal(pair, motion)
-                           : planeResidualClosestPoint(pair, motion);
-    }
-    const Residual& residual = out.residual;
-    if (solver_.weighting == PoseSolver::Weighting::Full)
-    {
-        out.W = residual.cov.inverse();
-    }
-    else if (solver_.weighting == PoseSolver::Weighting::Diagonal)
-    {
-        out.W = residual.cov.diagonal().cwiseInverse().asDiagonal();  // [P17, after Eq. 10]
-    }
-    else
-    {
-        out.W =
-            Eigen::Matrix3d::Identity() / (kUnweightedSigma * kUnweightedSigma);  // [P17, Table 1]
-    }
-    out.squaredNorm = residual.r.dot(out.W * residual.r);
-    return out;
-}
-
-/** Weight and cost of a squared Mahalanobis norm [P17, after Eq. 10]. */
-std::pair<double, double> NormalEquations::robust(size_t i, double squaredNorm) const
-{
-    if (!isUsable_[i])
+    if (!isUsable(i))
     {
         return {0, 0};
     }
     const double limit = solver_.params.tukeySigmas * scale_;
     const double dof = solver_.params.planeStudentDof;
-    if (isPoint(i) && limit > 0)
+    if (pairs_.isPoint(i) && limit > 0)
     {
-        return {tukeyWeight(squaredNorm, limit), tukeyCost(squaredNorm, limit)};
+        return tukey(squaredNorm, limit);
     }
-    if (!isPoint(i) && dof > 0)
+    if (!pairs_.isPoint(i) && dof > 0)
     {
-        return {(dof + 3) / (dof + squaredNorm), (dof + 3) * std::log1p(squaredNorm / dof)};
+        return student(squaredNorm, dof);
     }
     return {1, squaredNorm};
 }
@@ -161,9 +81,9 @@ std::pair<double, double> NormalEquations::robust(size_t i, double squaredNorm) 
 void NormalEquations::countInliers()
 {
     surfaces_ = earlier_;
-    for (size_t i = 0; i < points_.size(); ++i)
+    for (size_t i = 0; i < pairs_.numPoints(); ++i)
     {
-        if (const size_t surface = surfaceOf(i); surface < surfaces_.size())
+        if (const size_t surface = pairs_.surfaceOf(i); surface < surfaces_.size())
         {
             surfaces_[surface].points += 1;
             surfaces_[surface].inliers += weight(i);
@@ -171,49 +91,37 @@ void NormalEquations::countInliers()
     }
 }
 
-/** Index into surfaces(); beyond its end for a pair on none of them. */
-size_t NormalEquations::surfaceOf(size_t i) const
-{
-    return static_cast<size_t>(
-        isPoint(i) ? points_[i].surface : planes_[i - points_.size()].feature);
-}
-
 double NormalEquations::ofSurface(size_t i) const
 {
-    const size_t surface = surfaceOf(i);
+    const size_t surface = pairs_.surfaceOf(i);
     return surface < surfaces_.size() ? surfaces_[surface].value() : 1;
 }
 
 double NormalEquations::gain(size_t i) const
 {
-    const double g = isPoint(i) ? 1 / noise_.points : solver_.params.alpha / noise_.planes;
+    const double g = pairs_.isPoint(i) ? 1 / noise_.points : solver_.params.alpha / noise_.planes;
     return ofSurface(i) * g;  // [P17 Eq. 10]
-}
-
-int NormalEquations::dof(size_t i) const
-{
-    return isPoint(i) ? points_[i].dof() : PlanePair::dof();
 }
 
 /** Squared norm over the median of those of its kind. */
 double NormalEquations::relativeNorm(size_t i) const
 {
-    return residuals_[i].squaredNorm / medianChi2(dof(i));
+    return residuals_[i].squaredNorm / medianChi2(pairs_.dof(i));
 }
 
 void NormalEquations::add(FeatureSum& sum, size_t i) const
 {
-    if (!isUsable_[i])
+    if (!isUsable(i))
     {
         return;
     }
     const auto& [residual, W, squaredNorm] = residuals_[i];
     const auto [w, cost] = robust(i, squaredNorm);
-    const double noise = isPoint(i) ? noise_.points : noise_.planes;
+    const double noise = pairs_.isPoint(i) ? noise_.points : noise_.planes;
     const double g = gain(i);
     sum.cost += g * cost;
     sum.weightedChi2 += w * squaredNorm;
-    sum.dof += w * dof(i);
+    sum.dof += w * pairs_.dof(i);
     sum.numInliers += w > 0.5 ? 1 : 0;
     if (w > 0)
     {
@@ -240,7 +148,7 @@ PairNorms NormalEquations::norms() const
     PairNorms out;
     for (size_t i = 0; i < residuals_.size(); ++i)
     {
-        (isPoint(i) ? out.points : out.planes).push_back(residuals_[i].squaredNorm);
+        (pairs_.isPoint(i) ? out.points : out.planes).push_back(residuals_[i].squaredNorm);
     }
     return out;
 }
@@ -267,14 +175,14 @@ double NormalEquations::robustVariance() const
 {
     if (solver_.weighting != PoseSolver::Weighting::Full)
     {
-        return medianOf(0, points_.size(), [&](size_t i) { return isUsable(i); });
+        return medianOf(0, pairs_.numPoints(), [&](size_t i) { return isUsable(i); });
     }
     std::vector<std::pair<double, double>> normsAndSurfaces;
-    for (size_t i = 0; i < points_.size(); ++i)
+    for (size_t i = 0; i < pairs_.numPoints(); ++i)
     {
-        if (isUsable_[i])
+        if (isUsable(i))
         {
-            const double z = points_[i].cur.mean.z();
+            const double z = pairs_.point(i).cur.mean.z();
             normsAndSurfaces.emplace_back(relativeNorm(i), z * z);
         }
     }
@@ -283,13 +191,13 @@ double NormalEquations::robustVariance() const
 
 double NormalEquations::planeVariance() const
 {
-    return medianOf(points_.size(), residuals_.size(), [&](size_t i) { return isUsable(i); });
+    return medianOf(pairs_.numPoints(), residuals_.size(), [&](size_t i) { return isUsable(i); });
 }
 
 /** What moves has residuals of its own. */
 double NormalEquations::pointVariance() const
 {
-    return medianOf(0, points_.size(), [&](size_t i) { return weight(i) > 0; });
+    return medianOf(0, pairs_.numPoints(), [&](size_t i) { return weight(i) > 0; });
 }
 
 std::vector<double> NormalEquations::weights(size_t begin, size_t end) const
@@ -302,10 +210,10 @@ std::vector<double> NormalEquations::weights(size_t begin, size_t end) const
     return out;
 }
 
-std::vector<double> NormalEquations::pointWeights() const { return weights(0, points_.size()); }
+std::vector<double> NormalEquations::pointWeights() const { return weights(0, pairs_.numPoints()); }
 
 std::vector<double> NormalEquations::planeWeights() const
 {
-    return weights(points_.size(), residuals_.size());
+    return weights(pairs_.numPoints(), residuals_.size());
 }
 }  // namespace pointplane

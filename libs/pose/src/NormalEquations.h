@@ -2,10 +2,11 @@
 #pragma once
 
 #include <pointplane/pose/PoseSolver.h>
-#include <pointplane/pose/residuals.h>
 
-#include <utility>
 #include <vector>
+
+#include "PairResiduals.h"
+#include "robust_cost.h"
 
 namespace pointplane
 {
@@ -25,8 +26,8 @@ struct FeatureSum
 using Matrix312d = Eigen::Matrix<double, 3, 12>;
 using Matrix123d = Eigen::Matrix<double, 12, 3>;
 
-/** All residuals of a problem's pairs at a motion: those of the points, then those of the planes.
- * Pairs that are not finite count for nothing. */
+/** Sums over all pairs of a problem at a motion. Pairs are numbered as in PairResiduals. Those that
+ * are not finite count for nothing. */
 class NormalEquations
 {
  public:
@@ -54,7 +55,7 @@ class NormalEquations
     [[nodiscard]] PairNorms norms() const;
 
     /** Whether a pair can count. */
-    [[nodiscard]] bool isUsable(size_t i) const { return isUsable_[i]; }
+    [[nodiscard]] bool isUsable(size_t i) const { return pairs_.isUsable(i); }
 
     /** Squared Mahalanobis norm of a residual, over the median of chi-square. */
     [[nodiscard]] double relativeNorm(size_t i) const;
@@ -69,7 +70,7 @@ class NormalEquations
     /** By the M-estimator. */
     [[nodiscard]] double weight(size_t i) const
     {
-        return robust(i, residuals_[i].squaredNorm).first;
+        return robust(i, residuals_[i].squaredNorm).weight;
     }
 
     /** How far the surface that it is on agrees with the motion, in (0, 1]. */
@@ -89,34 +90,19 @@ class NormalEquations
     [[nodiscard]] Matrix123d influence(size_t i) const;
 
  private:
-    /** A residual, the weight matrix that it is given, and its squared norm by that. Of a pair that
-     * is not usable: zero, and infinity. */
-    struct Weighted
-    {
-        Residual residual;
-        Eigen::Matrix3d W{Eigen::Matrix3d::Zero()};
-        double squaredNorm{0};
-    };
-
-    [[nodiscard]] Weighted weighted(size_t i, const Motion& motion) const;
     void countInliers();
-    [[nodiscard]] size_t surfaceOf(size_t i) const;
-    [[nodiscard]] bool isPoint(size_t i) const { return i < points_.size(); }
-    [[nodiscard]] std::pair<double, double> robust(size_t i, double squaredNorm) const;
-    [[nodiscard]] int dof(size_t i) const;
+    [[nodiscard]] RobustCost robust(size_t i, double squaredNorm) const;
     [[nodiscard]] double robustVariance() const;
     template <class IsChosen>
     [[nodiscard]] double medianOf(size_t begin, size_t end, const IsChosen& isChosen) const;
     [[nodiscard]] std::vector<double> weights(size_t begin, size_t end) const;
 
     const PoseSolver::Settings& solver_;
-    const std::vector<PointPair>& points_;
-    const std::vector<PlanePair>& planes_;
+    PairResiduals pairs_;
     NoiseFactors noise_;
     const std::vector<InlierRatio>& earlier_;
     std::vector<InlierRatio> surfaces_;
-    std::vector<bool> isUsable_;
-    std::vector<Weighted> residuals_;  //!< of the points, then of the planes
+    std::vector<WeightedResidual> residuals_;
     double scale_{1};
     FeatureSum pointSum_, planeSum_;
 };
