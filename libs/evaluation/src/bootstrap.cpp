@@ -11,8 +11,6 @@ namespace pointplane
 {
 namespace
 {
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
 double rmse(const std::vector<double>& errors)
 {
     double squares = 0;
@@ -63,6 +61,7 @@ BootstrapInterval interval(
     POINTPLANE_CHECK(n >= 2, "a bootstrap of " << n << " values");
     POINTPLANE_CHECK(options.resamples >= 2, "a bootstrap of " << options.resamples << " samples");
     const std::size_t length = std::clamp<std::size_t>(options.blockLength, 1, n);
+    constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
     BootstrapInterval out{value, kNaN, kNaN, n / length};
     if (!out.isKnown())
     {

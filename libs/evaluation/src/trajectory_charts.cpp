@@ -4,7 +4,6 @@
 #include <pointplane/evaluation/units.h>
 
 #include <cmath>
-#include <limits>
 
 #include "chart_holes.h"
 
@@ -12,7 +11,6 @@ namespace pointplane
 {
 namespace
 {
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* kGrey = "muted";
 constexpr const char* kOrange = "accent";
 constexpr const char* kRed = "alarm";
@@ -24,8 +22,9 @@ ChartSeries levels(
     ChartSeries series{name, {}, {}, ChartSeries::Style::Dashed, false, colour};
     for (const double value : values)
     {
-        series.x.insert(series.x.end(), {0, end, end});
-        series.y.insert(series.y.end(), {value, value, kNaN});
+        series.x.insert(series.x.end(), {0, end});
+        series.y.insert(series.y.end(), {value, value});
+        interrupt(series);
     }
     return series;
 }
