@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/pose/PoseSolver.h>
 
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -112,5 +113,26 @@ TEST(Scatter, fewPartsTellNothing)
     EXPECT_EQ(scatterOf(test::atRest({}, w.drawPlanes(), {}, prior)), 0);
     w.addPlanes(1);
     EXPECT_GT(scatterOf(test::atRest({}, w.drawPlanes(), {}, prior)), 0);
+}
+
+/** With it there would be seven parts, which tell something. */
+TEST(Scatter, pairsThatAreNotFiniteAreNoParts)
+{
+    test::PairWorld w = test::moved(96, 1, 6);
+    const std::vector<PlanePair> six = w.drawPlanes();
+    const std::vector<PointPair> good = w.drawPoints();
+    EXPECT_EQ(scatterOf(test::atRest({}, six)), 0);
+    EXPECT_GT(scatterOf(test::atRest(good, six)), 0);
+    for (const double bad :
+         {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
+    {
+        std::vector<PointPair> point = good;
+        point.front().cur.mean.z() = bad;
+        EXPECT_EQ(scatterOf(test::atRest(point, six)), 0) << "a point with " << bad;
+        std::vector<PlanePair> planes = six;
+        planes.push_back(six.front());
+        planes.back().cur.theta_m.z() = bad;
+        EXPECT_EQ(scatterOf(test::atRest({}, planes)), 0) << "a plane with " << bad;
+    }
 }
 }  // namespace pointplane

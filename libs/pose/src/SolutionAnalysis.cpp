@@ -65,11 +65,17 @@ double scatterOf(const Solution& at, const Sensitivity& of)
     };
     for (size_t i = 0; i < at.problem.points.size(); ++i)
     {
-        add(cells, viewCell(at.problem.points[i].cur.mean, kCell), i);
+        if (at.equations.isUsable(i))
+        {
+            add(cells, viewCell(at.problem.points[i].cur.mean, kCell), i);
+        }
     }
     for (const auto& [plane, i] : sortedByFeature(at.problem.planes))
     {
-        add(planes, plane, at.problem.points.size() + i);
+        if (const size_t pair = at.problem.points.size() + i; at.equations.isUsable(pair))
+        {
+            add(planes, plane, pair);
+        }
     }
     Matrix12d scores = Matrix12d::Zero();
     const auto addSquares = [&](const auto& parts)
