@@ -47,7 +47,7 @@ CameraCalibrator calibratorOf(
     const PinholeCamera& camera, const CameraCalibrator::TShutter& params = shutter())
 {
     CameraCalibrator out(params, {});
-    out.start(camera);
+    out.start(camera, calibrationVariances({}, camera));
     return out;
 }
 
@@ -114,9 +114,9 @@ struct DeskRun
     LearntLens lens;
 };
 
-/** Runs over a desk, seen by a camera that nobody calibrated. Motions count from the middle on.
- * \param told what is told of the camera's focal length, over the true one */
-DeskRun runDesk(double told, bool learns, unsigned seed = 31)
+/** Runs over a desk, seen by a camera that nobody calibrated, or wrongly. Motions count from the
+ * middle on. \param told what is told of the camera's focal length, over the true one */
+DeskRun runDesk(double told, bool learns, unsigned seed = 31, bool isNominal = true)
 {
     constexpr int kInterval = 30;
     SimulationParams simulation;
@@ -125,7 +125,7 @@ DeskRun runDesk(double told, bool learns, unsigned seed = 31)
     simulation.duration = 4;
     const SimulatedSequence sequence("desk", simulation, seed);
     OdometryParams params;
-    params.lens.nominal = true;
+    params.lens.nominal = isNominal;
     params.lens.selfCalibrate = learns;
     params.covariance.history = kInterval;
     Odometry odometry(params);
@@ -328,10 +328,12 @@ TEST(CameraCalibrator, lensAndShutterAreToldByDifferentResiduals)
 TEST(CameraCalibrator, aCalibrationIsBelieved)
 {
     CameraInformation said = asMuchAsBefore();
-    said.gradient.setConstant(1e3);
+    said.gradient.setConstant(1e-2);
     CameraCalibrator::TShutter known = shutter();
     known.selfCalibrate = false;
-    CameraCalibrator calibrator = calibratorOf({}, known);
+    PinholeCamera calibrated = nominal();
+    calibrated.isNominal = false;
+    CameraCalibrator calibrator = calibratorOf(calibrated, known);
     const CameraCalibrator::Change change = calibrator.update(frameOf(said));
     EXPECT_EQ(calibrator.errors(), CameraVector::Zero().eval());
     EXPECT_EQ(change.gain, CameraMatrix::Identity().eval());
@@ -362,7 +364,7 @@ TEST(CameraCalibrator, anotherCameraStartsAnew)
     (void)calibrator.update(frameOf(said));
     EXPECT_GT(calibrator.lens().errors[2], 0);
     EXPECT_GT(calibrator.complete({}).depthDelay, -0.003);
-    calibrator.start(nominal());
+    calibrator.start(nominal(), calibrationVariances({}, nominal()));
     EXPECT_EQ(calibrator.errors(), CameraVector::Zero().eval());
     EXPECT_EQ(calibrator.cov(), calibratorOf(nominal()).cov());
     EXPECT_NEAR(calibrator.lens().sigmas[2], 0.02, 1e-12);
@@ -373,7 +375,7 @@ TEST(CameraCalibrator, aLensCanBeTakenAsTold)
     CameraInformation said = asMuchAsBefore();
     said.gradient.setOnes();
     CameraCalibrator calibrator(shutter(), {false, false});
-    calibrator.start(nominal());
+    calibrator.start(nominal(), calibrationVariances({}, nominal()));
     const CameraMatrix gain = calibrator.update(frameOf(said), 0.01).gain;
     EXPECT_EQ((gain.topLeftCorner<6, 6>()), (Eigen::Matrix<double, 6, 6>::Identity()));
     EXPECT_TRUE(calibrator.errors().head<6>().isZero(0));
@@ -521,6 +523,22 @@ TEST(CameraCalibrator, findsTheFocalLength)
     EXPECT_NEAR(learnt.lens.errors[2], 1 / 0.97 - 1, 3 * learnt.lens.sigmas[2]);
     EXPECT_LT(learnt.lens.sigmas[2], 0.005);
     EXPECT_LT(learnt.nees, 3);
+}
+
+/** Its focal length is told six per cent too short. */
+TEST(CameraCalibrator, aCalibrationThatDoesNotFitIsTakenForNominal)
+{
+    const DeskRun given = runDesk(0.94, false, 31, false);
+    EXPECT_FALSE(given.lens.isContradicted);
+    const DeskRun learnt = runDesk(0.94, true, 31, false);
+    EXPECT_TRUE(learnt.lens.isContradicted);
+    EXPECT_LT(learnt.error, given.error / 2);
+    EXPECT_NEAR(learnt.lens.errors[2], 1 / 0.94 - 1, 3 * learnt.lens.sigmas[2]);
+    EXPECT_LT(learnt.nees, 3);
+    EXPECT_GT(given.nees, 10);
+    const DeskRun right = runDesk(1, true, 31, false);
+    EXPECT_FALSE(right.lens.isContradicted);
+    EXPECT_EQ(describe(right.lens), "");
 }
 
 /** Noise must not make a lens seem wrong that is right: residuals are shorter with a longer focal

@@ -3,6 +3,7 @@
 #include <pointplane/odometry/PairBuilder.h>
 #include <pointplane/odometry/ShutterCorrection.h>
 #include <pointplane/odometry/uncertainty/CameraCalibrator.h>
+#include <pointplane/odometry/uncertainty/camera_errors.h>
 
 #include <vector>
 
@@ -26,7 +27,7 @@ class PairBuilderTest : public testing::Test
         camera.fx = camera.fy = 525;
         camera.cx = 319.5;
         camera.cy = 239.5;
-        calibrator.start(camera);
+        calibrator.start(camera, calibrationVariances({}, camera));
         current.frame.shutter = reference.shutter = {0.03, 0.03, 0};
         PointFeature point;
         point.uv_px = {400, 100};

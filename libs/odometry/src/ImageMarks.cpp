@@ -76,7 +76,7 @@ double sigma_px(const Eigen::Vector3d& p_cur, const Matrix6d& cov, const Pinhole
     Eigen::Matrix<double, 3, 6> dPoint_dPose;
     dPoint_dPose << Eigen::Matrix3d::Identity(), -hat(p_cur);
     const double variance = (dPoint_dPose * cov * dPoint_dPose.transpose()).trace();
-    return std::max(camera.fx, camera.fy) / p_cur.z() * std::sqrt(variance);
+    return std::max(camera.fx, camera.fy) / p_cur.z() * std::sqrt(std::max(0.0, variance));
 }
 
 /** Whether depth has changed at enough points, by other than factor z^power. */

@@ -15,6 +15,8 @@ namespace pointplane
 {
 namespace
 {
+constexpr int kNumLensErrors = kDepthScale - kPrincipalPointX;
+
 constexpr double kMaxTime = 0.05;  //!< no camera is slower [s]
 
 /** So many standard deviations tell the sign of a readout. */
@@ -69,9 +71,11 @@ CameraCalibrator::CameraCalibrator(const TShutter& shutter, const TLens& lens)
     shutter_.check();
 }
 
-void CameraCalibrator::start(const PinholeCamera& camera)
+void CameraCalibrator::start(const PinholeCamera& camera, const CameraVector& calibration)
 {
     camera_ = camera;
+    check_.start(camera, calibration);
+    isContradicted_ = false;
     knowsDirection_ = isDirectionTold();
     prior_ = priorVariances(0);
     cov_ = prior_.asDiagonal();
@@ -130,6 +134,7 @@ CameraCalibrator::Change CameraCalibrator::update(
     add(frame.cameraByReference, kPrincipalPointX, kDepthScale);
     add(frame.camera, kReadoutColour, kNumCameraErrors);
 
+    checkCalibration(learnt);
     Change out;
     const CameraMatrix before = cov_ + widening;
     out.gain = (CameraMatrix::Identity() + before * learnt.information).inverse();
@@ -181,11 +186,25 @@ void CameraCalibrator::believe(double direction, Change& change)
     }
 }
 
+/** A calibration that does not fit is nominal from the next frame on. The lens is learnt anew then:
+ * what frames told under the wrong lens makes its errors too small. */
+void CameraCalibrator::checkCalibration(const CameraInformation& learnt)
+{
+    if (camera_.isNominal || !lens_.selfCalibrate)
+    {
+        return;
+    }
+    check_.add(learnt, errors_);
+    isContradicted_ = check_.isContradicted(prior_);
+    camera_.isNominal = isContradicted_;
+}
+
 LearntLens CameraCalibrator::lens() const
 {
     return {
-        errors_.segment<4>(kPrincipalPointX),
-        cov_.diagonal().segment<4>(kPrincipalPointX).cwiseSqrt()};
+        errors_.segment<kNumLensErrors>(kPrincipalPointX),
+        cov_.diagonal().segment<kNumLensErrors>(kPrincipalPointX).cwiseSqrt(),
+        isContradicted_};
 }
 
 ShutterModel CameraCalibrator::complete(const ShutterModel& source) const

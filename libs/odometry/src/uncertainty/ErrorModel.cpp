@@ -97,10 +97,11 @@ CameraMatrix ErrorModel::changeCamera(const PinholeCamera& camera)
 {
     noise_ = NoiseScale(noiseParams_);
     planes_ = patches_ = ErrorsByView(noiseParams_.timeConstant);
-    camera_.start(camera);
+    const CameraVector calibration = calibrationVariances(params_, camera);
+    camera_.start(camera, calibration);
     viewAngle_ = viewAngle(camera);
     const CameraVector learnt = camera_.cov().diagonal();
-    return calibrationVariances(params_, camera).cwiseMax(learnt).asDiagonal();
+    return calibration.cwiseMax(learnt).asDiagonal();
 }
 
 JointCovariance::Measurement ErrorModel::learn(const Measured& frame)

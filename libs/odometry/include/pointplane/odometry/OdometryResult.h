@@ -29,13 +29,14 @@ enum class TrackingStatus
     return status == TrackingStatus::First || status == TrackingStatus::Tracked;
 }
 
-/** What the camera's motion has told of a lens that nobody calibrated. */
+/** What the camera's motion has told of a lens that nobody calibrated, or wrongly. */
 struct LearntLens
 {
     /** What the true calibration has more than the given one: principal point x, y [px], focal
      * length [relative], radial distortion k1. */
     Eigen::Vector4d errors{0, 0, 0, 0};
     Eigen::Vector4d sigmas{0, 0, 0, 0};  //!< their standard deviations; 0: not learnt
+    bool isContradicted{false};  //!< a calibration was given, but the images do not fit it
 };
 
 /** One line for users; empty if nothing is learnt. */

@@ -3,6 +3,7 @@
 
 #include <pointplane/core/Parameters.h>
 #include <pointplane/odometry/OdometryResult.h>
+#include <pointplane/odometry/uncertainty/CalibrationCheck.h>
 #include <pointplane/pose/PoseAnalysis.h>
 #include <pointplane/sensor/RgbdFrame.h>
 
@@ -10,7 +11,8 @@ namespace pointplane
 {
 /** Learns what nobody has calibrated of a camera, from its own motion: the times of its shutter;
  * focal length and principal point if they are nominal; radial distortion, also of cameras whose
- * depth is bent, which looks alike.
+ * depth is bent, which looks alike. Intrinsics that do not fit the images are taken for nominal
+ * (CalibrationCheck).
  *
  * Errors of the camera are constants with a Gaussian prior. The residuals at the estimated pose
  * depend on them. What they say of the errors, once the motion is eliminated (CameraInformation),
@@ -101,8 +103,9 @@ class CameraCalibrator
     /** \throws std::invalid_argument naming the key */
     CameraCalibrator(const TShutter& shutter, const TLens& lens);
 
-    /** From here on, frames are those of this camera, of which nothing is learnt yet. */
-    void start(const PinholeCamera& camera);
+    /** From here on, frames are those of this camera, of which nothing is learnt yet.
+     * \param calibration variances of what is stated of it (calibrationVariances()) */
+    void start(const PinholeCamera& camera, const CameraVector& calibration);
 
     /** How the error of the estimate changes with a frame: it is gain times the one before, plus
      * noise. */
@@ -143,12 +146,15 @@ class CameraCalibrator
     [[nodiscard]] bool isDirectionTold() const;
     [[nodiscard]] double directionOfReadout() const;
     void believe(double direction, Change& change);
+    void checkCalibration(const CameraInformation& learnt);
 
     TShutter shutter_;
     TLens lens_;
     PinholeCamera camera_;
     CameraVector prior_{CameraVector::Zero()}, errors_{CameraVector::Zero()};
     CameraMatrix cov_{CameraMatrix::Zero()};
-    bool knowsDirection_{true};  //!< whether the first or the last row is exposed first
+    CalibrationCheck check_;
+    bool isContradicted_{false};  //!< by check_
+    bool knowsDirection_{true};   //!< whether the first or the last row is exposed first
 };
 }  // namespace pointplane
