@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TumRecording.h"
 
+#include <pointplane/core/counted.h>
 #include <pointplane/core/quantile.h>
 #include <pointplane/evaluation/association.h>
 #include <pointplane/mrpt_io/mrpt_poses.h>
@@ -16,7 +17,6 @@
 #include <iterator>
 #include <sstream>
 
-#include "counted.h"
 #include "even_stamps.h"
 #include "frame_images.h"
 #include "layout_files.h"

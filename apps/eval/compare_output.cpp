@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "compare_output.h"
 
+#include <pointplane/core/counted.h>
 #include <pointplane/evaluation/trajectory_charts.h>
 #include <pointplane/evaluation/units.h>
 
@@ -85,9 +86,9 @@ std::string noteOnLength(const Comparison& c)
             if (behind && !behind->isKnown())
             {
                 return format(
-                    "too short for an interval: %zu pair(s) without overlap, at least %zu are "
+                    "too short for an interval: %s without overlap, at least %zu are "
                     "needed (--delta sets their length)",
-                    behind->independent,
+                    counted(behind->independent, "pair").c_str(),
                     BootstrapInterval::kLeastIndependent);
             }
         }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FrameSource.h"
 
+#include <pointplane/core/counted.h>
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/external_range.h>
 #include <pointplane/mrpt_io/output_labels.h>
@@ -12,7 +13,6 @@
 #include <filesystem>
 #include <utility>
 
-#include "counted.h"
 
 namespace pointplane
 {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RunSummary.h"
 
+#include <pointplane/core/counted.h>
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/mrpt_poses.h>
 
@@ -8,7 +9,6 @@
 #include <cstdio>
 #include <ostream>
 
-#include "counted.h"
 #include "mostly_predicted.h"
 
 namespace pointplane

@@ -297,7 +297,7 @@ TEST_F(EvalApp, compareTellsWhatIsTooShortForAnInterval)
     const test::AppRun r = run(args);
     EXPECT_EQ(r.code, 0) << r.err;
     EXPECT_THAT(r.out, HasSubstr("200.000  +100.000 too short "));
-    EXPECT_THAT(r.out, HasSubstr("too short for an interval: 1 pair(s) without overlap, at least"));
+    EXPECT_THAT(r.out, HasSubstr("too short for an interval: 1 pair without overlap, at least"));
     const auto behind = nlohmann::json::parse(
         test::readBytes(files / "out.json"))["runs"][0]["translationBehindBest"];
     EXPECT_TRUE(behind["lower95"].is_null());
