@@ -445,6 +445,8 @@ TEST_F(ConvertApp, mistakesAreNamed)
         "1305031109.000 s, depth from 5.000 to 5.000 s (stamps must be in seconds");
     writeBytes(dir_ / "in/depth.txt", listing);
     expect("is 32x24 but the camera is for 640x480", {"--camera", "fr3"});
+    writeBytes(dir_ / "pinhole.txt", "26.2 26.1 15.5 11.5\n");
+    expect("line of 12 numbers, fx fy cx cy k1 k2", {"--camera", dir_ / "pinhole.txt"});
     for (const char* size : {"32.5 24", "1e300 24", "32 0", "32 -24"})
     {
         writeBytes(
