@@ -317,6 +317,27 @@ TEST_F(EvalApp, runsThatCannotBeComparedHaveNoBest)
         nlohmann::json::parse(test::readBytes(files / "out.json"))["bestTranslation"].is_null());
 }
 
+/** A hint beside a best run and a significant difference helped nobody, and was not in the report.
+ */
+TEST_F(EvalApp, posesOfCameraAndRobotHaveNoBest)
+{
+    const std::string ofCamera =
+        writeFile(files, "camera.txt", "# x right, y down, z forward\n" + straightLine(1));
+    const std::string ofRobot =
+        writeFile(files, "robot.txt", "# x forward, y left, z up\n" + straightLine(1.1));
+    const test::AppRun r = run(
+        {"compare", truth, ofCamera, ofRobot, "--json", files / "o.json", "--report", files / "r"});
+    EXPECT_EQ(r.code, 0) << r.err;
+    EXPECT_THAT(r.out, HasSubstr("others of the robot: their errors cannot be compared\n"));
+    EXPECT_EQ(r.out.find('*'), std::string::npos) << r.out;
+    const auto json = nlohmann::json::parse(test::readBytes(files / "o.json"));
+    EXPECT_TRUE(json["bestTranslation"].is_null());
+    EXPECT_TRUE(json["bestAte"].is_null());
+    EXPECT_FALSE(json["runs"][1].contains("translationBehindBest"));
+    EXPECT_THAT(test::readBytes(files / "r/index.html"), HasSubstr("Hint: the poses of"));
+    EXPECT_THAT(run({"compare", truth, ofCamera, truth}).out, HasSubstr("*"));
+}
+
 /** Millimetres taken for metres. */
 TEST_F(EvalApp, columnsStayApartWhereErrorsAreHuge)
 {
