@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/number_text.h>
 #include <pointplane/mrpt_io/ObservationConverter.h>
 #include <pointplane/mrpt_io/RawlogReader.h>
 #include <pointplane/mrpt_io/ScanWriter.h>
 #include <pointplane/mrpt_io/errors.h>
+#include <pointplane/mrpt_io/mrpt_poses.h>
 #include <pointplane/mrpt_io/params_ini.h>
 #include <pointplane/odometry/Odometry.h>
 
@@ -14,6 +16,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <deque>
 #include <exception>
@@ -329,6 +332,18 @@ class SharedOdometry
     Odometry odometry_;
 };
 
+/** Seconds. \throws std::invalid_argument for those since 1970 in another unit */
+[[nodiscard]] double checkedStamp(double stamp)
+{
+    if (std::isfinite(stamp) && std::abs(stamp) > static_cast<double>(kLatestStamp))
+    {
+        throw std::invalid_argument(
+            "stamp: " + numberText(stamp) +
+            " is too large for seconds; divide milliseconds by 1e3, nanoseconds by 1e9");
+    }
+    return stamp;
+}
+
 template <class T>
 constexpr bool kIsOfModule =
     std::is_same_v<T, PinholeCamera> || std::is_same_v<T, OdometryResult> ||
@@ -495,7 +510,7 @@ void addOdometry(py::module_& m)
                double unit)
             {
                 ConvertedFrame converted;
-                converted.frame.stamp = stamp;
+                converted.frame.stamp = checkedStamp(stamp);
                 converted.frame.camera = camera;
                 converted.frame.depth = depthOf(depth, unit);
                 converted.frame.gray = grayOf(colour, "colour");

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ProgressBar.h"
 
+#include <pointplane/core/counted.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <ostream>
 #include <utility>
 
-#include "counted.h"
 #include <unistd.h>
 
 namespace pointplane

@@ -116,9 +116,24 @@ class HelpFormatter : public CLI::Formatter
                                "; commands are " + known;
 }
 
-/** CLI11 says "At Most 1 required but received 2". */
-[[nodiscard]] std::string problemOf(const CLI::Error& e)
+/** CLI11 tells unexpected words last first, and says "At Most 1 required but received 2". */
+[[nodiscard]] std::string problemOf(
+    const CLI::App& app, const CLI::Error& e, const std::vector<std::string>& args)
 {
+    const bool hasCommands = !app.get_subcommands([](const CLI::App*) { return true; }).empty();
+    if (hasCommands && !app.remaining().empty() && args[0].rfind('-', 0) == 0)
+    {
+        return args[0] + " stands before the command; options of a command come after its name";
+    }
+    if (dynamic_cast<const CLI::ExtrasError*>(&e) != nullptr)
+    {
+        std::string words;
+        for (const std::string& word : app.remaining(true))
+        {
+            words += " " + word;
+        }
+        return "not expected:" + words;
+    }
     const std::string text = e.what();
     const std::size_t at = text.find(": At Most 1 required but received ");
     return at == std::string::npos ? text : text.substr(0, at) + " is given more than once";
@@ -194,8 +209,8 @@ int runCommand(
     const std::function<int()>& body)
 {
     app.failure_message(
-        [](const CLI::App* a, const CLI::Error& e)
-        { return a->get_name() + ": " + printable(problemOf(e)) + " (see --help)\n"; });
+        [&args](const CLI::App* a, const CLI::Error& e)
+        { return a->get_name() + ": " + printable(problemOf(*a, e, args)) + " (see --help)\n"; });
     std::vector<CLI::App*> commands = app.get_subcommands({});
     const std::string problem = problemOfCommand(commands, args);
     if (!problem.empty())

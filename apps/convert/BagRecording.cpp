@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BagRecording.h"
 
+#include <pointplane/core/counted.h>
 #include <pointplane/evaluation/association.h>
 #include <pointplane/mrpt_io/mrpt_poses.h>
 
@@ -10,7 +11,6 @@
 
 #include "bag_cameras.h"
 #include "bag_topics.h"
-#include "counted.h"
 #include "frame_images.h"
 #include "ros_images.h"
 

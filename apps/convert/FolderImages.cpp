@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FolderImages.h"
 
+#include <pointplane/core/counted.h>
 #include <pointplane/mrpt_io/errors.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <iomanip>
 #include <sstream>
-
-#include "counted.h"
 
 namespace pointplane
 {

@@ -84,7 +84,10 @@ void FolderRecording::readDepth(const ImageRef& image, RegisteredScan& scan)
     if (depth.type() != CV_16UC1)
     {
         throw BadFrame(
-            image.path + ": is not a depth image of 16 bit or floating point and one channel");
+            image.path +
+            ": is not a depth image of 16 bit or floating point and one channel, but "
+            "of " +
+            typeText(depth));
     }
     depth.setTo(0, depth == kNoReading);
     scan.depth = depth;

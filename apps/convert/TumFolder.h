@@ -16,7 +16,7 @@ struct TumImage
     std::string path;   //!< with the folder
 };
 
-/** Reads `stamp file` lines in order of time; '#' starts a comment line.
+/** Reads `stamp file` lines in order of time; '#' starts a comment line. Names may have blanks.
  * \param folder \param listing name in it, e.g. "rgb.txt"
  * \throws InputError naming file and line */
 [[nodiscard]] std::vector<TumImage> readTumListing(

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TumRecording.h"
 
+#include <pointplane/core/counted.h>
+#include <pointplane/core/number_text.h>
 #include <pointplane/core/quantile.h>
+#include <pointplane/core/trimmed.h>
 #include <pointplane/evaluation/association.h>
 #include <pointplane/mrpt_io/mrpt_poses.h>
 
@@ -16,7 +19,6 @@
 #include <iterator>
 #include <sstream>
 
-#include "counted.h"
 #include "even_stamps.h"
 #include "frame_images.h"
 #include "layout_files.h"
@@ -50,6 +52,13 @@ namespace fs = std::filesystem;
     return even.note;
 }
 
+/** "colour from 1.2 to 3.4 s" */
+[[nodiscard]] std::string rangeOf(const char* kind, const std::vector<TumImage>& images)
+{
+    return std::string(kind) + " from " + numberText(images.front().seconds, 3) + " to " +
+           numberText(images.back().seconds, 3) + " s";
+}
+
 /** An image of the camera's size. */
 [[nodiscard]] cv::Mat readImage(const std::string& path, int flags, const PinholeCamera& camera)
 {
@@ -63,18 +72,33 @@ namespace fs = std::filesystem;
     return image;
 }
 
-[[nodiscard]] std::string textOf(const std::string& path)
+/** \return nothing if there is no such file */
+[[nodiscard]] std::optional<std::string> textOf(const std::string& path)
 {
     if (!fs::exists(path))
     {
-        return "";
+        return {};
     }
     std::ifstream in(path, std::ios::binary);
     if (!in || !fs::is_regular_file(path))
     {
         throw InputError("cannot read " + path + ": " + (in ? "not a file" : std::strerror(errno)));
     }
-    return {std::istreambuf_iterator<char>(in), {}};
+    return std::string(std::istreambuf_iterator<char>(in), {});
+}
+
+/** Whether there is more than comments. */
+[[nodiscard]] bool hasPoses(const std::string& text)
+{
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);)
+    {
+        if (const std::string words = trimmed(line); !words.empty() && words[0] != '#')
+        {
+            return true;
+        }
+    }
+    return false;
 }
 }  // namespace
 
@@ -102,9 +126,20 @@ TumRecording::TumRecording(const TumOptions& options) : options_(options)
     {
         throw InputError(
             options.folder + ": no colour and depth stamps within " +
-            std::to_string(options.maxDifference) + " s of each other");
+            numberText(options.maxDifference) + " s of each other: " + rangeOf("colour", colour_) +
+            ", " + rangeOf("depth", depth_) +
+            " (stamps must be in seconds; --max-difference takes a longer time)");
     }
-    groundTruth_ = textOf(options.folder + "/groundtruth.txt");
+    const std::string truthFile = options.folder + "/groundtruth.txt";
+    const auto truth = textOf(truthFile);
+    if (truth && hasPoses(*truth))
+    {
+        groundTruth_ = *truth;
+    }
+    else if (truth)
+    {
+        noTruth_ = truthFile + ": has no poses, so no ground truth is written";
+    }
 }
 
 std::optional<RecordedFrame> TumRecording::next()
@@ -126,7 +161,10 @@ std::optional<RecordedFrame> TumRecording::next()
         readImage(depth.path, cv::IMREAD_ANYDEPTH | cv::IMREAD_ANYCOLOR, camera_.camera);
     if (out.scan.depth.type() != CV_16UC1)
     {
-        throw BadFrame(depth.path + ": is not a depth image of 16 bit and one channel");
+        throw BadFrame(
+            depth.path + ": is not a depth image of 16 bit and one channel, but of " +
+            typeText(out.scan.depth) +
+            (out.scan.depth.depth() == CV_32F ? "; pointplane-convert folder reads that" : ""));
     }
     out.scan.colour = readImage(colour.path, cv::IMREAD_COLOR, camera_.camera);
     out.scan.colourFile = colour.path;
@@ -158,6 +196,10 @@ std::vector<std::string> TumRecording::notes() const
     if (!evening_.empty())
     {
         out.push_back(evening_);
+    }
+    if (!noTruth_.empty())
+    {
+        out.push_back(noTruth_);
     }
     std::vector<double> delays;
     for (const auto& [c, d] : pairs_)

@@ -35,7 +35,7 @@ class TumRecording : public Recording
 
     /** Lists, camera, images: all that is read. */
     [[nodiscard]] std::vector<std::string> files() const;
-    /** groundtruth.txt, or empty if there is none. */
+    /** groundtruth.txt, or empty if there is none with poses. */
     [[nodiscard]] const std::string& groundTruth() const { return groundTruth_; }
 
  private:
@@ -44,6 +44,7 @@ class TumRecording : public Recording
     TumCamera camera_;
     std::vector<std::pair<std::size_t, std::size_t>> pairs_;
     std::string groundTruth_;
+    std::string noTruth_;  //!< why there is a groundtruth.txt, but no ground truth, or empty
     std::string evening_;  //!< what was done to the stamps, or empty
     std::size_t next_{0};
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "convert_recording.h"
 
+#include <pointplane/core/counted.h>
 #include <pointplane/core/quantile.h>
 #include <pointplane/mrpt_io/ObservationConverter.h>
 #include <pointplane/mrpt_io/OutputFile.h>
@@ -17,7 +18,6 @@
 #include <sstream>
 
 #include "ProgressBar.h"
-#include "counted.h"
 #include "stamp_check.h"
 
 namespace pointplane

@@ -25,7 +25,7 @@ namespace
         extension.begin(),
         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     constexpr std::array known{
-        ".png", ".jpg", ".jpeg", ".pgm", ".ppm", ".bmp", ".tif", ".tiff", ".exr"};
+        ".png", ".jpg", ".jpeg", ".pgm", ".ppm", ".bmp", ".tif", ".tiff", ".exr", ".pfm"};
     return std::find(known.begin(), known.end(), extension) != known.end();
 }
 

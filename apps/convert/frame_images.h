@@ -15,6 +15,9 @@ namespace pointplane
 /** As 640x480. */
 [[nodiscard]] std::string sizeText(const cv::Size& size);
 
+/** As "8 bit and 3 channels". */
+[[nodiscard]] std::string typeText(const cv::Mat& image);
+
 /** Depth that comes in floating point. \param unitsPerMetre of it; 0: metres */
 void setFloatDepth(RegisteredScan& scan, const cv::Mat& depth, double unitsPerMetre);
 }  // namespace pointplane

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <sstream>
 
 namespace pointplane
@@ -25,49 +26,61 @@ constexpr double kEpsilon = 1e-5;
         stamps.end(),
         [&](double t) { return std::abs(t / step - std::round(t / step)) * step < kEpsilon; });
 }
-}  // namespace
 
-std::string problemOfStamps(const std::vector<double>& stamps)
+[[nodiscard]] std::string problemOfOrder(const std::vector<double>& intervals)
 {
+    const auto numBack = std::count_if(
+        intervals.begin(), intervals.end(), [](double interval) { return interval < 0; });
+    const auto numRepeated = std::count(intervals.begin(), intervals.end(), 0.0);
     std::ostringstream out;
-    std::vector<double> intervals;
-    std::size_t numBack = 0, numRepeated = 0;
-    for (std::size_t i = 1; i < stamps.size(); ++i)
-    {
-        intervals.push_back(stamps[i] - stamps[i - 1]);
-        numBack += intervals.back() < 0 ? 1 : 0;
-        numRepeated += intervals.back() == 0 ? 1 : 0;
-    }
     if (numBack > 0)
     {
         out << numBack << " of them " << (numBack == 1 ? "is" : "are") << " before the one before";
-        return out.str();
     }
-    if (numRepeated > 0)
+    else if (numRepeated > 0)
     {
         out << numRepeated << " of them " << (numRepeated == 1 ? "repeats" : "repeat")
             << " the one before: odometry cannot use such frames (tum and folder have "
                "--even-stamps)";
-        return out.str();
     }
-    if (intervals.size() < kLeastIntervals)
+    return out.str();
+}
+
+/** Frames 33 s apart are rather 33 ms apart. */
+[[nodiscard]] std::string problemOfUnit(double median)
+{
+    constexpr double kLongest = 1;  // of recordings [s]; numbers of frames are as far apart
+    std::ostringstream out;
+    if (median >= kLongest)
     {
-        return "";
+        out << "a frame every " << std::setprecision(3) << median
+            << " s; are they in seconds? Else the odometry takes the camera for slow, and its "
+               "covariances are wrong";
     }
-    const double median = quantile(intervals, 0.5);
+    return out.str();
+}
+
+[[nodiscard]] std::string problemOfRounding(
+    const std::vector<double>& stamps, const std::vector<double>& intervals, double median)
+{
+    // A camera of 10 or 20 Hz has true stamps like that.
+    const bool isEven = quantile(intervals, 0.9) - quantile(intervals, 0.1) < kEpsilon;
+    std::ostringstream out;
     for (const double step : kRoundings)
     {
-        // A camera of 10 or 20 Hz has true stamps like that.
-        const bool isEven = quantile(intervals, 0.9) - quantile(intervals, 0.1) < kEpsilon;
         if (step > kTolerated * median && !isEven && areMultiples(stamps, step))
         {
             out << "rounded to " << step << " s, " << std::lround(100 * step / median)
                 << " % of the time between frames; velocities from them err as much (tum and "
-                   "folder "
-                   "have --even-stamps)";
-            return out.str();
+                   "folder have --even-stamps)";
+            break;
         }
     }
+    return out.str();
+}
+
+[[nodiscard]] std::string problemOfJitter(const std::vector<double>& intervals, double median)
+{
     // Frames that are missing make whole intervals more.
     std::vector<double> deviations;
     for (const double interval : intervals)
@@ -76,6 +89,7 @@ std::string problemOfStamps(const std::vector<double>& stamps)
         deviations.push_back(std::abs(interval - frames * median));
     }
     const double jitter = 1.4826 * quantile(deviations, 0.5);
+    std::ostringstream out;
     if (jitter > kTolerated * median)
     {
         out << "they jitter by " << std::lround(1e3 * jitter) << " ms about a frame every "
@@ -84,5 +98,28 @@ std::string problemOfStamps(const std::vector<double>& stamps)
                "--even-stamps)";
     }
     return out.str();
+}
+}  // namespace
+
+std::string problemOfStamps(const std::vector<double>& stamps)
+{
+    std::vector<double> intervals;
+    for (std::size_t i = 1; i < stamps.size(); ++i)
+    {
+        intervals.push_back(stamps[i] - stamps[i - 1]);
+    }
+    if (const std::string problem = problemOfOrder(intervals);
+        intervals.empty() || !problem.empty())
+    {
+        return problem;
+    }
+    const double median = quantile(intervals, 0.5);
+    if (const std::string problem = problemOfUnit(median);
+        intervals.size() < kLeastIntervals || !problem.empty())
+    {
+        return problem;
+    }
+    const std::string rounding = problemOfRounding(stamps, intervals, median);
+    return rounding.empty() ? problemOfJitter(intervals, median) : rounding;
 }
 }  // namespace pointplane

@@ -8,8 +8,8 @@ namespace pointplane
 {
 /** What a velocity should not be told from such stamps for: one clause for people, or empty.
  *
- * Knows stamps that go back or repeat, that are rounded to a coarse step (of the interval between
- * frames), and that jitter as a host's do, where a camera's frames are evenly spaced.
- * \param stamps of frames, in the order of recording [s] */
+ * Knows stamps that go back or repeat, that are in another unit than seconds, that are rounded to a
+ * coarse step (of the interval between frames), and that jitter as a host's do, where a camera's
+ * frames are evenly spaced. \param stamps of frames, in the order of recording [s] */
 [[nodiscard]] std::string problemOfStamps(const std::vector<double>& stamps);
 }  // namespace pointplane

@@ -132,7 +132,9 @@ const std::array<Preset, 3> kPresets{{
         return right.front();
     }
     throw InputError(
-        path + ": is neither one line of 12 numbers nor an MRPT camera ini (" +
+        path +
+        ": is neither one line of 12 numbers, fx fy cx cy k1 k2 p1 p2 k3 width height "
+        "unitsPerMetre, nor an MRPT camera ini (" +
         std::to_string(cameras.size()) + " sections with fx)");
 }
 

@@ -4,14 +4,10 @@
 #include <map>
 #include <ostream>
 
-#include "OutputGuard.h"
+#include "ScoreCommand.h"
 #include "command.h"
-#include "coverage_limit.h"
-#include "input_options.h"
 #include "notation_hint.h"
 #include "number_checks.h"
-#include "result_output.h"
-#include "trajectory_report.h"
 #include "word_check.h"
 
 namespace pointplane
@@ -20,28 +16,22 @@ namespace
 {
 constexpr std::size_t kFewPoses = 10;
 
-struct AteCommand
+struct AteCommand : ScoreCommand
 {
-    std::string groundTruth, estimate;
     AteOptions options;
-    InputOptions input;
-    OutputFiles files;
-    ReportOptions report;
-    bool verbose{false};
-    double maxRmse{-1};
-    CoverageLimit coverage;
 
     void addTo(CLI::App& command);
     void run(CommandContext& context) const;
+
+ private:
+    void addProtocolTo(CLI::App& command);
+    [[nodiscard]] std::string hintOn(const LoadedRun& run, const AteResult& result) const;
+    [[nodiscard]] ScoredResult scored(const AteResult& result, const Trajectory& measured) const;
 };
 
-void AteCommand::addTo(CLI::App& command)
+void AteCommand::addProtocolTo(CLI::App& command)
 {
     const std::string group = "Protocol";
-    command.add_option("groundtruth", groundTruth, "Ground-truth trajectory")
-        ->type_name("FILE")
-        ->required();
-    command.add_option("estimate", estimate, "Estimated trajectory")->type_name("FILE")->required();
     command.add_option("--offset", options.offset, "Add this to the estimate's stamps [s]")
         ->check(isFinite())
         ->capture_default_str()
@@ -69,6 +59,12 @@ void AteCommand::addTo(CLI::App& command)
         ->check(isOneOf({"se3", "first", "none"}))
         ->default_str("se3")
         ->group(group);
+}
+
+void AteCommand::addTo(CLI::App& command)
+{
+    addTrajectoriesTo(command);
+    addProtocolTo(command);
     command.add_option("--max-rmse", maxRmse, "Exit with 1 if the RMSE exceeds this [m]")
         ->check(isNotNegative())
         ->group("Limits");
@@ -114,66 +110,60 @@ std::string hintAtWorlds(
                : "";
 }
 
-void AteCommand::run(CommandContext& context) const
+std::string AteCommand::hintOn(const LoadedRun& run, const AteResult& result) const
 {
-    OutputGuard guard;
-    guard.addInput(groundTruth);
-    guard.addInput(estimate);
-    files.guardedBy(guard, verbose);
-    report.guardedBy(guard);
-    ReportedRun run;
-    run.groundTruth = input.loadTruth(groundTruth, context);
-    run.estimate = input.loadEstimate(estimate, context);
-    checkOrder(run.groundTruth, run.estimate, context);
-    const ReportInputs inputs = report.read(run.estimate);
-    run.rpe.offset = run.nees.offset = options.offset;
-    run.rpe.scale = options.scale;
-    run.rpe.fixedDelta = true;
-    run.ate = options;
-    run.nees.T_truth_body = input.T_truth_body();
-    run.intervals = {{1, DeltaUnit::Frames}, {1, DeltaUnit::Seconds}};
-    const Trajectory measured = withoutLost(run.estimate);
-    const Trajectory truth = withBody(run.groundTruth, run.nees.T_truth_body);
-    const AteResult result = absoluteTrajectoryError(truth, measured, options);
-    run.hint = hintAtBodies(input, run.groundTruth, run.estimate);
-    if (run.hint.empty())
+    std::string hint = hintAtBodies(input, run.reported.groundTruth, run.reported.estimate);
+    if (hint.empty())
     {
-        run.hint = hintAtNotation(truth, measured, options.offset, options.scale);
+        hint = hintAtNotation(run.truth, run.measured, options.offset, options.scale);
     }
-    if (run.hint.empty())
-    {
-        run.hint = hintAtWorlds(truth, measured, options, result.translation.rmse);
-    }
-    context.hint(run.hint);
+    return hint.empty() ? hintAtWorlds(run.truth, run.measured, options, result.translation.rmse)
+                        : hint;
+}
 
-    ScoredResult scored;
-    scored.title = "Absolute trajectory error";
-    scored.protocol = describe(options, result, measured.size());
-    scored.groundTruth = groundTruth;
-    scored.estimate = estimate;
-    scored.rows = {{"translation", "m", result.translation}};
-    scored.details = {
+ScoredResult AteCommand::scored(const AteResult& result, const Trajectory& measured) const
+{
+    ScoredResult out = titled("Absolute trajectory error");
+    out.protocol = describe(options, result, measured.size());
+    out.rows = {{"translation", "m", result.translation}};
+    out.details = {
         {"poses", result.errors.size()},
         {"estimatePoses", measured.size()},
         {"coverage", toJson(result.coverage)},
         {"maxDifference", options.maxDifference},
         {"offset", options.offset},
         {"scale", options.scale}};
-    scored.singles = singlesOf(measured, result);
+    out.singles = singlesOf(measured, result);
+    return out;
+}
+
+void warnOfFewPoses(const std::string& estimate, std::size_t count, CommandContext& context)
+{
+    if (count < kFewPoses)
+    {
+        context.err
+            << context.program << ": warning: " << estimate << ": only " << count
+            << " poses have ground truth; the alignment fits so few, whatever their errors\n";
+    }
+}
+
+void AteCommand::run(CommandContext& context) const
+{
+    LoadedRun run = load(options.offset, options.scale, context);
+    run.reported.rpe.fixedDelta = true;
+    run.reported.ate = options;
+    const AteResult result = absoluteTrajectoryError(run.truth, run.measured, options);
+    run.reported.hint = hintOn(run, result);
+    context.hint(run.reported.hint);
+    const ScoredResult score = scored(result, run.measured);
     if (verbose)
     {
         context.out << format("compared_pose_pairs %zu pairs\n", result.translation.count);
         printAsScripts("absolute_translational_error", result.translation, "m", context.out);
     }
-    writeResult(scored, files, context.out, !verbose);
-    writeTrajectoryReport(run, report, inputs, context);
-    checkThreshold("RMSE", scored.rows[0], maxRmse, context);
-    if (result.errors.size() < kFewPoses)
-    {
-        context.err
-            << context.program << ": warning: " << estimate << ": only " << result.errors.size()
-            << " poses have ground truth; the alignment fits so few, whatever their errors\n";
-    }
+    write(score, run, context);
+    checkThreshold("RMSE", score.rows[0], maxRmse, context);
+    warnOfFewPoses(estimate, result.errors.size(), context);
     coverage.check(
         estimate, result.coverage, maxRmse >= 0 ? ScoreIs::Judged : ScoreIs::Shown, context);
 }

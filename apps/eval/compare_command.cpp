@@ -31,6 +31,16 @@ struct CompareCommand
 
     void addTo(CLI::App& command);
     void run(CommandContext& context);
+
+ private:
+    void checkOutputs() const;
+    [[nodiscard]] std::vector<Trajectory> load(
+        const Trajectory& truth, CommandContext& context) const;
+    [[nodiscard]] std::vector<std::string> hintsOn(
+        const Comparison& comparison,
+        const RpeOptions& options,
+        const Trajectory& truth,
+        const std::vector<Trajectory>& runs) const;
 };
 
 void CompareCommand::addTo(CLI::App& command)
@@ -55,6 +65,18 @@ void CompareCommand::addTo(CLI::App& command)
         ->group("Output");
 }
 
+void CompareCommand::checkOutputs() const
+{
+    OutputGuard guard;
+    guard.addInput(groundTruth);
+    for (const std::string& path : estimates)
+    {
+        guard.addInput(path);
+    }
+    files.guardedBy(guard);
+    guardReport(guard, report);
+}
+
 /** One --body-from-gt does not fit poses of a camera and of a robot. */
 std::string hintAtOtherBodies(const std::vector<Trajectory>& runs)
 {
@@ -73,46 +95,60 @@ std::string hintAtOtherBodies(const std::vector<Trajectory>& runs)
                      robot->name.c_str());
 }
 
-void CompareCommand::run(CommandContext& context)
+std::vector<Trajectory> CompareCommand::load(const Trajectory& truth, CommandContext& context) const
 {
-    OutputGuard guard;
-    guard.addInput(groundTruth);
+    std::vector<Trajectory> out;
     for (const std::string& path : estimates)
     {
-        guard.addInput(path);
+        out.push_back(withoutLost(input.loadEstimate(path, context)));
+        checkOrder(truth, out.back(), context);
+        checkTruthRate(truth, out.back(), context);
     }
-    files.guardedBy(guard);
-    guardReport(guard, report);
+    return out;
+}
+
+std::vector<std::string> CompareCommand::hintsOn(
+    const Comparison& comparison,
+    const RpeOptions& options,
+    const Trajectory& truth,
+    const std::vector<Trajectory>& runs) const
+{
+    std::vector<std::string> out{hintAtOtherBodies(runs)};
+    for (std::size_t k = 0; k < runs.size(); ++k)
+    {
+        const std::string hint = hintAtAxes(input, truth, runs[k], comparison.runs[k].rpe, options);
+        out.push_back(
+            hint.empty() ? hintAtNotation(truth, runs[k], options.offset, options.scale) : hint);
+    }
+    out.erase(std::remove(out.begin(), out.end(), ""), out.end());
+    return out;
+}
+
+std::string protocolOf(
+    const Comparison& comparison, const RpeOptions& options, const BootstrapOptions& bootstrap)
+{
+    return describe(options, comparison.runs.front().rpe) +
+           format(
+               " (of the first), bootstrap of %zu, seed %ju",
+               bootstrap.resamples,
+               static_cast<std::uintmax_t>(bootstrap.seed));
+}
+
+void CompareCommand::run(CommandContext& context)
+{
+    checkOutputs();
     rpe.rpe.fixedDelta = true;  // the bootstrap needs pairs in time order
-    RpeOptions resolved = rpe.resolved();
+    const RpeOptions resolved = rpe.resolved();
     AteOptions ate;
     ate.offset = resolved.offset;
     ate.scale = resolved.scale;
     bootstrap.seed = resolved.seed;
-
     const Trajectory truth = input.loadTruthOfBody(groundTruth, context);
-    std::vector<Trajectory> loaded;
-    for (const std::string& path : estimates)
-    {
-        loaded.push_back(withoutLost(input.loadEstimate(path, context)));
-        checkOrder(truth, loaded.back(), context);
-        checkTruthRate(truth, loaded.back(), context);
-    }
-    context.hint(hintAtOtherBodies(loaded));
-    const Comparison comparison = compareRuns(truth, loaded, resolved, ate, bootstrap);
-    for (std::size_t k = 0; k < loaded.size(); ++k)
-    {
-        const std::string hint =
-            hintAtAxes(input, truth, loaded[k], comparison.runs[k].rpe, resolved);
-        context.hint(
-            !hint.empty() ? hint
-                          : hintAtNotation(truth, loaded[k], resolved.offset, resolved.scale));
-    }
-    const std::string protocol = describe(resolved, comparison.runs.front().rpe) +
-                                 format(
-                                     " (of the first), bootstrap of %zu, seed %ju",
-                                     bootstrap.resamples,
-                                     static_cast<std::uintmax_t>(bootstrap.seed));
+    const std::vector<Trajectory> runs = load(truth, context);
+    const Comparison comparison = compareRuns(truth, runs, resolved, ate, bootstrap);
+    const std::vector<std::string> hints = hintsOn(comparison, resolved, truth, runs);
+    std::for_each(hints.begin(), hints.end(), [&](const auto& hint) { context.hint(hint); });
+    const std::string protocol = protocolOf(comparison, resolved, bootstrap);
     if (!files.replaceTable())
     {
         printTable(comparison, protocol, context.out);
@@ -120,7 +156,8 @@ void CompareCommand::run(CommandContext& context)
     files.write(toJson(comparison, protocol), toCsv(comparison), "", context.out);
     if (!report.empty())
     {
-        writeReportFile(reportOf(comparison, protocol, resolved, truth, loaded), report, context);
+        writeReportFile(
+            reportOf(comparison, protocol, resolved, truth, runs, hints), report, context);
     }
     for (const ComparedRun& run : comparison.runs)
     {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "compare_output.h"
 
+#include <pointplane/core/counted.h>
 #include <pointplane/evaluation/trajectory_charts.h>
 #include <pointplane/evaluation/units.h>
 
@@ -22,7 +23,7 @@ std::string behindText(
     }
     if (!behind)
     {
-        return c.runs.size() == 1 ? "-" : "no common pairs";
+        return c.runs.size() == 1 || !c.sameBodies ? "-" : "no common pairs";
     }
     if (!behind->isKnown())
     {
@@ -52,12 +53,16 @@ nlohmann::ordered_json nameOfBest(const Comparison& c, std::size_t best)
     return c.isComparable() ? nlohmann::ordered_json(c.runs[best].name) : nullptr;
 }
 
-/** What a reader must know of runs that have different frames; empty otherwise. */
-std::string noteOnFrames(const Comparison& c)
+/** What a reader must know of runs that have different frames or bodies; empty otherwise. */
+std::string noteOnRuns(const Comparison& c)
 {
     if (c.runs.size() == 1)
     {
         return "this is one run; give others to compare it with";
+    }
+    if (!c.sameBodies)
+    {
+        return "some poses are of the camera, others of the robot: their errors cannot be compared";
     }
     const std::string ofAte =
         c.bestAte ? "" : "; ATE is each run's own, so none is marked as the best in ATE";
@@ -85,9 +90,9 @@ std::string noteOnLength(const Comparison& c)
             if (behind && !behind->isKnown())
             {
                 return format(
-                    "too short for an interval: %zu pair(s) without overlap, at least %zu are "
+                    "too short for an interval: %s without overlap, at least %zu are "
                     "needed (--delta sets their length)",
-                    behind->independent,
+                    counted(behind->independent, "pair").c_str(),
                     BootstrapInterval::kLeastIndependent);
             }
         }
@@ -97,9 +102,9 @@ std::string noteOnLength(const Comparison& c)
 
 std::string noteOf(const Comparison& c)
 {
-    const std::string frames = noteOnFrames(c);
+    const std::string runs = noteOnRuns(c);
     const std::string length = noteOnLength(c);
-    return frames + (frames.empty() || length.empty() ? "" : "; ") + length;
+    return runs + (runs.empty() || length.empty() ? "" : "; ") + length;
 }
 
 /** Ends are null if there is no interval. */
@@ -212,12 +217,30 @@ std::string toCsv(const Comparison& c)
     return out;
 }
 
+namespace
+{
+/** Of the report's table. */
+std::vector<std::string> rowOf(const Comparison& c, std::size_t run)
+{
+    const ComparedRun& r = c.runs[run];
+    return {
+        r.name,
+        format("%.3f", 1000 * r.translation.value),
+        behindText(c, r.translationBehindBest, isBest(c, run, c.bestTranslation), 1000),
+        format("%.4f", kDegreesPerRadian * r.rotation.value),
+        behindText(c, r.rotationBehindBest, isBest(c, run, c.bestRotation), kDegreesPerRadian),
+        format("%.3f", 1000 * r.ate.translation.rmse),
+        format("%.1f %%", 100 * r.rpe.coverage.share)};
+}
+}  // namespace
+
 HtmlReport reportOf(
     const Comparison& c,
     const std::string& protocol,
     const RpeOptions& rpe,
     const Trajectory& truth,
-    const std::vector<Trajectory>& estimates)
+    const std::vector<Trajectory>& estimates,
+    const std::vector<std::string>& hints)
 {
     HtmlReport report(titleOf(c), protocol + (noteOf(c).empty() ? "" : "; " + noteOf(c)));
     std::vector<std::vector<std::string>> rows;
@@ -226,14 +249,7 @@ HtmlReport reportOf(
     for (std::size_t k = 0; k < c.runs.size(); ++k)
     {
         const ComparedRun& r = c.runs[k];
-        rows.push_back(
-            {r.name,
-             format("%.3f", 1000 * r.translation.value),
-             behindText(c, r.translationBehindBest, isBest(c, k, c.bestTranslation), 1000),
-             format("%.4f", kDegreesPerRadian * r.rotation.value),
-             behindText(c, r.rotationBehindBest, isBest(c, k, c.bestRotation), kDegreesPerRadian),
-             format("%.3f", 1000 * r.ate.translation.rmse),
-             format("%.1f %%", 100 * r.rpe.coverage.share)});
+        rows.push_back(rowOf(c, k));
         paths.push_back({r.name, estimates[k], r.ate, rpe.scale});
         const std::vector<Chart> ofRun = relativeErrorCharts(estimates[k], rpe, r.rpe);
         for (std::size_t n = 0; n < ofRun.size(); ++n)
@@ -251,6 +267,10 @@ HtmlReport reportOf(
         "RPE and ATE RMSE",
         {"run", "mm", "behind the best", "deg", "behind the best", "ATE mm", "coverage"},
         rows);
+    for (const std::string& hint : hints)
+    {
+        report.addParagraph("Hint: " + hint);
+    }
     for (const Chart& chart : pathCharts(truth, paths))
     {
         report.addChart(chart);

@@ -18,12 +18,13 @@ namespace pointplane
 void printTable(const Comparison& c, const std::string& protocol, std::ostream& out);
 [[nodiscard]] nlohmann::ordered_json toJson(const Comparison& c, const std::string& protocol);
 [[nodiscard]] std::string toCsv(const Comparison& c);
-/** \param estimates of the compared runs, in their order */
+/** \param estimates of the compared runs, in their order \param hints for the reader */
 [[nodiscard]] HtmlReport reportOf(
     const Comparison& c,
     const std::string& protocol,
     const RpeOptions& rpe,
     const Trajectory& truth,
-    const std::vector<Trajectory>& estimates);
+    const std::vector<Trajectory>& estimates,
+    const std::vector<std::string>& hints);
 /** @} */
 }  // namespace pointplane

@@ -14,6 +14,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "FileIdentity.h"
 #include "command.h"
 #include "load_trajectory.h"
 #include "result_output.h"
@@ -153,6 +154,11 @@ std::string hintAtAxes(
 
 void checkOrder(const Trajectory& truth, const Trajectory& estimate, CommandContext& context)
 {
+    if (FileIdentity(truth.name).isSame(FileIdentity(estimate.name)))
+    {
+        context.err << context.program << ": warning: '" << estimate.name
+                    << "' is the ground truth, too: nothing is compared\n";
+    }
     const auto isZero = [](const Matrix6d& cov) { return cov.isZero(0); };
     const auto isOfOdometry = [&](const Trajectory& t)
     { return t.marksFrames || !std::all_of(t.covs.begin(), t.covs.end(), isZero); };

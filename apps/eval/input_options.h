@@ -35,8 +35,9 @@ struct InputOptions
     [[nodiscard]] Trajectory loadEstimate(const std::string& path, CommandContext& context) const;
 };
 
-/** Warns if the ground truth is what an odometry writes (with marks of frames, or covariances) and
- * the estimate is not: they may be in the wrong order. */
+/** Warns if both are one file: its errors are zero, and pass any limit. Warns if the ground truth
+ * is what an odometry writes (with marks of frames, or covariances) and the estimate is not: they
+ * may be in the wrong order. */
 void checkOrder(const Trajectory& truth, const Trajectory& estimate, CommandContext& context);
 
 /** Warns if the ground truth is too sparse to be taken at the estimate's stamps. */

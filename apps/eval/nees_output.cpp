@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nees_output.h"
 
+#include <pointplane/core/counted.h>
 #include <pointplane/core/number_text.h>
 #include <pointplane/evaluation/scored_trajectories.h>
 #include <pointplane/evaluation/units.h>
@@ -123,9 +124,9 @@ std::string describeTruthNoise(const NeesOptions& options)
 std::string describe(const NeesReport& report)
 {
     return format(
-        "normalised estimation error squared of increments, %zu run(s), ground truth %s with "
+        "normalised estimation error squared of increments, %s, ground truth %s with "
         "%s%s",
-        report.files.size() / 2,
+        counted(report.files.size() / 2, "run").c_str(),
         report.options.truthAt == TruthAt::Interpolated ? "interpolated" : "at the nearest stamp",
         describeTruthNoise(report.options).c_str(),
         describeChanges(report.options.offset, 1).c_str());

@@ -3,15 +3,11 @@
 
 #include <ostream>
 
-#include "OutputGuard.h"
+#include "ScoreCommand.h"
 #include "command.h"
-#include "coverage_limit.h"
-#include "input_options.h"
 #include "notation_hint.h"
 #include "number_checks.h"
-#include "result_output.h"
 #include "rpe_options.h"
-#include "trajectory_report.h"
 #include "word_check.h"
 
 namespace pointplane
@@ -20,32 +16,23 @@ namespace
 {
 constexpr std::int64_t kScriptMaxPairs = 10000;
 
-struct RpeCommand
+struct RpeCommand : ScoreCommand
 {
-    std::string groundTruth, estimate;
     RpeCommandOptions options;
-    InputOptions input;
-    OutputFiles files;
-    ReportOptions report;
-    bool verbose{false};
-    double maxRmse{-1};
     double maxRmseDeg{-1};
-    CoverageLimit coverage;
 
     void addTo(CLI::App& command);
     void run(CommandContext& context) const;
 
  private:
+    [[nodiscard]] std::string hintOn(const LoadedRun& run, const RpeResult& result) const;
     [[nodiscard]] ScoredResult scored(
         const RpeOptions& rpe, const RpeResult& result, const Trajectory& measured) const;
 };
 
 void RpeCommand::addTo(CLI::App& command)
 {
-    command.add_option("groundtruth", groundTruth, "Ground-truth trajectory")
-        ->type_name("FILE")
-        ->required();
-    command.add_option("estimate", estimate, "Estimated trajectory")->type_name("FILE")->required();
+    addTrajectoriesTo(command);
     options.addTo(command, true);
     command
         .add_option("--max-rmse", maxRmse, "Exit with 1 if the translation RMSE exceeds this [m]")
@@ -79,11 +66,8 @@ std::string singlesOf(const Trajectory& estimate, const RpeResult& result)
 ScoredResult RpeCommand::scored(
     const RpeOptions& rpe, const RpeResult& result, const Trajectory& measured) const
 {
-    ScoredResult out;
-    out.title = "Relative pose error";
+    ScoredResult out = titled("Relative pose error");
     out.protocol = describe(rpe, result);
-    out.groundTruth = groundTruth;
-    out.estimate = estimate;
     out.rows = {
         {"translation", "m", result.translation},
         {"rotation", "deg", scaled(result.rotation, kDegreesPerRadian)}};
@@ -102,48 +86,34 @@ ScoredResult RpeCommand::scored(
     return out;
 }
 
+std::string RpeCommand::hintOn(const LoadedRun& run, const RpeResult& result) const
+{
+    const RpeOptions& rpe = run.reported.rpe;
+    const std::string hint = hintAtAxes(input, run.reported.groundTruth, run.measured, result, rpe);
+    return hint.empty() ? hintAtNotation(run.truth, run.measured, rpe.offset, rpe.scale) : hint;
+}
+
 void RpeCommand::run(CommandContext& context) const
 {
-    OutputGuard guard;
-    guard.addInput(groundTruth);
-    guard.addInput(estimate);
-    files.guardedBy(guard, verbose);
-    report.guardedBy(guard);
     const RpeOptions rpe = options.resolved();
-    ReportedRun run;
-    run.groundTruth = input.loadTruth(groundTruth, context);
-    run.estimate = input.loadEstimate(estimate, context);
-    checkOrder(run.groundTruth, run.estimate, context);
-    checkTruthRate(run.groundTruth, run.estimate, context);
-    const ReportInputs inputs = report.read(run.estimate);
-    run.rpe = rpe;
-    run.ate.offset = rpe.offset;
-    run.ate.scale = rpe.scale;
-    run.nees.offset = rpe.offset;
-    run.nees.T_truth_body = input.T_truth_body();
-    run.intervals = {{1, DeltaUnit::Frames}, {1, DeltaUnit::Seconds}};
-    const Trajectory measured = withoutLost(run.estimate);
-    const Trajectory truth = withBody(run.groundTruth, run.nees.T_truth_body);
-    const RpeResult result = relativePoseError(truth, measured, rpe);
-    run.hint = hintAtAxes(input, run.groundTruth, measured, result, rpe);
-    if (run.hint.empty())
-    {
-        run.hint = hintAtNotation(truth, measured, rpe.offset, rpe.scale);
-    }
-    context.hint(run.hint);
+    LoadedRun run = load(rpe.offset, rpe.scale, context);
+    checkTruthRate(run.reported.groundTruth, run.reported.estimate, context);
+    run.reported.rpe = rpe;
+    const RpeResult result = relativePoseError(run.truth, run.measured, rpe);
+    run.reported.hint = hintOn(run, result);
+    context.hint(run.reported.hint);
     if (!files.save.empty() && result.pairs.empty())
     {
         throw InputError("--save: too many pairs to write; give --fixed-delta or --max-pairs");
     }
-    const ScoredResult score = scored(rpe, result, measured);
+    const ScoredResult score = scored(rpe, result, run.measured);
     if (verbose)
     {
         context.out << format("compared_pairs %zu pairs\n", result.translation.count);
         printAsScripts("translational_error", score.rows[0].statistics, "m", context.out);
         printAsScripts("rotational_error", score.rows[1].statistics, "deg", context.out);
     }
-    writeResult(score, files, context.out, !verbose);
-    writeTrajectoryReport(run, report, inputs, context);
+    write(score, run, context);
     checkThreshold("translation RMSE", score.rows[0], maxRmse, context);
     checkThreshold("rotation RMSE", score.rows[1], maxRmseDeg, context);
     const bool isJudged = maxRmse >= 0 || maxRmseDeg >= 0;

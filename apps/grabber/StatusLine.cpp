@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "StatusLine.h"
 
+#include <pointplane/core/counted.h>
+
 #include <mrpt/core/format.h>
 
 #include <algorithm>
 #include <ostream>
 
 #include "ProgressBar.h"
-#include "counted.h"
 
 namespace pointplane
 {

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "summary.h"
 
+#include <pointplane/core/counted.h>
+
 #include <mrpt/core/format.h>
 
 #include <ostream>
 
 #include "ProgressBar.h"
-#include "counted.h"
 
 namespace pointplane
 {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FrameSource.h"
 
+#include <pointplane/core/counted.h>
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/external_range.h>
 #include <pointplane/mrpt_io/output_labels.h>
@@ -12,8 +13,6 @@
 #include <filesystem>
 #include <utility>
 
-#include "counted.h"
-
 namespace pointplane
 {
 using mrpt::obs::CObservation3DRangeScan;
@@ -24,6 +23,18 @@ namespace
 [[nodiscard]] bool startsWith(const std::string& text, const std::string& beginning)
 {
     return text.compare(0, beginning.size(), beginning) == 0;
+}
+
+/** How a rawlog is made of a folder. */
+[[nodiscard]] const char* adviceOn(const std::filesystem::path& folder)
+{
+    std::error_code error;
+    return std::filesystem::exists(folder / "depth.txt", error)
+               ? "pointplane-convert tum makes one of it"
+           : std::filesystem::exists(folder / "metadata.yaml", error)
+               ? "if ROS 2 wrote it, make a ROS 1 bag of it (rosbags-convert), then "
+                 "pointplane-convert bag makes a rawlog"
+               : "pointplane-convert folder makes one of a folder with colour and depth images";
 }
 }  // namespace
 
@@ -37,8 +48,7 @@ FrameSource::FrameSource(const OdometryOptions& options, const OutputGuard& guar
         if (type == std::filesystem::file_type::directory)
         {
             throw InputError(
-                options.inputs[i] +
-                ": is a folder, not a rawlog; pointplane-convert makes rawlogs of folders");
+                options.inputs[i] + ": is a folder, not a rawlog; " + adviceOn(options.inputs[i]));
         }
         if (i > 0 && type != std::filesystem::file_type::fifo)  // it can be read but once
         {

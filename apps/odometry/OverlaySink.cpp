@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OverlaySink.h"
 
+#include <pointplane/core/counted.h>
 #include <pointplane/mrpt_io/image_file.h>
 
 #include <cstdio>
 #include <filesystem>
-
-#include "counted.h"
 
 namespace pointplane
 {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RawlogSink.h"
 
+#include <pointplane/core/counted.h>
 #include <pointplane/mrpt_io/SimplemapWriter.h>
 #include <pointplane/mrpt_io/output_labels.h>
 
@@ -10,8 +11,6 @@
 #include <mrpt/obs/CObservationRobotPose.h>
 
 #include <vector>
-
-#include "counted.h"
 
 namespace pointplane
 {

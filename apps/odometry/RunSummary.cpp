@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RunSummary.h"
 
+#include <pointplane/core/counted.h>
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/mrpt_poses.h>
 
@@ -8,7 +9,6 @@
 #include <cstdio>
 #include <ostream>
 
-#include "counted.h"
 #include "mostly_predicted.h"
 
 namespace pointplane
@@ -27,6 +27,13 @@ constexpr std::size_t kMostGroups = 8;  // lines that are still read
     return text;
 }
 
+/** A reason without that of frames that have depth alone, which is the last one. */
+[[nodiscard]] std::string withoutColour(const std::string& reason)
+{
+    const std::size_t at = reason.rfind("it has no colour image");
+    return at == std::string::npos ? reason : reason.substr(0, std::max<std::size_t>(at, 2) - 2);
+}
+
 [[nodiscard]] std::string lineOf(const UntrackedFrames& frames)
 {
     const std::string first = std::to_string(frames.first);
@@ -36,6 +43,16 @@ constexpr std::size_t kMostGroups = 8;  // lines that are still read
            frames.reason;
 }
 }  // namespace
+
+void FramesInPart::add(const OutputItem& item, const std::string& reason)
+{
+    if (number++ == 0)
+    {
+        const std::size_t index = item.source.frameIndex;
+        first = {
+            index, index, item.source.observation->timestamp, item.frame->motion.status, reason};
+    }
+}
 
 void RunSummary::addUntracked(const OutputItem& item)
 {
@@ -62,16 +79,16 @@ void RunSummary::addUntracked(const OutputItem& item)
 
 void RunSummary::addInPart(const OutputItem& item)
 {
-    const RobotMotion& motion = item.frame->motion;
-    if (motion.reason.empty())
+    const std::string& reason = item.frame->motion.reason;
+    const std::string besides = withoutColour(reason);
+    numWithoutColour += besides == reason ? 0 : 1;
+    if (!reason.empty())
     {
-        return;
+        inPart.add(item, reason);
     }
-    if (numInPart++ == 0)
+    if (!besides.empty())
     {
-        const std::size_t index = item.source.frameIndex;
-        firstInPart = {
-            index, index, item.source.observation->timestamp, motion.status, motion.reason};
+        inPartBesides.add(item, besides);
     }
 }
 
@@ -166,11 +183,26 @@ void RunSummary::printUntracked(std::ostream& out) const
         out << "  and " << framesText(numUntrackedMore)
             << " after these (--diagnostics FILE has them all)\n";
     }
-    if (numInPart > 0)
+}
+
+/** Of a recording without colour, that is told once: else all its frames would be in part. */
+void RunSummary::printInPart(std::ostream& out) const
+{
+    const bool isDepthOnly = numWithoutColour > 0 && numWithoutColour == numTracked;
+    if (isDepthOnly)
     {
-        out << "  " << numInPart << " of the tracked frames in part, first " << lineOf(firstInPart)
-            << "\n";
+        out << "  no tracked frame has a colour image: the motion is from planes, without points\n";
     }
+    const FramesInPart& frames = isDepthOnly ? inPartBesides : inPart;
+    if (frames.number > 0)
+    {
+        out << "  " << frames.number << " of the tracked frames in part, first "
+            << lineOf(frames.first) << "\n";
+    }
+}
+
+void RunSummary::printAttached(std::ostream& out) const
+{
     if (attachedShare > 0)
     {
         char line[256];
@@ -217,6 +249,8 @@ void RunSummary::print(std::ostream& out, bool profile) const
 {
     printFrames(out);
     printUntracked(out);
+    printInPart(out);
+    printAttached(out);
     for (const std::string& note : notes)
     {
         out << note << "\n";

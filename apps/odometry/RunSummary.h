@@ -23,6 +23,15 @@ struct UntrackedFrames
     std::string reason;  //!< of the first; of the others the same but for numbers in it
 };
 
+/** Tracked frames with a reason: they lack something. */
+struct FramesInPart
+{
+    std::size_t number{0};
+    UntrackedFrames first;
+
+    void add(const OutputItem& item, const std::string& reason);
+};
+
 /** What a run amounted to. */
 struct RunSummary
 {
@@ -30,12 +39,13 @@ struct RunSummary
     std::size_t numFrames{0}, numTracked{0}, numPredicted{0}, numLost{0};
     std::vector<UntrackedFrames> untracked;  //!< the first few
     std::size_t numUntrackedMore{0};         //!< frames of the others
-    std::size_t numInPart{0};                //!< tracked ones that have a reason
-    UntrackedFrames firstInPart;
-    std::size_t firstAttached{0};      //!< frame in which a part of the robot was seen
-    double attachedShare{0};           //!< the largest part of the view that it took; 0: none
-    bool hasMotion{false};             //!< one at least was measured
-    double pathLength{0};              //!< of the robot [m]
+    FramesInPart inPart;                     //!< for any reason
+    FramesInPart inPartBesides;              //!< for another reason than that colour is missing
+    std::size_t numWithoutColour{0};         //!< tracked ones
+    std::size_t firstAttached{0};            //!< frame in which a part of the robot was seen
+    double attachedShare{0};                 //!< the largest part of the view that it took; 0: none
+    bool hasMotion{false};                   //!< one at least was measured
+    double pathLength{0};                    //!< of the robot [m]
     double seconds{0};                 //!< wall time, without that of frames that were skipped
     FrameDiagnostics sum;              //!< of the times per stage; the latest noise and lens
     std::vector<std::string> notes;    //!< lines about the input
@@ -59,6 +69,8 @@ struct RunSummary
     [[nodiscard]] double perFrame(double total) const;
     void printFrames(std::ostream& out) const;
     void printUntracked(std::ostream& out) const;
+    void printInPart(std::ostream& out) const;
+    void printAttached(std::ostream& out) const;
     void printLearnt(std::ostream& out) const;  //!< of the camera
     void printTimes(std::ostream& out) const;
     [[nodiscard]] bool isMostlyUnmeasured() const;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "map_sinks.h"
 
+#include <pointplane/core/counted.h>
 #include <pointplane/core/covariance.h>
 #include <pointplane/core/se3.h>
 #include <pointplane/mrpt_io/mrpt_poses.h>
@@ -9,8 +10,6 @@
 
 #include <cmath>
 #include <cstdio>
-
-#include "counted.h"
 
 namespace pointplane
 {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "overlay_legend.h"
 
+#include <pointplane/core/counted.h>
+
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
@@ -29,10 +31,9 @@ class Legend
         x_ += width;
     }
 
-    void addPoint(FeatureUse use, int count, const char* what)
+    void addPoint(FeatureUse use, const std::string& text)
     {
         constexpr int kMark = 13;
-        const std::string text = std::to_string(count) + " " + what;
         const int width = widthOf(text, kMark, kPoint);
         make(width);
         drawPoint(use, cv::Point2d(x_ + 5.0, y_ + 0.5 * kLine), strip_);
@@ -134,24 +135,23 @@ void addCounts(const FrameFeatures& features, Legend& legend)
 {
     const auto count = [&](FeatureUse use)
     {
-        return static_cast<int>(std::count_if(
+        return static_cast<std::size_t>(std::count_if(
             features.points.begin(),
             features.points.end(),
             [&](const FrameFeatures::Point& p) { return p.use == use; }));
     };
-    legend.addPoint(FeatureUse::Used, count(FeatureUse::Used), "used");
-    legend.addPoint(FeatureUse::Doubted, count(FeatureUse::Doubted), "doubted");
-    legend.addPoint(FeatureUse::Rejected, count(FeatureUse::Rejected), "rejected");
-    legend.addPoint(FeatureUse::New, count(FeatureUse::New), "new points");
+    const auto addPoints = [&](FeatureUse use, const char* what)
+    { legend.addPoint(use, std::to_string(count(use)) + " " + what); };
+    addPoints(FeatureUse::Used, "used");
+    addPoints(FeatureUse::Doubted, "doubted");
+    addPoints(FeatureUse::Rejected, "rejected");
+    legend.addPoint(FeatureUse::New, counted(count(FeatureUse::New), "new point"));
+    const auto numPlanes =
+        std::count(features.planeUses.begin(), features.planeUses.end(), FeatureUse::Used);
+    legend.add(
+        std::to_string(numPlanes) + " of " + counted(features.planeUses.size(), "plane") + " used",
+        150);
     char text[64];
-    std::snprintf(
-        text,
-        sizeof(text),
-        "%d of %zu planes used",
-        static_cast<int>(
-            std::count(features.planeUses.begin(), features.planeUses.end(), FeatureUse::Used)),
-        features.planeUses.size());
-    legend.add(text, 150);
     std::snprintf(text, sizeof(text), "%.0f %% moving", 100 * features.moving.share());
     legend.add(text, 90, kMoving);
 }

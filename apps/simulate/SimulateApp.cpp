@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SimulateApp.h"
 
+#include <pointplane/core/counted.h>
 #include <pointplane/mrpt_io/OutputFile.h>
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/params_ini.h>
@@ -16,7 +17,6 @@
 #include <ostream>
 
 #include "SequenceWriter.h"
-#include "counted.h"
 #include "label_check.h"
 #include "run_program.h"
 #include "standard_streams.h"

@@ -149,6 +149,35 @@ TEST_F(ConvertApp, pairsAreThoseOfAssociateAndNothingIsLost)
         "# copied by pointplane-convert\n" + test::readBytes(dir_ / "in/groundtruth.txt"));
 }
 
+TEST_F(ConvertApp, namesOfImagesMayHaveBlanks)
+{
+    for (const char* name : {"rgb", "depth"})
+    {
+        const std::string image = dir_ / ("in/" + std::string(name));
+        std::filesystem::rename(image + "/0.png", image + "/in the  hall.png");
+        std::string listing = test::readBytes(image + ".txt");
+        listing.replace(listing.find("/0.png"), 6, "/in the  hall.png \r");
+        writeBytes(image + ".txt", listing);
+    }
+    ASSERT_EQ(run({in_, "-o", out_}), kExitOk) << text_;
+    const auto scans = scansOf(out_);
+    ASSERT_EQ(scans.size(), 2U);
+    EXPECT_EQ(cv::norm(scans[0]->intensityImage.asCvMatRef(), colours_[0], cv::NORM_INF), 0);
+}
+
+TEST_F(ConvertApp, groundTruthWithoutPosesIsTold)
+{
+    for (const char* text : {"", "# timestamp tx ty tz qx qy qz qw\n \n"})
+    {
+        writeBytes(dir_ / "in/groundtruth.txt", text);
+        ASSERT_EQ(run({in_, "-o", out_}), kExitOk) << text_;
+        EXPECT_THAT(
+            text_,
+            HasSubstr(in_ + "/groundtruth.txt: has no poses, so no ground truth is written"));
+        EXPECT_FALSE(std::filesystem::exists(dir_ / "out.groundtruth.txt"));
+    }
+}
+
 TEST_F(ConvertApp, cameraAndDelayReachEachFrame)
 {
     ASSERT_EQ(run({in_, "-o", out_}), kExitOk) << text_;
@@ -400,12 +429,24 @@ TEST_F(ConvertApp, mistakesAreNamed)
     expect("depth.txt:3: expected 'stamp file'");
     writeBytes(dir_ / "in/depth.txt", "abc a.png\n");
     expect("depth.txt:1: 'abc' is not a time stamp");
+    writeBytes(dir_ / "in/depth.txt", "1305031102160407000 a.png\n");
+    expect("seconds; if it is in nanoseconds, write 1305031102.160407000\n");
+    writeBytes(dir_ / "in/depth.txt", "1305031102160 a.png\n");
+    expect("seconds; if it is in milliseconds, write 1305031102.160\n");
+    writeBytes(dir_ / "in/depth.txt", "5.0 a b.png\n");
+    expect("expected 'stamp file', found '5.0 a b.png'; no file is named 'a b.png'\n");
+    std::filesystem::remove(dir_ / "in/depth.txt");
+    expect("/depth.txt: No such file or directory; without lists, pointplane-convert folder takes");
     writeBytes(dir_ / "in/depth.txt", "# nothing\n");
     expect("depth.txt: lists no images");
     writeBytes(dir_ / "in/depth.txt", "5.0 depth/0.png\n");
-    expect("no colour and depth stamps within");
+    expect(
+        "no colour and depth stamps within 0.02 s of each other: colour from 1305031102.175 to "
+        "1305031109.000 s, depth from 5.000 to 5.000 s (stamps must be in seconds");
     writeBytes(dir_ / "in/depth.txt", listing);
     expect("is 32x24 but the camera is for 640x480", {"--camera", "fr3"});
+    writeBytes(dir_ / "pinhole.txt", "26.2 26.1 15.5 11.5\n");
+    expect("line of 12 numbers, fx fy cx cy k1 k2", {"--camera", dir_ / "pinhole.txt"});
     for (const char* size : {"32.5 24", "1e300 24", "32 0", "32 -24"})
     {
         writeBytes(
@@ -413,7 +454,15 @@ TEST_F(ConvertApp, mistakesAreNamed)
         expect("size.txt: width and height are not whole numbers", {"--camera", dir_ / "size.txt"});
     }
     cv::imwrite(dir_ / "in/depth/0.png", colours_[0]);
-    expect("depth/0.png: is not a depth image of 16 bit and one channel", {"--strict"});
+    expect(
+        "depth/0.png: is not a depth image of 16 bit and one channel, but of 8 bit and 3 "
+        "channels\n",
+        {"--strict"});
+    cv::imwrite(dir_ / "in/depth/0.tiff", cv::Mat(24, 32, CV_32FC1, cv::Scalar(1)));
+    std::filesystem::rename(dir_ / "in/depth/0.tiff", dir_ / "in/depth/0.png");
+    expect(
+        "but of 32 bit in floating point and 1 channel; pointplane-convert folder reads that",
+        {"--strict"});
     std::filesystem::remove(dir_ / "in/depth/0.png");
     expect("cannot open " + in_ + "/depth/0.png: no such file", {"--strict"});
     std::filesystem::rename(dir_ / "in/rgb", dir_ / "in/elsewhere");

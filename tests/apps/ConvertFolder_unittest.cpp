@@ -331,19 +331,24 @@ TEST_F(ConvertFolder, strayScannerHasItsColourInAVideo)
 
 TEST_F(ConvertFolder, depthInFloatingPointMetres)
 {
-    writeFrames("in/rgb/%d.png", "in/depth/%d.png");
-    for (int i = 0; i < 3; ++i)
+    for (const std::string ending : {"tiff", "pfm"})
     {
-        std::filesystem::remove(dir_ / numbered("in/depth/%d.png", i));
-        writeImage(
-            numbered("in/depth/%d.tiff", i),
-            cv::Mat(48, 64, CV_32FC1, cv::Scalar((1000 + i) / 500.0)));
+        const std::string folder = "in/" + ending;
+        writeFrames((folder + "/rgb/%d.png").c_str(), (folder + "/depth/%d.png").c_str());
+        for (int i = 0; i < 3; ++i)
+        {
+            std::filesystem::remove(dir_ / numbered((folder + "/depth/%d.png").c_str(), i));
+            cv::Mat depth(48, 64, CV_32FC1, cv::Scalar((1000 + i) / 500.0));
+            depth.at<float>(20, 30) = 1.5;
+            writeImage(numbered((folder + "/depth/%d." + ending).c_str(), i), depth);
+        }
+        write(folder + "/camera.txt", kCamera);
+        ASSERT_EQ(run({"folder", dir_ / folder}), kExitOk) << text_;
+        const auto found = frames();
+        ASSERT_EQ(found.size(), 3U);
+        EXPECT_NEAR(found[2].depth.at<float>(27, 30), 2.004, 1.3e-4) << ending;
+        EXPECT_NEAR(found[2].depth.at<float>(20, 30), 1.5, 1.3e-4) << ending;
     }
-    write("in/camera.txt", kCamera);
-    ASSERT_EQ(run({"folder", in_}), kExitOk) << text_;
-    const auto found = frames();
-    ASSERT_EQ(found.size(), 3U);
-    EXPECT_NEAR(found[2].depth.at<float>(20, 30), 2.004, 1.3e-4);
 }
 
 TEST_F(ConvertFolder, depthInFloatingPointMayHaveAnotherUnit)
@@ -631,6 +636,15 @@ TEST(ProblemOfStamps, saysWhatIsWrong)
     EXPECT_THAT(problemOfStamps(repeated), HasSubstr("40 of them repeat the one before"));
     EXPECT_THAT(problemOfStamps(repeated), HasSubstr("--even-stamps"));
     EXPECT_EQ(problemOfStamps(back), "1 of them is before the one before");
+    for (const double unit : {1e3, 1e6, 1e9, 30.0})  // the last one: numbers of frames
+    {
+        std::vector<double> stamps;
+        for (std::size_t i = 0; i < 3; ++i)
+        {
+            stamps.push_back(unit * (even[i] - even[0]));
+        }
+        EXPECT_THAT(problemOfStamps(stamps), HasSubstr(" s; are they in seconds?")) << unit;
+    }
 }
 
 /** Standard deviation of the stamps' errors. */

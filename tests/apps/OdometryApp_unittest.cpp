@@ -42,6 +42,7 @@ using test::sampleScan;
 using test::TempDir;
 using test::writeBytes;
 using testing::HasSubstr;
+using testing::Not;
 
 struct Outcome
 {
@@ -545,6 +546,26 @@ TEST_F(OdometryApp, textTrajectoriesLeaveLostFramesOut)
     EXPECT_THAT(marks[0], testing::EndsWith(" lost: observation has no range image"));
 }
 
+/** A camera of depth alone lacks nothing that its user could give. */
+TEST_F(OdometryApp, recordingsWithoutColourAreToldOnce)
+{
+    const auto withoutColour = [](int from)
+    {
+        return [from](int i, CObservation3DRangeScan& scan)
+        {
+            scan.hasIntensityImage = i < from;
+            scan.intensityImage = i < from ? scan.intensityImage : mrpt::img::CImage();
+        };
+    };
+    const Outcome none = runOn(5, withoutColour(0));
+    EXPECT_THAT(
+        none.out, HasSubstr("no tracked frame has a colour image: the motion is from planes"));
+    EXPECT_THAT(none.out, Not(HasSubstr("it has no colour image"))) << none.out;
+    const Outcome some = runOn(5, withoutColour(3));
+    EXPECT_THAT(some.out, Not(HasSubstr("no tracked frame has")));
+    EXPECT_THAT(some.out, HasSubstr("5 of the tracked frames in part, first frame 0 (stamp "));
+}
+
 TEST_F(OdometryApp, badInputIsNamedWithExitCode2)
 {
     const auto expect = [this](const std::vector<std::string>& args, const std::string& text)
@@ -561,6 +582,11 @@ TEST_F(OdometryApp, badInputIsNamedWithExitCode2)
     expect({dir_ / "empty.rawlog", "-o", out_}, "empty.rawlog: is empty");
     writeBytes(dir_ / "text.rawlog", "hello");
     expect({dir_ / "text.rawlog", "-o", out_}, "is a text file, not a rawlog");
+    expect({dir_ / "", "-o", out_}, "not a rawlog; pointplane-convert folder");
+    writeBytes(dir_ / "metadata.yaml", "rosbag2_bagfile_information:\n");
+    expect({dir_ / "", "-o", out_}, "not a rawlog; if ROS 2 wrote it, make a ROS 1 bag");
+    writeBytes(dir_ / "depth.txt", "");
+    expect({dir_ / "", "-o", out_}, "not a rawlog; pointplane-convert tum makes one of it");
     expect(
         {in_, "-o", out_, "--sensor-label", "LEFT"},
         "no frames of camera 'LEFT'; in it are 2 frames of camera 'RGBD'");

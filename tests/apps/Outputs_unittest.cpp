@@ -252,7 +252,7 @@ TEST_F(Outputs, aFolderAsAnInputIsBlamedItself)
     const std::string folder = dir_ / "in";
     for (const std::string& option : kOptions)
     {
-        expectRefused({folder, option, dir_ / "in/new"}, "pointplane-convert makes rawlogs of");
+        expectRefused({folder, option, dir_ / "in/new"}, "pointplane-convert folder makes one of");
         expectRefused({in_, folder, option, dir_ / "in/new"}, "is a folder, not a rawlog");
         expectRefused({in_, "-c", folder, option, dir_ / "in/new"}, "is a directory");
     }

@@ -178,6 +178,29 @@ TEST(RunCommand, whatTheSystemRefusesIsExitCode3)
 }
 
 /** The user did nothing wrong, and is told so. */
+TEST(RunCommand, wordsThatAreNotExpectedAreToldInTheirOrder)
+{
+    const auto errorOf = [](auto app, const std::vector<std::string>& args)
+    {
+        std::ostringstream out, err;
+        EXPECT_EQ(app(args, out, err), kExitBadInput);
+        return err.str();
+    };
+    EXPECT_EQ(
+        errorOf(runEval, {"rpe", "a.txt", "b.txt", "c.txt", "d.txt"}),
+        "pointplane-eval: not expected: c.txt d.txt (see --help)\n");
+    EXPECT_EQ(
+        errorOf(runSimulate, {"desk", "-o", "a.rawlog", "-delta", "x"}),
+        "pointplane-simulate: not expected: -delta x (see --help)\n");
+    const std::string before =
+        " stands before the command; options of a command come after its name (see --help)\n";
+    EXPECT_EQ(
+        errorOf(runEval, {"--delta", "1", "rpe", "--fixed-delta", "a.txt", "b.txt"}),
+        "pointplane-eval: --delta" + before);
+    EXPECT_EQ(
+        errorOf(runEval, {"--json", "a", "rpe", "b.txt"}), "pointplane-eval: --json" + before);
+}
+
 TEST(RunCommand, aBugIsNotTheUsersMistake)
 {
     CLI::App app{"", "pointplane"};

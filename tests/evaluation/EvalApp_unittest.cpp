@@ -224,8 +224,9 @@ TEST_F(EvalApp, posesOfDifferentBodiesAreTold)
             errOf(ofRobot, ofCamera, nullptr), HasSubstr("give --body-from-gt 0,0,0,0,-90,90 if"));
         for (const std::string& other : {ofRobot, ofCamera, truth})
         {
-            EXPECT_EQ(errOf(other, other, nullptr), "") << command;
-            EXPECT_EQ(errOf(truth, other, nullptr), "") << command;
+            const auto saysNothing = testing::Not(HasSubstr("the poses of"));
+            EXPECT_THAT(errOf(other, other, nullptr), saysNothing) << command;
+            EXPECT_THAT(errOf(truth, other, nullptr), saysNothing) << command;
         }
         EXPECT_EQ(errOf(ofCamera, ofRobot, "optical"), "");
     }
@@ -297,7 +298,7 @@ TEST_F(EvalApp, compareTellsWhatIsTooShortForAnInterval)
     const test::AppRun r = run(args);
     EXPECT_EQ(r.code, 0) << r.err;
     EXPECT_THAT(r.out, HasSubstr("200.000  +100.000 too short "));
-    EXPECT_THAT(r.out, HasSubstr("too short for an interval: 1 pair(s) without overlap, at least"));
+    EXPECT_THAT(r.out, HasSubstr("too short for an interval: 1 pair without overlap, at least"));
     const auto behind = nlohmann::json::parse(
         test::readBytes(files / "out.json"))["runs"][0]["translationBehindBest"];
     EXPECT_TRUE(behind["lower95"].is_null());
@@ -314,6 +315,27 @@ TEST_F(EvalApp, runsThatCannotBeComparedHaveNoBest)
     EXPECT_EQ(r.out.find('*'), std::string::npos) << r.out;
     EXPECT_TRUE(
         nlohmann::json::parse(test::readBytes(files / "out.json"))["bestTranslation"].is_null());
+}
+
+/** A hint beside a best run and a significant difference helped nobody, and was not in the report.
+ */
+TEST_F(EvalApp, posesOfCameraAndRobotHaveNoBest)
+{
+    const std::string ofCamera =
+        writeFile(files, "camera.txt", "# x right, y down, z forward\n" + straightLine(1));
+    const std::string ofRobot =
+        writeFile(files, "robot.txt", "# x forward, y left, z up\n" + straightLine(1.1));
+    const test::AppRun r = run(
+        {"compare", truth, ofCamera, ofRobot, "--json", files / "o.json", "--report", files / "r"});
+    EXPECT_EQ(r.code, 0) << r.err;
+    EXPECT_THAT(r.out, HasSubstr("others of the robot: their errors cannot be compared\n"));
+    EXPECT_EQ(r.out.find('*'), std::string::npos) << r.out;
+    const auto json = nlohmann::json::parse(test::readBytes(files / "o.json"));
+    EXPECT_TRUE(json["bestTranslation"].is_null());
+    EXPECT_TRUE(json["bestAte"].is_null());
+    EXPECT_FALSE(json["runs"][1].contains("translationBehindBest"));
+    EXPECT_THAT(test::readBytes(files / "r/index.html"), HasSubstr("Hint: the poses of"));
+    EXPECT_THAT(run({"compare", truth, ofCamera, truth}).out, HasSubstr("*"));
 }
 
 /** Millimetres taken for metres. */
@@ -887,6 +909,22 @@ TEST_F(EvalApp, trajectoriesInTheWrongOrderAreWarnedOf)
         {
             EXPECT_THAT(run({command, first, marked}).err, testing::Not(HasSubstr("given first")));
         }
+    }
+}
+
+/** Its errors are zero, and pass any limit. */
+TEST_F(EvalApp, aGroundTruthThatIsTheEstimateIsWarnedOf)
+{
+    std::filesystem::create_symlink(truth, files / "link.txt");
+    for (const char* command : {"rpe", "ate", "compare"})
+    {
+        for (const std::string& same : {truth, files / "link.txt"})
+        {
+            const test::AppRun r = run({command, truth, same});
+            EXPECT_EQ(r.code, 0) << r.err;
+            EXPECT_THAT(r.err, HasSubstr("warning: '" + same + "' is the ground truth, too"));
+        }
+        EXPECT_THAT(run({command, truth, estimate}).err, testing::Not(HasSubstr("too: nothing")));
     }
 }
 

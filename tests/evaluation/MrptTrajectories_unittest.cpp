@@ -211,8 +211,8 @@ TEST(MrptTrajectories, motionsSinceEarlierFramesCountLostFramesWithoutATime)
     EXPECT_THAT(
         read.warnings,
         testing::ElementsAre(
-            path + ": 3 lost frame(s) with a stamp that is not after the one before "
-                   "have no pose"));
+            path + ": 3 lost frames without a pose, as the stamp is not after the one "
+                   "before"));
     EXPECT_THAT(incrementCovariance(read, 19, 20), test::IsMatrixNear(estimate().covs[1], 1e-9));
     EXPECT_THAT(incrementCovariance(read, 20, 21), test::IsMatrixNear(estimate().covs[4], 1e-9));
     EXPECT_THAT(incrementCovariance(read, 24, 25), test::IsMatrixNear(estimate().covs[1], 1e-9));
@@ -416,7 +416,7 @@ TEST(MrptTrajectories, posesThatAreNoNumbersAreLeftOutAsInText)
     };
     write("nan.rawlog", NAN);
     const std::string warning =
-        "nan.rawlog: 1 pose(s) with NaN or infinity left out, the first at 100.500000 s";
+        "nan.rawlog: 1 pose with NaN or infinity left out, the first at 100.500000 s";
     for (const char* command : {"rpe", "ate", "compare", "nees"})
     {
         const test::AppRun r = evaluate({command, writeTruth(dir), dir / "nan.rawlog"});
@@ -591,7 +591,7 @@ TEST(MrptTrajectories, neesOfAShortRecordingLeavesOutWhatItIsTooShortFor)
         writer.close();
     };
     std::vector<std::string> args{"nees", truthFile, dir / "short.rawlog", "--report", dir / "r"};
-    const std::string problem = "only 1 increment(s) of 10f have ground truth at both ends";
+    const std::string problem = "only one increment of 10f has ground truth at both ends";
     write(11);  // 1 s
     const test::AppRun r = evaluate(args);
     EXPECT_EQ(r.code, 0) << r.err;
@@ -610,7 +610,7 @@ TEST(MrptTrajectories, neesOfAShortRecordingLeavesOutWhatItIsTooShortFor)
     write(2);
     const test::AppRun none = evaluate(args);
     EXPECT_EQ(none.code, 2);
-    EXPECT_THAT(none.err, HasSubstr("pointplane-eval: only 1 increment(s) of 1f"));
+    EXPECT_THAT(none.err, HasSubstr("pointplane-eval: only one increment of 1f"));
 }
 
 TEST(MrptTrajectories, neesStatesTheNoiseOfTheGroundTruth)

@@ -322,7 +322,10 @@ TEST(RawlogReader, badFilesAreNamed)
     EXPECT_EQ(
         messageFor(dir / "text.rawlog"), dir / "text.rawlog" + ": is a text file, not a rawlog");
     writeBytes(dir / "ros.rawlog", "#ROSBAG V2.0\n" + std::string(99, '\0'));
-    EXPECT_EQ(messageFor(dir / "ros.rawlog"), dir / "ros.rawlog" + ": is a ROS bag, not a rawlog");
+    EXPECT_EQ(
+        messageFor(dir / "ros.rawlog"),
+        dir / "ros.rawlog" +
+            ": is a ROS bag, not a rawlog; pointplane-convert bag makes one of it");
     writeBytes(dir / "zeros.rawlog", std::string(99, '\0'));
     EXPECT_THAT(messageFor(dir / "zeros.rawlog"), testing::HasSubstr("is it a rawlog?"));
     writeBytes(dir / "zstd.rawlog", "\x28\xb5\x2f\xfd----");
@@ -336,6 +339,28 @@ TEST(RawlogReader, badFilesAreNamed)
         "CNothing" +
             std::string(20, '\0'));
     EXPECT_THAT(messageFor(dir / "unknown.rawlog"), testing::HasSubstr("CNothing"));
+}
+
+/** Some have no first bytes of their own, some are damaged there: then the name tells. */
+TEST(RawlogReader, whoGivesAnotherRecordingLearnsWhatReadsIt)
+{
+    const TempDir dir;
+    const std::string noMagic(99, '\0');
+    const auto expect = [&](const std::string& name, const std::string& text)
+    {
+        writeBytes(dir / name, noMagic);
+        EXPECT_THAT(messageFor(dir / name), testing::HasSubstr(text));
+    };
+    expect(
+        "x.klg",
+        "x.klg: is a log of ElasticFusion by its name, not a rawlog; pointplane-convert klg");
+    expect("x.bag", "is a ROS bag, not a rawlog; pointplane-convert bag");
+    expect(
+        "x.mcap", "is an MCAP recording, not a rawlog; make a ROS 1 bag of it (rosbags-convert)");
+    expect("x.db3", "is a database of ROS 2, not a rawlog; make a ROS 1 bag of it");
+    expect("x.zip", "is a zip archive, not a rawlog; unpack it, then pointplane-convert tum");
+    test::writeObservations(dir / "rawlog.bag", 1);
+    EXPECT_TRUE(RawlogReader(dir / "rawlog.bag").next()) << "its name does not matter";
 }
 
 /** What came out of a pipe is gone: opening it again would wait for ever. */

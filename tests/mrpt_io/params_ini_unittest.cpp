@@ -101,6 +101,10 @@ TEST(ParamsIni, mistakesAreNamedWithFileLineAndWhatWasMeant)
         errorOf("[Alpha]\nname = orb\n"),
         "x.ini:2: unknown key 'name' in [Alpha]; it belongs in [Beta]");
     EXPECT_EQ(errorOf("[Alhpa]\n"), "x.ini:1: unknown section [Alhpa]; did you mean [Alpha]?");
+    EXPECT_EQ(errorOf("[Nope]\n"), "x.ini:1: unknown section [Nope]; sections are Alpha, Beta");
+    EXPECT_THAT(
+        errorOf("[Alpha]\nwidth = 1\n"),
+        testing::StartsWith("x.ini:2: unknown key 'width' in [Alpha]; keys are "));
     EXPECT_EQ(errorOf("[Alpha\n"), "x.ini:1: expected [SECTION] alone, not [Alpha");
     EXPECT_EQ(errorOf("count = 1\n"), "x.ini:1: key 'count' before any [Section]");
     EXPECT_EQ(errorOf("[Alpha]\ncount\n"), "x.ini:2: expected 'key = value', found 'count'");
@@ -191,6 +195,20 @@ TEST(ParamsIni, missingFileIsAnError)
         {
             EXPECT_THAT(e.what(), HasSubstr("cannot open configuration " + path));
         }
+    }
+}
+
+TEST(ParamsIni, anotherFileIsNotQuoted)
+{
+    const test::TempDir dir;
+    for (const auto& bytes : {std::string("\x1f\x8b\x08gz"), std::string("a\0b", 3)})
+    {
+        test::writeBytes(dir / "a.rawlog", bytes);
+        const auto read = [&] { (void)loadOdometryParams(dir / "a.rawlog"); };
+        EXPECT_THAT(
+            read,
+            testing::ThrowsMessage<InputError>(
+                dir / "a.rawlog" + ": is not a text, as a configuration is"));
     }
 }
 

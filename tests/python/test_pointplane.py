@@ -286,6 +286,15 @@ class Odometry(unittest.TestCase):
             ):
                 odometry.process(millimetres, None, frame.camera, 1.0, depth_unit=unit)
 
+    def test_stamps_in_other_units_than_seconds_are_refused(self):
+        frame = next(iter(pointplane.read_rawlog(RAWLOG)))
+        odometry = pointplane.VisualOdometry()
+        for stamp in (1305031102175304000, 1305031102175304, 1305031102175):
+            with self.assertRaisesRegex(ValueError, r"^stamp: \S+ is too large for seconds; divide"):
+                odometry.process(frame.depth, None, frame.camera, stamp)
+        result = odometry.process(frame.depth, None, frame.camera, 1305031102.175)
+        self.assertEqual(result.status, "first")
+
     def test_threads_may_share_one_object(self):
         frames = list(pointplane.read_rawlog(RAWLOG))
         odometry = pointplane.VisualOdometry()

@@ -32,8 +32,8 @@ AteResult absoluteTrajectoryError(
     if (pairs.size() < 2)
     {
         throw std::runtime_error(
-            "only " + std::to_string(pairs.size()) +
-            " pose(s) of the estimate have ground truth within " +
+            std::string(pairs.empty() ? "no" : "only one") +
+            " pose of the estimate has ground truth within " +
             std::to_string(options.maxDifference) +
             " s; at least two are needed (--max-difference, --offset)");
     }

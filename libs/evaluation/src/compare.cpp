@@ -193,6 +193,18 @@ std::vector<ComparedRun> scoredAlone(
     return out;
 }
 
+bool haveSameBody(const std::vector<Trajectory>& estimates)
+{
+    const auto isOfOne = [&](Body body)
+    {
+        return std::any_of(
+            estimates.begin(),
+            estimates.end(),
+            [body](const Trajectory& estimate) { return estimate.body == body; });
+    };
+    return !isOfOne(Body::Camera) || !isOfOne(Body::Robot);
+}
+
 template <class Value>
 std::size_t smallest(const std::vector<ComparedRun>& runs, Value value)
 {
@@ -207,7 +219,7 @@ void chooseBest(const std::vector<Stamps>& stamps, Comparison& out)
 {
     out.bestTranslation = smallest(out.runs, [](const auto& r) { return r.translation.value; });
     out.bestRotation = smallest(out.runs, [](const auto& r) { return r.rotation.value; });
-    if (out.runs.size() > 1 && haveSameAteFrames(stamps, out.runs))
+    if (out.runs.size() > 1 && out.sameBodies && haveSameAteFrames(stamps, out.runs))
     {
         out.bestAte = smallest(out.runs, [](const auto& r) { return r.ate.translation.rmse; });
     }
@@ -225,6 +237,7 @@ Comparison compareRuns(
     POINTPLANE_CHECK(!estimates.empty(), "no runs to compare");
     Comparison out;
     out.runs = scoredAlone(groundTruth, estimates, rpe, ate);
+    out.sameBodies = haveSameBody(estimates);
     const std::vector<Stamps> stamps = frameStampsOf(estimates);
     const std::set<StampPair> common = commonPairs(stamps, out.runs);
     out.numCommonPairs = common.size();

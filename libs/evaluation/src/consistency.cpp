@@ -60,9 +60,9 @@ std::string problemOf(const std::vector<NeesIncrement>& increments, const NeesIn
     constexpr std::size_t kLeast = 2;
     return increments.size() >= kLeast
                ? ""
-               : "only " + std::to_string(increments.size()) + " increment(s) of " +
+               : std::string(increments.empty() ? "no" : "only one") + " increment of " +
                      nameOf(interval) +
-                     " have ground truth at both ends; at least two are needed (--interval "
+                     " has ground truth at both ends; at least two are needed (--interval "
                      "chooses other lengths)";
 }
 

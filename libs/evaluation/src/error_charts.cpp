@@ -123,10 +123,10 @@ std::vector<Chart> errorOverInterval(
         return {};
     }
     std::vector<Chart> charts(2);
-    charts[0].title = "Relative error over intervals of 0.1 to 5 s: translation";
+    charts[0].title = "Relative error over intervals: translation";
     charts[0].yLabel = "RMSE [mm]";
     charts[0].series = {translation};
-    charts[1].title = "Relative error over intervals of 0.1 to 5 s: rotation";
+    charts[1].title = "Relative error over intervals: rotation";
     charts[1].yLabel = "RMSE [deg]";
     charts[1].series = {rotation};
     for (Chart& chart : charts)

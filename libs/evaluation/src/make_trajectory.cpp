@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/counted.h>
 #include <pointplane/core/number_text.h>
 #include <pointplane/evaluation/Trajectory.h>
 #include <pointplane/evaluation/stamp_intervals.h>
@@ -11,13 +12,14 @@ namespace pointplane
 {
 namespace
 {
-/** Tells the user of so many frames, poses or stamps. */
-void warn(Trajectory& trajectory, std::size_t count, const std::string& ofThem)
+/** Tells the user of so many things, if there are any. \param what one of them \param ofThem what
+ * follows it */
+void warn(
+    Trajectory& trajectory, std::size_t count, const std::string& what, const std::string& ofThem)
 {
     if (count > 0)
     {
-        trajectory.warnings.push_back(
-            trajectory.name + ": " + std::to_string(count) + " " + ofThem);
+        trajectory.warnings.push_back(trajectory.name + ": " + counted(count, what) + ofThem);
     }
 }
 
@@ -40,7 +42,8 @@ void removeLate(std::vector<StampedPose>& poses, Trajectory& out)
     warn(
         out,
         out.lostWithoutTime,
-        "lost frame(s) with a stamp that is not after the one before have no pose");
+        "lost frame",
+        " without a pose, as the stamp is not after the one before");
 }
 
 /** Lost frames are before others of the same stamp. */
@@ -59,8 +62,9 @@ void sortByStamp(std::vector<StampedPose>& poses, Trajectory& out)
         warn(
             out,
             numBack,
-            "stamp(s) go back in time, the first one from " +
-                numberText(poses[first - 1].stamp, 6) + " to " + numberText(poses[first].stamp, 6) +
+            "step",
+            " back in time, the first one from " + numberText(poses[first - 1].stamp, 6) + " to " +
+                numberText(poses[first].stamp, 6) +
                 " s: poses were sorted by time; score two recordings apart");
     }
     const auto key = [](const StampedPose& p)
@@ -86,7 +90,8 @@ void removeNotFinite(std::vector<StampedPose>& poses, Trajectory& out)
         warn(
             out,
             out.lostStamps.size(),
-            "pose(s) with NaN or infinity left out, the first at " +
+            "pose",
+            " with NaN or infinity left out, the first at " +
                 numberText(out.lostStamps.front(), 6) + " s");
     }
 }
@@ -120,7 +125,7 @@ void takePoses(std::vector<StampedPose>& poses, Trajectory& out)
             out.sinceCovs.push_back(std::move(poses[i].sinceCovs));
         }
     }
-    warn(out, repeated, "pose(s) with a repeated stamp; the last one of each was used");
+    warn(out, repeated, "pose", " with a repeated stamp; the last one of each was used");
 }
 
 void warnOfNanoseconds(Trajectory& trajectory)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/counted.h>
 #include <pointplane/core/number_text.h>
 #include <pointplane/evaluation/scored_trajectories.h>
 
@@ -49,8 +50,8 @@ void checkOverlap(const Trajectory& groundTruth, const Trajectory& estimate, dou
         if (t->size() < 2)
         {
             throw std::runtime_error(
-                "'" + t->name + "' has " + std::to_string(t->size()) +
-                " usable pose(s); at least two are needed");
+                "'" + t->name + "' has " + counted(t->size(), "usable pose") +
+                "; at least two are needed");
         }
     }
     if (estimate.stamps.back() + offset < groundTruth.stamps.front() ||

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/core/byte_order_mark.h>
+#include <pointplane/core/counted.h>
 #include <pointplane/core/number_text.h>
 #include <pointplane/core/read_errors.h>
 #include <pointplane/evaluation/trajectory_text.h>
@@ -162,13 +163,13 @@ struct NotedLines
     std::size_t firstLine{0};
     void add(std::size_t line) { firstLine = count++ == 0 ? line : firstLine; }
 
-    /** Adds "FILE: 2 line(s) with WHAT, the first is line 3MORE", if there are any. */
+    /** Adds "FILE: 2 lines with WHAT, the first is line 3MORE", if there are any. */
     void warn(Trajectory& trajectory, const std::string& what, const std::string& more = "") const
     {
         if (count > 0)
         {
             trajectory.warnings.push_back(
-                trajectory.name + ": " + std::to_string(count) + " line(s) with " + what +
+                trajectory.name + ": " + counted(count, "line") + " with " + what +
                 ", the first is line " + std::to_string(firstLine) + more);
         }
     }

@@ -31,19 +31,27 @@ namespace
     return row.back();
 }
 
-[[nodiscard]] std::string closest(const std::string& word, const std::set<std::string>& candidates)
+/** "did you mean 'gain'?", or all there are if none is like the word.
+ * \param plural what they are \param open, close around a name */
+[[nodiscard]] std::string suggestion(
+    const std::string& word,
+    const std::set<std::string>& candidates,
+    const std::string& plural,
+    const std::string& open,
+    const std::string& close)
 {
-    std::string best;
-    std::size_t bestDistance = std::string::npos;
+    std::string best, all;
+    std::size_t bestDistance = word.size() / 2 + 1;  // half of the letters differ: another word
     for (const std::string& candidate : candidates)
     {
+        all += (all.empty() ? "" : ", ") + candidate;
         if (const std::size_t d = editDistance(word, candidate); d < bestDistance)
         {
             bestDistance = d;
             best = candidate;
         }
     }
-    return best;
+    return best.empty() ? plural + " are " + all : "did you mean " + open + best + close + "?";
 }
 
 [[nodiscard]] bool assignTo(bool* target, const std::string& text)
@@ -125,8 +133,8 @@ void requireSection(const ParameterTable& table, const std::string& section)
     if (sections.count(section) == 0)
     {
         throw InputError(
-            "unknown section [" + section + "]; did you mean [" + closest(section, sections) +
-            "]?");
+            "unknown section [" + section + "]; " +
+            suggestion(section, sections, "sections", "[", "]"));
     }
 }
 
@@ -153,7 +161,7 @@ const ParameterRef& parameterOf(
     requireSection(table, section);
     throw InputError(
         "unknown key '" + key + "' in [" + section + "]; " +
-        (elsewhere.empty() ? "did you mean '" + closest(key, keys) + "'?"
+        (elsewhere.empty() ? suggestion(key, keys, "keys", "'", "'")
                            : "it belongs in [" + elsewhere + "]"));
 }
 }  // namespace pointplane

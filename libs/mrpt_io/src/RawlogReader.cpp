@@ -224,10 +224,11 @@ RawlogReader::RawlogReader(const std::string& path, RawlogClasses classes)
     impl_->readAhead();
     if (!impl_->ahead)
     {
-        const std::string type = otherFileType(path);
+        const auto type = otherFileType(path);
         throw InputError(
-            isCompressedTwice(path)         ? path + ": is compressed twice; run gunzip on it once"
-            : !type.empty()                 ? path + ": is " + type + ", not a rawlog"
+            isCompressedTwice(path) ? path + ": is compressed twice; run gunzip on it once"
+            : type                  ? path + ": is " + type->name + ", not a rawlog" +
+                         (type->advice.empty() ? "" : "; " + type->advice)
             : impl_->ending.message.empty() ? path + ": contains no objects"
             : impl_->ending.kind == RawlogEnd::NotSupported
                 ? impl_->ending.message

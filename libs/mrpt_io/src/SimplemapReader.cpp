@@ -126,10 +126,10 @@ SimplemapReader::SimplemapReader(const std::string& path, RawlogClasses classes)
     }
     catch (const ObjectScanner::Problem& e)
     {
-        const std::string type = otherFileType(path);
+        const auto type = otherFileType(path);
         throw InputError(
-            type.empty() ? path + ": " + e.what() + " (is it a .simplemap?)"
-                         : path + ": is " + type + ", not a .simplemap");
+            type ? path + ": is " + type->name + ", not a .simplemap"
+                 : path + ": " + e.what() + " (is it a .simplemap?)");
     }
 }
 

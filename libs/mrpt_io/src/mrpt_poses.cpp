@@ -11,6 +11,7 @@
 #include <cctype>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 namespace pointplane
 {
@@ -124,6 +125,26 @@ std::string stampText(mrpt::Clock::time_point stamp)
     return text;
 }
 
+namespace
+{
+/** For digits that are as many as those of another unit since 1970 (2001 to 2286). */
+[[nodiscard]] std::string otherUnitOf(const std::string& digits)
+{
+    constexpr std::size_t kSeconds = 10;
+    const std::pair<std::size_t, const char*> units[] = {
+        {3, "milliseconds"}, {6, "microseconds"}, {9, "nanoseconds"}};
+    for (const auto& [more, unit] : units)
+    {
+        if (digits.size() == kSeconds + more)
+        {
+            return std::string("; if it is in ") + unit + ", write " + digits.substr(0, kSeconds) +
+                   "." + digits.substr(kSeconds);
+        }
+    }
+    return "";
+}
+}  // namespace
+
 mrpt::Clock::time_point stampFromText(const std::string& text)
 {
     const std::size_t dot = std::min(text.find('.'), text.size());
@@ -134,7 +155,9 @@ mrpt::Clock::time_point stampFromText(const std::string& text)
     static const std::size_t kMostDigits = std::to_string(kLatestStamp).size();
     if (whole.empty() || whole.size() > kMostDigits || !isDigits(whole) || !isDigits(fraction))
     {
-        throw InputError("'" + text + "' is not a time stamp in seconds");
+        throw InputError(
+            "'" + text + "' is not a time stamp in seconds" +
+            (isDigits(text) ? otherUnitOf(text) : ""));
     }
     const bool roundUp = fraction.size() > kTickDigits && fraction[kTickDigits] >= '5';
     fraction.resize(kTickDigits, '0');

@@ -123,7 +123,12 @@ Places parse(const std::string& text, const std::string& name, const ParameterTa
             "cannot open configuration " + path + ": " +
             (error || !file ? std::strerror(errno) : "is a directory"));
     }
-    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    if (text.find('\0') != std::string::npos || text.compare(0, 2, "\x1f\x8b") == 0)
+    {
+        throw InputError(path + ": is not a text, as a configuration is");
+    }
+    return text;
 }
 
 /** Sets the value of "Section.key=value". \return which */

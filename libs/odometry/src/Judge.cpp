@@ -119,8 +119,8 @@ bool Judge::restsOnChance(const Alignment& a)
 std::string Judge::fewPointsAgree(const Alignment& alignment)
 {
     std::ostringstream out;
-    out << "only " << alignment.estimate.numPointInliers << " of " << alignment.numSought
-        << " points in view agree with the motion, " << alignment.predicted.dt
+    out << "points in view that agree with the motion: only " << alignment.estimate.numPointInliers
+        << " of " << alignment.numSought << ", " << alignment.predicted.dt
         << " s after the previous measured frame";
     return out.str();
 }
@@ -241,15 +241,16 @@ void Judge::contradict(Alignment& alignment, const NoiseFactors& usual) const
     else if (alignment.agreement.seen() > 0 && agreement < params_.leastAgreement)
     {
         reason << "the depth image shows only " << std::lround(100 * agreement)
-               << " % of the surfaces where the motion of " << alignment.numMatches()
-               << " points and planes puts them";
+               << " % of the surfaces where the motion puts them; points and planes it comes from: "
+               << alignment.numMatches();
     }
     else if (isSurprising(T_prev_cur, alignment.predicted.pose) && !isConvincing(alignment, usual))
     {
         reason << "the motion is " << std::lround(surprise(T_prev_cur, alignment.predicted.pose))
-               << " standard deviations from the predicted one, and too little confirms it: "
-               << alignment.estimate.numPointInliers << " of " << alignment.numSought
-               << " points and " << std::lround(100 * agreement) << " % of the surfaces in view";
+               << " standard deviations from the predicted one, and too little confirms it: of the "
+               << "points in view " << alignment.estimate.numPointInliers << " of "
+               << alignment.numSought << ", of the surfaces " << std::lround(100 * agreement)
+               << " %";
     }
     else if (isOfDoubtfulPlanes(alignment))
     {
