@@ -53,8 +53,9 @@ class JointCovariance
             v("viewNoise",
               viewNoise,
               "-",
-              "error that all points of a frame share because of where the camera stands, "
-              "over what references contradict each other by (standard deviations)");
+              "ratio of two standard deviations: of the error that all points of a frame share "
+              "because of where the camera stands, and of what references contradict each other "
+              "by");
             v("vignetting",
               vignetting,
               "-",

@@ -53,7 +53,8 @@ class MotionModel
             v("sigmaAcceleration",
               sigmaAcceleration,
               "m/s^2",
-              "sudden acceleration that is still followed (standard deviation)");
+              "standard deviation of a sudden acceleration; larger = trust the predicted motion "
+              "less");
             v("sigmaAngularAcceleration",
               sigmaAngularAcceleration,
               "rad/s^2",
@@ -61,8 +62,8 @@ class MotionModel
             v("accelerationTime",
               accelerationTime,
               "s",
-              "for so long a sudden acceleration lasts; at first, the camera may be as fast as one "
-              "makes it");
+              "how long a sudden acceleration lasts; the speed that it makes in this time is the "
+              "first guess of the camera's");
         }
         /** \throws std::invalid_argument naming the key */
         void check() const;
