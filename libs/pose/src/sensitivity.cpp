@@ -61,8 +61,9 @@ void addPatches(const Solution& at, Sensitivity& out)
     }
 }
 
-/** Covariance of the gradient by the current frame's features, as propagated: G in docs/theory.md.
- * A feature that is compared with several references errs in all these pairs alike. */
+/** Covariance of the gradient by the current frame's features, as propagated: Gamma in
+ * docs/theory.md. A feature that is compared with several references errs in all these pairs alike.
+ */
 template <class Pairs>
 Matrix12d currentNoise(const Solution& at, const Pairs& pairs, size_t offset)
 {
