@@ -27,7 +27,8 @@ struct Alignment
     int numSought{0};             //!< points of the references that should be in view
     /** PoseSolver::pointSupport() of a motion that is unforeseen or shown by no surface. */
     double pointSupport{std::numeric_limits<double>::infinity()};
-    /** The motion is that of points that the covariance does not count: no minimum of `problem`. */
+    /** The motion was estimated with points that neither `problem` nor the covariance contains. So
+     * it is no minimum of `problem`. */
     bool isOfDoubtedPoints{false};
     std::vector<Mark> marks;  //!< of this and of other attempts at the frame
     std::string unsettled;    //!< why another motion may be the camera's (RivalMotions), or empty

@@ -68,11 +68,12 @@ OdometryResult Odometry::Impl::process(const RgbdFrame& frame)
     result.stamp = frame.stamp;
     shown = {};
     place(frame, result);
-    // Nobody knows how the camera came to where its path begins.
+    // Before the path begins, there is no pose in the track.
     result.pose = track.isEmpty() ? result.increment : track.pose();
     result.since = track.since();
     if (result.status == TrackingStatus::Tracked)
     {
+        // From the frame before, which may be a predicted one, by the joint covariance.
         result.increment = result.since.front();
     }
     if (result.status != TrackingStatus::First)
@@ -160,7 +161,8 @@ std::string Odometry::Impl::whyUnusable(const RgbdFrame& frame)
                : "";
 }
 
-/** Of the frame as it came. What was left out of it has been told already, but for the robot. */
+/** Why the frame as it came has no depth. Other parts that were left out of it have been told
+ * already, but for the robot. */
 std::string Odometry::Impl::whyNoDepth(const RgbdFrame& frame, const Features& current) const
 {
     return current.hasDepth ? "" : pointplane::whyNoDepth(frame.depth, params.pointLifter);

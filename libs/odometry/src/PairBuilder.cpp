@@ -129,8 +129,8 @@ PointPair pointPair(const ReferenceView& past, const CurrentView& current, const
     return pair;
 }
 
-/** A pair of points as both views together put it: its noise has nothing to do with the residual.
- * With the measured ones, a camera that shrinks all residuals would seem right. */
+/** Where both views together put the point of a pair: with noise that is independent of the
+ * residual. With the measured points, a camera that shrinks all residuals would seem right. */
 struct FusedPoint
 {
     FusedPoint(const PointPair& pair, const Motion& motion)

@@ -23,7 +23,7 @@ class PoseHistory
     /** Adds a frame that was not measured: its pose is where the motion leads to. */
     void predict(const Eigen::Isometry3d& T_latest_cur, const JointCovariance::Prediction& errors);
 
-    /** Likewise, by a motion that errs independently of any other. */
+    /** The same by a motion whose error is independent of all others. */
     void predict(const PoseGaussian& increment);
 
     /** JointCovariance::endCoasting(). */

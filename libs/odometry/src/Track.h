@@ -24,8 +24,8 @@ struct Prediction
     double dt{0};                //!< [s] since the previous frame
     bool followsMeasured{true};  //!< the latest frame was measured: it is the previous one
     MotionGaussian motion;       //!< if velocities change as they did so far
-    PoseGaussian pose;           //!< the same, with the chance of a jerk
-    MotionPrior prior;           //!< of both, what the solver uses
+    PoseGaussian pose;           //!< its pose, uncertain also by a sudden acceleration
+    MotionPrior prior;           //!< what the solver uses: pose, and velocity given it by motion
 };
 
 /** Where the camera has been so far: poses with their joint covariance, its velocity, and the
@@ -135,8 +135,8 @@ class Track
  private:
     /** To a frame whose motion was not measured. */
     PoseGaussian coast(double stamp);
-    /** A late frame does not move the camera on. How far it was then from where it is now is not
-     * known: as far as a camera gets in that time, if the stamp tells it. */
+    /** A late frame does not move the camera on. Its pose is the latest one, uncertain by as far as
+     * a camera gets in the time between, if the stamps tell that. */
     PoseGaussian stay(double stamp);
     [[nodiscard]] MotionPrior priorFrom(
         const MotionGaussian& motion, const PoseGaussian& pose) const;
@@ -158,6 +158,6 @@ class Track
     bool started_{false};              //!< there was a good frame
     bool wasLost_{false};              //!< there were others before it
     bool isPreviousMeasured_{false};   //!< it is not the first frame, nor one that matched none
-    bool isVelocityKnown_{false};      //!< not forgotten since the latest measured one
+    bool isVelocityKnown_{false};      //!< measured, and not forgotten since
 };
 }  // namespace pointplane

@@ -11,13 +11,13 @@
 namespace pointplane
 {
 /** One feature type's share of the normal equations in pose and velocity. With the noise f of the
- * type, alpha (1 for points) and the share s of a surface that agrees, a pair has the gain
- * k = alpha s / f. */
+ * type, alpha (1 for points) and the weight s of its surface, a pair has the gain
+ * lambda = alpha s / f. tau is its robust weight. */
 struct FeatureSum
 {
-    Matrix12d H{Matrix12d::Zero()};  //!< J^T k w W J
-    Matrix12d M{Matrix12d::Zero()};  //!< f J^T (k w)^2 W Sigma W J, for the sandwich
-    Vector12d g{Vector12d::Zero()};  //!< J^T k w W r
+    Matrix12d H{Matrix12d::Zero()};  //!< J^T lambda tau W J
+    Matrix12d M{Matrix12d::Zero()};  //!< f J^T (lambda tau)^2 W Sigma W J, for the sandwich
+    Vector12d g{Vector12d::Zero()};  //!< J^T lambda tau W r
     double cost{0};
     double weightedChi2{0}, dof{0};  //!< sums over the pairs, by weight
     int numInliers{0};
@@ -67,7 +67,7 @@ class NormalEquations
     [[nodiscard]] Matrix312d jacobian(size_t i) const;
     [[nodiscard]] const Eigen::Matrix3d& weightMatrix(size_t i) const { return residuals_[i].W; }
 
-    /** By the M-estimator. */
+    /** Robust weight, by the M-estimator: tau. */
     [[nodiscard]] double weight(size_t i) const
     {
         return robust(i, residuals_[i].squaredNorm).weight;
@@ -76,7 +76,7 @@ class NormalEquations
     /** How far the surface that it is on agrees with the motion, in (0, 1]. */
     [[nodiscard]] double ofSurface(size_t i) const;
 
-    /** How much it counts for its type and its surface. */
+    /** How much it counts for its type and its surface: lambda. */
     [[nodiscard]] double gain(size_t i) const;
 
     /** With the points of this frame. */
@@ -86,7 +86,7 @@ class NormalEquations
     [[nodiscard]] std::vector<double> pointWeights() const;
     [[nodiscard]] std::vector<double> planeWeights() const;
 
-    /** How the gradient changes with the residual. */
+    /** How the gradient changes with the residual: lambda tau J^T W. */
     [[nodiscard]] Matrix123d influence(size_t i) const;
 
  private:
@@ -102,8 +102,8 @@ class NormalEquations
     NoiseFactors noise_;
     const std::vector<InlierRatio>& earlier_;
     std::vector<InlierRatio> surfaces_;
-    std::vector<WeightedResidual> residuals_;
-    double scale_{1};
+    std::vector<WeightedResidual> residuals_;  //!< of the points, then of the planes
+    double scale_{1};  //!< robust sigma of the points' residuals, over the propagated one
     FeatureSum pointSum_, planeSum_;
 };
 }  // namespace pointplane

@@ -16,18 +16,18 @@ namespace pointplane
 {
 namespace
 {
-/** Of a direction about which a reference knows less than this, as a part of what all know, it says
- * nothing. */
+/** A reference says nothing about a direction of which it knows less than this part of what all
+ * references and the prior know. */
 constexpr double kLeastShare = 0.03;
 
-/** Side of a part of the view, over its distance: 11 degrees. Half to three times as much tells bad
+/** Side of a cell of the view, over its distance: 11 degrees. Half to three times as much tells bad
  * frames as well. */
 constexpr double kCell = 0.2;
 }  // namespace
 
-/** With scores s_g of covariance M_g, the solution leaves each reference the gradient
- * g_g = s_g - H_g H^-1 sum(s), whose covariance is
- * M_g - H_g H^-1 M_g - M_g H^-1 H_g + H_g Sigma H_g (docs/theory.md, Noise of features). */
+/** With scores s_j of covariance M_j, the solution leaves each reference j the gradient
+ * g_j = s_j - H_j H^-1 sum(s), whose covariance is
+ * M_j - H_j H^-1 M_j - M_j H^-1 H_j + H_j Sigma H_j (docs/theory.md, Noise of features). */
 Disagreement disagreementOf(
     const Solution& at, const Solution::References& references, const Matrix12d& cov)
 {

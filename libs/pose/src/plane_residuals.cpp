@@ -14,8 +14,9 @@ namespace pointplane
 {
 namespace
 {
-/** Where the pose follows planes in all but this part of their dimensions, their residuals tell
- * nothing of their noise. Three planes that alone tell the pose have a third left. */
+/** Residuals of planes have three dimensions each, but poses follow some of these. If less than
+ * this part of them is left, they tell nothing of the noise. Three planes that alone tell the pose
+ * have a third left. */
 constexpr double kLeastLeft = 0.25;
 }  // namespace
 

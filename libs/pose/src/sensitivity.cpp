@@ -12,7 +12,8 @@ namespace pointplane
 {
 namespace
 {
-/** Change of the solution with pose and velocity of each reference, by these pairs. */
+/** Change of the solution with pose and velocity of each reference, by these pairs. The pose moves
+ * all of its features alike; what the velocity moves them by differs from row to row. */
 template <class Pairs>
 std::map<int, Matrix12d> withReferences(
     const Solution& at, const Solution::References& references, const Pairs& pairs, size_t offset)
@@ -60,8 +61,9 @@ void addPatches(const Solution& at, Sensitivity& out)
     }
 }
 
-/** Covariance of the gradient by the current frame's features, as propagated. A feature that is
- * compared with several references errs in all these pairs alike. */
+/** Covariance of the gradient by the current frame's features, as propagated: Gamma in
+ * docs/theory.md. A feature that is compared with several references errs in all these pairs alike.
+ */
 template <class Pairs>
 Matrix12d currentNoise(const Solution& at, const Pairs& pairs, size_t offset)
 {

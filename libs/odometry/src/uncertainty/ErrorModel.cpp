@@ -45,11 +45,11 @@ JointCovariance::Views viewsOf(const ErrorModel::Measured& frame, double distanc
     return out;
 }
 
-/** Of both sides of the image, the mean [rad]. */
+/** Angle of view [rad], of the geometric mean of both sides of the image. */
 double viewAngle(const PinholeCamera& camera)
 {
-    const double size = camera.width / camera.fx * (camera.height / camera.fy);
-    return 2 * std::atan(std::sqrt(std::abs(size)) / 2);
+    const double area = camera.width / camera.fx * (camera.height / camera.fy);
+    return 2 * std::atan(std::sqrt(std::abs(area)) / 2);
 }
 
 double distanceOf(const ErrorModel::Measured& frame)
@@ -57,8 +57,8 @@ double distanceOf(const ErrorModel::Measured& frame)
     return featureDistance(frame.estimate.infoPoints + frame.estimate.infoPlanes);
 }
 
-/** Of the scale of depth in a patch, what is expected to be new in each image, and as much to be
- * the view's. */
+/** Variance of s (the scale of depth in a patch) that is expected to be new in each image. As much
+ * is expected to be the view's. */
 double expectedBend(const ErrorModel::Measured& frame) { return frame.bend * frame.bend / 2; }
 
 std::vector<ReferenceVariance> overExpectedBend(const ErrorModel::Measured& frame)
@@ -107,7 +107,7 @@ CameraMatrix ErrorModel::changeCamera(const PinholeCamera& camera)
 JointCovariance::Measurement ErrorModel::learn(const Measured& frame)
 {
     JointCovariance::Views views = viewsOf(frame, distanceOf(frame), viewAngle_);
-    std::map<int, double> correlation;  // of the planes, with the new frame
+    std::map<int, double> correlation;  // of zeta and zeta_r, by the id of r
     for (size_t k = 0; k < views.frames.size(); ++k)
     {
         correlation[views.frames[k]] = views.ofPlanes.rightCols<1>()[static_cast<Eigen::Index>(k)];
@@ -140,6 +140,7 @@ JointCovariance::Measurement ErrorModel::errorsOf(const Measured& frame) const
     JointCovariance::Measurement out;
     if (!isJoint_)
     {
+        // Each increment errs by itself: its error adds to that of the previous pose.
         out.prior.topLeftCorner<6, 6>().setIdentity();
         out.noise.topLeftCorner<6, 6>() = frame.estimate.pose().cov;
         return out;

@@ -13,37 +13,38 @@
 
 namespace pointplane
 {
-/** Where errors of a measured pose come from, and how large they are. To first order
+/** Where errors of a measured pose come from, and how large they are. To first order, with names as
+ * in docs/theory.md, section Window,
  *
- *     x = sum_r (K_r X_r + P_r (v - v_r) + Z_r (z - z_r) + C_r s_r) + C s + K_0 (predicted motion)
- *         + B k + e
+ *     (xi, nu) = sum_r (K_r (xi_r, nu_r) + K_r (zeta - zeta_r) + P_r (eta - eta_r) + C_r s_r)
+ *                + C s + K_0 (xi, nu)_prev + B k + e + p
  *
- * x is the error of pose and velocity; K_r, P_r (by points), K_0 and B are how the solution follows
- * each term (Sensitivity in PoseAnalysis). The terms:
+ * The factors K_r, P_r (by points), C_r, C, K_0 and B say how the solution follows each term: they
+ * are members of Sensitivity. The terms:
  *
- * - X_r: errors of pose and velocity of reference r. A rolling shutter has moved its features by
- * the velocity.
- * - v, v_r: what all points of this frame, and of reference r, err by together, because depth,
+ * - xi_r, nu_r: errors of pose and velocity of reference r. A rolling shutter has moved its
+ *   features by the velocity.
+ * - eta, eta_r: what all points of this frame, and of reference r, err by together, because depth,
  *   lens and scene are not quite what they are modelled as. A Gaussian field over views:
- *   view_errors. Its size follows the residuals of points: NoiseScale.
- * - z, z_r: what the planes of this frame, and of reference r, err by, because they are bent and
- *   cut out as the view is. A field like v; it moves the pose as the noise of planes does. Its size
- *   is learnt from how residuals grow between unlike views: ErrorsByView.
+ *   view_errors. Its size follows how far references contradict each other: commonAngle().
+ * - zeta, zeta_r: what the planes of this frame, and of reference r, err by together, because they
+ *   are bent and cut out as the view is. A field like eta; it moves the pose as the noise of planes
+ *   does. Its size is learnt from how residuals grow between unlike views: ErrorsByView.
  * - s, s_r: smooth error of the depth images, by which neighbouring points err together: a scale of
- *   depth in each patch. A part of it is new in each image, the rest is a field like z:
- * ErrorsByView. None with structured light.
- * - Predicted motion: the previous pose and velocity, and white acceleration: MotionModel, which
- *   Track owns.
+ *   depth in each patch. A part of it is new in each image, the rest is a field like zeta:
+ *   ErrorsByView. None with structured light.
+ * - (xi, nu)_prev: errors of the previous pose and velocity, where the predicted motion begins.
+ * - p: what white acceleration adds to the predicted motion: MotionModel, which Track owns.
  * - k: errors of the camera that all frames share: vignetting, principal point, focal length,
  *   radial distortion, scale of depth, and the shutter. All are considered: camera_errors. The
  *   shutter's are learnt, and those of a lens that nobody calibrated: CameraCalibrator.
  * - e: noise of the frame's own points and planes, a part of what their residuals show:
  *   NoiseScale, ErrorsByView. And acceleration while the images are exposed: exposure_errors.
  *
- * e and v are larger in a frame whose image pulls the pose apart: NoiseScale::ofFrame().
+ * e and eta are larger in a frame whose image pulls the pose apart: NoiseScale::ofFrame().
  *
- * JointCovariance keeps account of how the errors of all poses depend on these. Derivations are in
- * docs/theory.md, section Window; how to calibrate it is in docs/consistency.md. */
+ * JointCovariance makes the covariance of all poses from these. How to calibrate it is in
+ * docs/consistency.md. */
 class ErrorModel
 {
  public:
@@ -68,12 +69,14 @@ class ErrorModel
         const std::vector<const Reference*>& references;  //!< the previous frame first
         const PoseEstimate& estimate;
         const PoseAnalysis& analysis;
-        double dt;              //!< [s] since the previous one
-        Matrix12d motionNoise;  //!< of its prediction, by what the motion model adds in dt
+        double dt;                                 //!< [s] since the previous one
+        Matrix12d motionNoise;                     //!< MotionModel::processNoise()
         Vector6d acceleration2{Vector6d::Zero()};  //!< MotionModel::acceleration2()
         ShutterModel shutter{0, 0, 0};             //!< CameraCalibrator::complete()
         double bend{0};                            //!< DepthNoise::sigmaRelative
-        bool isMinimum{true};  //!< the estimate is what its features say: they tell their noise
+        /** The estimate minimises the residuals of its pairs. Else these do not tell their noise.
+         */
+        bool isMinimum{true};
     };
 
     /** Learns from the frame. \return what its estimate's errors come from */
@@ -82,17 +85,17 @@ class ErrorModel
  private:
     [[nodiscard]] JointCovariance::Measurement errorsOf(const Measured& frame) const;
 
-    /** By how far all points of the frame are seen off together (standard deviation) [rad]: in
-     * proportion to how far references contradict each other by more than the frame's own noise
-     * makes them. */
+    /** Standard deviation of eta, as a turn [rad]: in proportion to how far references contradict
+     * each other by more than the frame's own noise makes them. */
     [[nodiscard]] double commonAngle() const;
 
     JointCovariance::TParams params_;
     NoiseScale::TParams noiseParams_;
     bool isJoint_, fuses_, learns_;
     NoiseScale noise_;
-    ErrorsByView planes_, patches_;
+    ErrorsByView planes_;   //!< variance of e and zeta, by planes
+    ErrorsByView patches_;  //!< variance of s, over expectedBend()
     CameraCalibrator camera_;
-    double viewAngle_{1};  //!< of the camera [rad]
+    double viewAngle_{1};  //!< angle of view of the camera [rad]
 };
 }  // namespace pointplane

@@ -9,7 +9,8 @@ namespace pointplane
 {
 namespace
 {
-/** What one frame says, over what is known: a wrong match must not count like many right ones. */
+/** Residuals count up to this many times what is known, and down to that part of it: a wrong match
+ * must not count like many right ones. */
 constexpr double kMostChange = 10;
 }  // namespace
 

@@ -13,7 +13,7 @@ namespace pointplane
 {
 namespace
 {
-constexpr Eigen::Index kSize = 6;
+constexpr Eigen::Index kSize = 6;  //!< of a pose's or a velocity's error
 }  // namespace
 
 bool JointCovariance::TParams::isJoint() const
@@ -91,15 +91,16 @@ void JointCovariance::restart(int frame, const std::vector<int>& poses)
     errors_.prependAlike(Kind::View, {frame}, 0, Eigen::MatrixXd::Identity(1, 1));
 }
 
-/** Of pose and velocity on all blocks so far. The predicted motion starts at the previous frame
- * with its velocity, which decays: an error of that moves it by the velocity's reach. */
+/** How the errors of the new pose (in the world) and velocity depend on all blocks so far: the
+ * upper part of A in docs/theory.md, section Window. The predicted motion starts at the previous
+ * frame with its velocity, which decays: an error of that moves it by the velocity's reach. */
 Eigen::MatrixXd JointCovariance::dependence(
     int frame,
     const Matrix6d& Ad,
     const DecayedVelocities& decayed,
     const Measurement& measurement) const
 {
-    const Matrix6d Ad_inverse = Ad.inverse();
+    const Matrix6d Ad_inverse = Ad.inverse();  // from the world to the previous frame
     Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * kSize, errors_.size());
     const auto addView = [&](Kind kind, int reference, const Eigen::MatrixXd& change)
     {

@@ -86,7 +86,7 @@ void JointGaussian::prependAlike(
             .diagonal()
             .setConstant(weights[static_cast<Eigen::Index>(k)]);
     }
-    // Views may have been alike by other distances then.
+    // C may differ from when the known blocks were added: the distance of the features changes.
     const double isNew = std::max(0.0, 1 - weights.dot(cov_(rows, rows) * weights));
     prepend({block}, A, isNew * Eigen::MatrixXd::Identity(block.size(), block.size()));
 }

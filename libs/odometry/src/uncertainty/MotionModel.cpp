@@ -13,15 +13,15 @@ namespace pointplane
 {
 namespace
 {
-/** Standard deviation by which smoothed velocities wander [m/s, rad/s]. Hands make it a few times
- * as large; but where they shake, what lies between two increments errs, too. */
+/** Standard deviation by which the smoother's velocities wander [m/s, rad/s]. In hands it is a few
+ * times as large. But where hands shake, the velocity by two increments errs, too. */
 constexpr double kWander = 0.01;
 
-/** By so much the velocity changes in a second before that is learnt [m/s, rad/s]: as hands move
- * a Kinect (0.3 to 0.4 m/s, 0.9 to 1.2 rad/s), and somewhat more. */
+/** Square root of the density before that is learnt [m/s, rad/s, per root of a second]. Hands with
+ * a Kinect have 0.3 to 0.4 and 0.9 to 1.2; an unknown camera may have more. */
 constexpr double kFirstChange = 0.45, kFirstTurn = 2.25;
 
-/** Of pose and velocity, from those before. */
+/** From the errors of pose and velocity before to those after: F in docs/theory.md. */
 Matrix12d transition(const DecayedVelocities& after)
 {
     Matrix12d out = Matrix12d::Identity();
@@ -51,7 +51,8 @@ MotionModel::MotionModel(const TParams& params)
 DecayedVelocities MotionModel::after(double dt) const
 {
     const double t = std::min(dt, kLongestStep);
-    // The ratio of two learnt numbers can be anything; a velocity lasts as long as an acceleration.
+    // The ratio of two learnt numbers can be anything; a velocity lasts at least as long as an
+    // acceleration.
     const auto half = [&](int axis)
     {
         const double timeConstant = 2 * speed2_[axis] / learntDensity_[axis];
@@ -86,7 +87,7 @@ MotionGaussian MotionModel::predictFromEstimate(double dt) const
 Matrix12d MotionModel::processNoise(double dt) const
 {
     Matrix12d out = predictFrom(velocity_, cov_ - measuredCov_, dt).cov;
-    // What the pose tells of the velocity, and the rest, which is smaller if the step is short.
+    // The pose tells a part of the velocity. The rest is smaller if the step is short.
     const Matrix6d together = out.topRightCorner<6, 6>();
     const Matrix6d told = together.transpose() * out.topLeftCorner<6, 6>().ldlt().solve(together);
     const double share = dt / (dt + 15.0 / 4 * params_.accelerationTime);
@@ -156,7 +157,7 @@ MotionModel::Smoothed MotionModel::update(const MotionGaussian& measured, double
     out.byNextVelocity = smoother.rightCols<6>();
     out.byVelocity -= smoother * F.rightCols<6>();
 
-    // And with the change of velocity on the way.
+    // The same of the change of velocity on the way: covariance with the predicted motion.
     const Matrix6d gained = velocityGain(t).asDiagonal();
     Matrix126d covWithChange;
     covWithChange << Matrix6d(end.together().cwiseProduct(density()).asDiagonal()), gained;

@@ -11,8 +11,7 @@ namespace pointplane
 {
 namespace
 {
-/** Variance before anything is known; where it is soon forgotten, as if so many frames had said it.
- */
+/** Variance of residuals before anything is known. In the quick mean, it counts as three frames. */
 constexpr double kFirstVariance = 4, kFirstFrames = 3;
 }  // namespace
 
@@ -78,7 +77,7 @@ void NoiseScale::learn(const PoseAnalysis& analysis, double rate)
     };
     followLog(analysis.pointVariance, typicalResiduals_);
 
-    // The solver was told the mean so far times the constant factor, which is not for this.
+    // What is expected is in proportion to what the solver was told beyond the residuals' variance.
     const auto needed = [](const Disagreement& d, double told)
     { return d.expected > 0 ? told * d.observed / d.expected : 0; };
     const double ofPoints =

@@ -9,7 +9,7 @@ namespace pointplane
 {
 namespace
 {
-/** Part of the view in which planes are cut out alike. */
+/** Of the angle of view, the part over which planes are cut out alike. */
 constexpr double kPlanePart = 1.0 / 3;
 
 /** Standard deviation of when features are exposed [s]: in any row, of colour or of depth. */

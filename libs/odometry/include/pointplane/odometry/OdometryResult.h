@@ -15,7 +15,7 @@ namespace pointplane
 enum class TrackingStatus
 {
     First,      //!< start of a trajectory: the pose is the identity with a negligible covariance
-    Tracked,    //!< measured; directions that it does not tell are predicted, as uncertain as that
+    Tracked,    //!< measured; directions that it does not tell are predicted, and so uncertain
     Predicted,  //!< not measurable from this frame: motion model only
     Lost        //!< the frame could not be used at all: motion model only
 };
@@ -67,14 +67,15 @@ struct FrameDiagnostics
     double msPoints{0}, msPlanes{0}, msMatching{0}, msPose{0}, msTotal{0};  //!< wall time [ms]
 };
 
-/** The result of one frame. */
+/** The result of one frame. Poses are of the camera's optical frame. Their covariances are of left
+ * perturbations, and strictly positive definite. */
 struct OdometryResult
 {
     TrackingStatus status{TrackingStatus::Lost};
     std::string reason;      //!< why not tracked, or what it lacks; or empty. No full stop
     double stamp{0};         //!< of the frame [s]
-    PoseGaussian increment;  //!< T_prev_cur, camera optical frames; strictly positive definite
-    PoseGaussian pose;       //!< T_world_cur, accumulated
+    PoseGaussian increment;  //!< T_before_cur since the frame before, measured or not
+    PoseGaussian pose;       //!< T_world_cur; the world is the first usable frame
     /** T_past_cur since 1, 2, ... frames ago, whatever their status, back to
      * OdometryParams::covariance.history frames or the first one. Composed increments have the same
      * mean but too large a covariance: frames that were compared with the same references err

@@ -30,7 +30,8 @@ struct Reference
     int id{0};        //!< number of the frame
     double stamp{0};  //!< [s]
     Eigen::Isometry3d T_world_cam{Eigen::Isometry3d::Identity()};
-    /** Body velocity at stamp [m/s, rad/s]. Unknown: as that of the frame it is compared with. */
+    /** Body velocity at stamp [m/s, rad/s]. If it is not known, that of the frame that is compared
+     * with this one is taken. */
     std::optional<Vector6d> velocity;
     ShutterModel shutter;  //!< as far as the source knows it
     PlaneSet planes;
@@ -45,11 +46,11 @@ struct Association
     const Reference* reference{nullptr};
     std::vector<PlaneMatch> planes;
     std::vector<PointTrack> points;
-    /** Found again as well, but they go with what moves: the pose does not depend on them. */
+    /** Found again as well, but on what moves: the pose does not depend on them. */
     std::vector<PlaneMatch> movingPlanes;
     std::vector<PointTrack> movingPoints;
-    /** Found again, but so few that chance may have made them agree, or of what may be fixed to the
-     * image: likewise. */
+    /** Found again, but the pose does not depend on them either: they are so few that they may
+     * agree by chance, or they may be fixed to the image. */
     std::vector<PointTrack> doubtedPoints;
     /** Points of what is fixed to the image, like text: they count as not found. */
     std::vector<PointTrack> fixedPoints;

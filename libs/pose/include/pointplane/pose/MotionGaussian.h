@@ -22,8 +22,8 @@ struct MotionGaussian
     [[nodiscard]] PoseGaussian pose() const { return {mean.T_prev_cur, cov.topLeftCorner<6, 6>()}; }
 };
 
-/** Standard deviation of what is known exactly [m, rad, m/s, rad/s]: still far from the limits of
- * double precision. */
+/** Standard deviation of what is known exactly [m, rad, m/s, rad/s]: small, but far from the limits
+ * of double precision. */
 constexpr double kExactSigma = 1e-6;
 
 /** What is known of a motion without the current frame.
@@ -36,7 +36,7 @@ struct MotionPrior
 {
     Motion mean;
     Matrix6d pose{Matrix6d::Zero()};                 //!< information of e_T
-    Matrix12d velocityGivenPose{Matrix12d::Zero()};  //!< information of e beyond that
+    Matrix12d velocityGivenPose{Matrix12d::Zero()};  //!< information of e without that of e_T
 
     /** A prior with all that a prediction says. */
     [[nodiscard]] static MotionPrior from(const MotionGaussian& predicted);

@@ -11,7 +11,7 @@
 namespace pointplane
 {
 /** How much the reference frames contradict each other: how far the features of each draw the pose
- * away from where all together put it. */
+ * away from where all together put it (docs/theory.md, Noise of features). */
 struct Disagreement
 {
     double observed{0};  //!< squared distance, in units of the covariances
@@ -24,22 +24,24 @@ struct Disagreement
 struct Sensitivity
 {
     /** Change with the pose of each reference frame (left perturbation in the previous frame) and
-     * with its body velocity, by which its features were moved (rolling shutter). */
+     * with its body velocity, by which its features were moved (rolling shutter). In
+     * docs/theory.md, section Window: H^-1 H_r and D_r. */
     std::map<int, Matrix12d> references;
-    /** The part of that by points, for the references that have some. */
+    /** The part of that by points, for the references that have some: H^-1 H_P,r, and of D_r. */
     std::map<int, Matrix12d> referencePoints;
     /** Change if all points, or all planes, of the current frame moved (left perturbation in the
-     * previous frame). */
+     * previous frame): -H^-1 H_P and -H^-1 H_C. */
     Matrix126d pointsMoved{Matrix126d::Zero()}, planesMoved{Matrix126d::Zero()};
-    /** Change with the prior's mean, in the order of MotionPrior::residual(). */
+    /** Change with the prior's mean, in the order of MotionPrior::residual(): H^-1 H_0. */
     Matrix12d prior{Matrix12d::Zero()};
     /** Covariance by the noise of the current frame's points and planes, as propagated: without the
-     * noise factors and without the errors of the references. */
+     * noise factors and without the errors of the references. S_P and S_C. */
     Matrix12d points{Matrix12d::Zero()}, planes{Matrix12d::Zero()};
-    /** Change with errors of the camera, which all features share. */
+    /** Change with errors of the camera, which all features share: B. */
     MotionByCamera camera{MotionByCamera::Zero()};
-    /** Change with the scale of depth in each patch of the current image and of the references. */
+    /** Change with the scale of depth in each patch of the current image: C, */
     MotionByPatches patches{MotionByPatches::Zero()};
+    /** and of the references: C_r. */
     std::map<int, MotionByPatches> referencePatches;
 };
 
@@ -56,15 +58,16 @@ struct ReferenceVariance
 {
     int reference;
     double variance;
-    double dof;  //!< how much it counts: dimensions without what poses follow; patches
+    double dof;  //!< how much it counts: dimensions less those that poses follow, or patches
 };
 
 /** How large the residuals of planes are. */
 struct PlaneResiduals
 {
-    std::vector<ReferenceVariance> references;  //!< that tell; over the propagated variance
-    /** What planes tell of the direction that they tell least, of what all features do; 1: nothing
-     * else tells of the pose. */
+    /** Over the propagated variance, of the references whose residuals tell it. */
+    std::vector<ReferenceVariance> references;
+    /** Part of the features' information that comes from planes, in the direction in which it is
+     * smallest; 1: nothing but planes tells of the pose. */
     double followed{1};
 };
 
@@ -76,16 +79,16 @@ struct PoseAnalysis
     /** The same by each reference with a motion of its own, averaged over the references: poses of
      * references that were estimated with a wrong camera would confirm it. */
     CameraInformation cameraByReference;
-    /** Of the residuals of points that count, over the propagated one; 0 = none. */
+    /** Variance of the residuals of points that count, over the propagated one; 0 = none. */
     double pointVariance{0};
     double planeVariance{0};  //!< the same of all planes
     PlaneResiduals planeResiduals;
-    /** Of the scale of depth in a patch of an image, as the points' residuals show it. */
+    /** Variance of the scale of depth in a patch of an image, as the points' residuals show it. */
     std::vector<ReferenceVariance> patchResiduals;
     Disagreement pointDisagreement;  //!< of the references' points, with all other features
     Disagreement planeDisagreement;  //!< of their planes, likewise
-    /** Of a turn about an axis, as points tell it: harmonic mean over axes, by the propagated noise
-     * alone [rad^2]; 0 = no points. */
+    /** Variance of a turn about an axis, as points tell it: harmonic mean over axes, by the
+     * propagated noise alone [rad^2]; 0 = no points. */
     double turnVariance{0};
     /** How far the parts of the image pull the pose apart: mean square of their pulls, over what
      * the propagated noise explains; 0 = too few parts to compare. A part is a cell of the view
@@ -94,6 +97,6 @@ struct PoseAnalysis
      * depth (Liang and Zeger 1986, the variance of clustered data). */
     double scatter{0};
     std::vector<double> pointWeights, planeWeights;  //!< of the pairs: 1 = counts fully
-    std::vector<InlierRatio> surfaces;  //!< PoseProblem::surfaces, with this frame's points
+    std::vector<InlierRatio> surfaces;  //!< PoseProblem::surfaces, plus this frame's points
 };
 }  // namespace pointplane

@@ -40,7 +40,9 @@ struct PairNorms
 /** What the solver found. */
 struct PoseEstimate
 {
-    MotionGaussian motion;  //!< cov is that of `covariance`, see docs/theory.md
+    /** With the covariance of one frame by itself (TParams::covariance). What frames err by
+     * together is added by JointCovariance. */
+    MotionGaussian motion;
     [[nodiscard]] PoseGaussian pose() const { return motion.pose(); }
 
     Matrix6d infoPoints{Matrix6d::Zero()};  //!< J^T W J of the points, as weighed
@@ -55,8 +57,9 @@ struct PoseEstimate
 
 /** Estimates a motion from pairs of uncertain points and planes. Levenberg-Marquardt on SE(3)
  * minimises E = sum_i rho(|P_i|^2) + alpha sum_j |C_j|^2 + |prior|^2 [P17 Eq. 10], with Student's t
- * for planes and prior, and each feature over the noise of its kind and times the share of its
- * surface that agrees. Each iteration propagates the covariances anew to weigh the residuals. */
+ * for planes and prior. Each feature's term is divided by the noise of its kind, and multiplied by
+ * the share of its surface that agrees. Each iteration propagates the covariances anew to weigh the
+ * residuals. */
 class PoseSolver
 {
  public:

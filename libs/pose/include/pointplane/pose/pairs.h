@@ -22,13 +22,13 @@ enum CameraError : int
 };
 using CameraVector = Eigen::Matrix<double, kNumCameraErrors, 1>;
 using CameraMatrix = Eigen::Matrix<double, kNumCameraErrors, kNumCameraErrors>;
-using ByCamera = Eigen::Matrix<double, 3, kNumCameraErrors>;         //!< a feature or residual
-using MotionByCamera = Eigen::Matrix<double, 12, kNumCameraErrors>;  //!< pose and velocity
+using ByCamera = Eigen::Matrix<double, 3, kNumCameraErrors>;         //!< of a feature or residual
+using MotionByCamera = Eigen::Matrix<double, 12, kNumCameraErrors>;  //!< of pose and velocity
 
 /** A smooth error of depth scales the depths of each patch of an image by a factor of its own. */
 constexpr int kPatchesPerSide = 4;
 constexpr int kNumPatches = kPatchesPerSide * kPatchesPerSide;
-using MotionByPatches = Eigen::Matrix<double, 12, kNumPatches>;  //!< pose and velocity
+using MotionByPatches = Eigen::Matrix<double, 12, kNumPatches>;  //!< of pose and velocity
 
 /** The same point seen twice.
  *
@@ -39,11 +39,11 @@ struct PointPair
     PointGaussian ref;                        //!< from a reference frame, in the previous frame [m]
     PointGaussian cur;                        //!< in the current camera, were it at rest [m]
     Matrix36d dCur_dV{Matrix36d::Zero()};     //!< rolling shutter: cur is at cur.mean + dCur_dV V
-    Matrix36d dRef_dV{Matrix36d::Zero()};     //!< error of ref with that of its frame's velocity
-    ByCamera dRef_dCamera{ByCamera::Zero()};  //!< error of ref with those of the camera [m]
-    ByCamera dCur_dCamera{ByCamera::Zero()};  //!< of cur, likewise
+    Matrix36d dRef_dV{Matrix36d::Zero()};     //!< change of ref with its frame's velocity
+    ByCamera dRef_dCamera{ByCamera::Zero()};  //!< change of ref with errors of the camera [m]
+    ByCamera dCur_dCamera{ByCamera::Zero()};  //!< likewise of cur
     int reference{0};                         //!< which of the frames that cur is compared with
-    int feature{-1};                          //!< pairs of equal ones err together; -1: of its own
+    int feature{-1};                          //!< pairs of the same one err together; -1: none
     int surface{-1};                          //!< PlanePair::feature of the plane it is on; or -1
     int refPatch{-1}, curPatch{-1};           //!< of their images; -1: depth has no smooth error
     bool hasDepth{true};                      //!< else cur may be anywhere along its ray
@@ -58,11 +58,11 @@ struct PlanePair
     PlaneGaussian ref;                        //!< from a reference frame, in the previous frame
     PlaneGaussian cur;                        //!< in the current camera, were it at rest
     Matrix36d dCur_dV{Matrix36d::Zero()};     //!< rolling shutter: cur is at theta_m + dCur_dV V
-    Matrix36d dRef_dV{Matrix36d::Zero()};     //!< error of ref with that of its frame's velocity
-    ByCamera dRef_dCamera{ByCamera::Zero()};  //!< error of ref with those of the camera [1/m]
-    ByCamera dCur_dCamera{ByCamera::Zero()};  //!< of cur, likewise
+    Matrix36d dRef_dV{Matrix36d::Zero()};     //!< change of ref with its frame's velocity
+    ByCamera dRef_dCamera{ByCamera::Zero()};  //!< change of ref with errors of the camera [1/m]
+    ByCamera dCur_dCamera{ByCamera::Zero()};  //!< likewise of cur
     int reference{0};                         //!< which of the frames that cur is compared with
-    int feature{-1};                          //!< pairs of equal ones err together; -1: of its own
+    int feature{-1};                          //!< pairs of the same one err together; -1: none
 
     /** Directions in which the two can disagree. */
     [[nodiscard]] static int dof() { return 3; }

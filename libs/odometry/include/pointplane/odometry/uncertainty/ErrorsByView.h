@@ -9,7 +9,8 @@
 namespace pointplane
 {
 /** Learns how large errors of a depth image are, as variances over those that are expected: of its
- * planes, or of the scale of depth in its patches.
+ * planes (w_C and w_zeta in docs/theory.md, section Window), or of the scale of depth in its
+ * patches.
  *
  * Depth images are bent, and a plane is cut out differently from elsewhere. While the camera
  * stands, a part of this error stays the same. It shows in the residuals against a reference that
@@ -18,7 +19,7 @@ namespace pointplane
  *     E(variance) = own + byView (1 - correlation of the views)
  *
  * A line through what all references show tells both. It is fitted by least squares with a fading
- * memory. Derivation: docs/theory.md, Window. */
+ * memory. */
 class ErrorsByView
 {
  public:
@@ -28,18 +29,18 @@ class ErrorsByView
     /** Learns from a measured frame, `dt` [s] after the one before.
      * \param residuals over the expected variance
      * \param correlation of the views of frame and reference, by the reference's id
-     * \param followed own() is at least this: where nothing but planes tells the pose, it follows
-     * them, and their residuals are small whatever their errors are (PlaneResiduals) */
+     * \param followed PlaneResiduals::followed; own() is at least this. A pose that nothing but
+     * planes tells follows them, and their residuals are small whatever their errors are */
     void update(
         const std::vector<ReferenceVariance>& residuals,
         const std::map<int, double>& correlation,
         double dt,
         double followed = 0);
 
-    /** New in each frame. */
+    /** Variance that is new in each frame. */
     [[nodiscard]] double own() const { return raised_ * own_; }
 
-    /** Of frames whose views have nothing in common. */
+    /** Variance that frames share as far as their views are alike. */
     [[nodiscard]] double byView() const { return raised_ * byView_; }
 
  private:
@@ -47,7 +48,7 @@ class ErrorsByView
 
     double timeConstant_;
     double own_{1}, byView_{1};
-    double raised_{1};  //!< both, to what residuals cannot show
+    double raised_{1};  //!< factor on both, for what residuals cannot show
     /** Sums over what was seen: weight, and with it x = 1 - correlation, the variance y. */
     double sum_{0}, x_{0}, xx_{0}, y_{0}, xy_{0};
 };

@@ -5,11 +5,11 @@
 
 namespace pointplane
 {
-/** Mean of what single frames say: at first of all of them, later mostly of the latest. */
+/** Running mean of a value per frame: at first of all frames alike, later mostly of the latest. */
 class FrameMean
 {
  public:
-    /** \param first value before the first frame \param counts as if so many frames had said it */
+    /** \param first value before the first frame \param counts as if so many frames had had it */
     explicit FrameMean(double first = 0, double counts = 0) : value_(first), numFrames_(counts) {}
 
     /** \param rate share of this frame in the mean, at least */

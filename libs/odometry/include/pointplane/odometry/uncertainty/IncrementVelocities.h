@@ -19,7 +19,7 @@ class IncrementVelocities
     {
         Vector6d velocity;  //!< its mean [m/s, rad/s]
         double dt;          //!< [s]
-        Vector6d variance;  //!< of the pose at its end [m^2, rad^2]
+        Vector6d variance;  //!< of the motion [m^2, rad^2]
     };
 
     /** Velocity where one increment ends and the next begins, by constant acceleration. */

@@ -53,8 +53,9 @@ class JointCovariance
             v("viewNoise",
               viewNoise,
               "-",
-              "error that all points of a frame share because of where the camera stands, "
-              "over what references contradict each other by (standard deviations)");
+              "ratio of two standard deviations: of the error that all points of a frame share "
+              "because of where the camera stands, and of what references contradict each other "
+              "by");
             v("vignetting",
               vignetting,
               "-",
@@ -84,36 +85,36 @@ class JointCovariance
         [[nodiscard]] bool isJoint() const;  //!< model is joint, not independent
     };
 
-    /** How alike the errors of views are (view_errors.h). */
+    /** How errors by the view correlate (view_errors.h). */
     struct Views
     {
         std::vector<int> frames;  //!< ids of the references
-        /** Of these frames and, as the last row and column, of the new one: of what all points
-         * err by together, of what the planes do, and of the scale of depth in a patch. */
+        /** Of these frames and, as the last row and column, of the new one: eta, zeta and s. */
         Eigen::MatrixXd correlation{Eigen::MatrixXd::Identity(1, 1)};
         Eigen::MatrixXd ofPlanes{Eigen::MatrixXd::Identity(1, 1)};
         Eigen::MatrixXd ofPatches{Eigen::MatrixXd::Identity(1, 1)};
     };
 
-    /** What pose (left perturbation in the previous measured frame) and velocity of a measured
-     * frame depend on. */
+    /** What the error of a measured frame comes from: of its pose (left perturbation in the
+     * previous measured frame) and velocity. Letters are those of docs/theory.md, section Window.
+     */
     struct Measurement
     {
-        std::map<int, Matrix12d> references;  //!< by id: change with a reference's pose, velocity
-        std::map<int, Matrix12d> referencePoints;  //!< likewise with what its points say of these
-        Matrix12d prior{Matrix12d::Zero()};        //!< change with that of the predicted motion
-        Matrix12d noise{Matrix12d::Zero()};        //!< of the frame's own features
-        Matrix12d priorNoise{Matrix12d::Zero()};  //!< of the predicted motion, without the velocity
-        MotionByCamera camera{MotionByCamera::Zero()};  //!< change with errors of the camera
-        Vector12d viewSigma{Vector12d::Zero()};         //!< of errors by the view (viewSigma())
-        Matrix6d planeViewRoot{Matrix6d::Zero()};  //!< those of the planes are this * unit noise
+        std::map<int, Matrix12d> references;            //!< by id: factor of xi_r and nu_r
+        std::map<int, Matrix12d> referencePoints;       //!< the part of it by points, factor of eta
+        Matrix12d prior{Matrix12d::Zero()};             //!< factor of the predicted motion's error
+        Matrix12d noise{Matrix12d::Zero()};             //!< covariance of e
+        Matrix12d priorNoise{Matrix12d::Zero()};        //!< covariance of p
+        MotionByCamera camera{MotionByCamera::Zero()};  //!< factor of k
+        Vector12d viewSigma{Vector12d::Zero()};         //!< standard deviations of eta
+        Matrix6d planeViewRoot{Matrix6d::Zero()};       //!< zeta is this times unit noise
         Views views;
-        double bendSigma{0};  //!< of the scale of depth in each patch of an image
-        MotionByPatches patches{MotionByPatches::Zero()};       //!< change with that of this image
-        std::map<int, MotionByPatches> referencePatches;        //!< with that of the references
-        std::optional<MotionModel::Smoothed> previousVelocity;  //!< of the previous frame, now
-        CameraMatrix cameraGain{CameraMatrix::Identity()};  //!< the camera's errors after the frame
-        CameraMatrix cameraNoise{CameraMatrix::Zero()};     //!< are gain * before + noise
+        double bendSigma{0};                                    //!< standard deviation of s
+        MotionByPatches patches{MotionByPatches::Zero()};       //!< factor of s
+        std::map<int, MotionByPatches> referencePatches;        //!< by id: factor of s_r
+        std::optional<MotionModel::Smoothed> previousVelocity;  //!< correction of nu_prev
+        CameraMatrix cameraGain{CameraMatrix::Identity()};      //!< after the frame, k is
+        CameraMatrix cameraNoise{CameraMatrix::Zero()};         //!< gain * before + noise
     };
 
     /** \throws std::invalid_argument naming the key */
@@ -129,9 +130,9 @@ class JointCovariance
     /** The motion of a frame that was not measured. */
     struct Prediction
     {
-        DecayedVelocities after;                  //!< what became of that before
-        Matrix6d motion{Matrix6d::Zero()};        //!< its covariance if the velocity is known
-        Matrix6d velocity{Matrix6d::Zero()};      //!< that of the velocity
+        DecayedVelocities after;                  //!< what became of the velocity before it
+        Matrix6d motion{Matrix6d::Zero()};        //!< covariance of the motion if that is known
+        Matrix6d velocity{Matrix6d::Zero()};      //!< covariance of the velocity before it
         Vector6d velocityGain{Vector6d::Zero()};  //!< what its variance gains on the way
     };
 
@@ -140,8 +141,7 @@ class JointCovariance
      * motion and the velocity are left perturbations in its frame) */
     void predict(int frame, const Eigen::Isometry3d& T_world_latest, const Prediction& prediction);
 
-    /** The velocity of the next frame that is not measured has nothing to do with that of those
-     * before. */
+    /** The error of the velocity is a new one in the next frame that is not measured. */
     void endCoasting() { dropCoasting(); }
 
     /** Makes a known frame the previous one and the only reference.
@@ -150,7 +150,7 @@ class JointCovariance
 
     /** Adds a measured frame, which becomes the previous one and a reference.
      * \param T_world_prev pose of the previous measured frame
-     * \param decayed its velocity since then */
+     * \param decayed what has become of the previous frame's velocity */
     void measure(
         int frame,
         const Eigen::Isometry3d& T_world_prev,

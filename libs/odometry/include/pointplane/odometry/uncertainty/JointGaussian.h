@@ -8,19 +8,20 @@
 
 namespace pointplane
 {
-/** Errors with one covariance, in blocks that have names, of zero mean. */
+/** Errors of zero mean with one covariance, in blocks that have names. In brackets: their symbols
+ * in docs/theory.md, section Window. */
 class JointGaussian
 {
  public:
     enum class Kind
     {
-        Pose,
-        Velocity,  //!< of a measured frame
+        Pose,      //!< [xi]
+        Velocity,  //!< of a measured frame [nu]
         Coasting,  //!< velocity since the latest measured frame
-        Camera,
-        Bend,      //!< of a reference: scale of depth in each patch; of unit variance
-        View,      //!< of a reference: error by its view, of pose and velocity; of unit variance
-        PlaneView  //!< likewise of its planes, of the pose alone
+        Camera,    //!< [k]
+        Bend,      //!< of a reference: scale of depth in each patch [s]; of unit variance
+        View,      //!< of a reference: error of points by the view [eta]; of unit variance
+        PlaneView  //!< likewise of planes, of the pose alone [zeta]
     };
     struct Block
     {
@@ -48,21 +49,21 @@ class JointGaussian
     void prepend(
         const std::vector<Block>& blocks, const Eigen::MatrixXd& A, const Eigen::MatrixXd& Q);
 
-    /** Adds the block of one more frame, whose errors are of unit variance. What is known of those
-     * of the others foretells a part of them (kriging); the rest is new. \param frames of which
-     * `added` is the index \param C how the errors of `frames` correlate, in each component */
+    /** Adds the block of one more frame, whose errors are of unit variance. Those of the others
+     * predict a part of them (kriging); the rest is new. \param added index of the frame in
+     * `frames` \param C correlation of the errors of `frames`, the same in each component */
     void prependAlike(
         Kind kind, const std::vector<int>& frames, std::size_t added, const Eigen::MatrixXd& C);
 
     /** Gives a block other errors: A times those of all. */
     void replace(Kind kind, int frame, const Eigen::MatrixXd& A);
 
-    /** Gives a block errors of their own. */
+    /** Gives a block errors that are independent of all others. */
     void makeIndependent(Kind kind, int frame, const Eigen::MatrixXd& cov);
 
     void rename(Kind kind, int from, int to);
 
-    /** Forgets the other blocks. They are asked for from front to back. */
+    /** Forgets the blocks that are not kept. isKept() is asked from front to back. */
     void keepIf(const std::function<bool(const Block&)>& isKept);
 
  private:

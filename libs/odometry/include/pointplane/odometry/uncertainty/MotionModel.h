@@ -9,21 +9,21 @@
 namespace pointplane
 {
 /** Predicts the next frame's motion: the velocity decays ([P17, section Pose estimation], after
- * Klein and Murray 2007) and changes by white acceleration (Ornstein and Uhlenbeck 1930). How fast
- * the camera is and how much its velocity changes is learnt, and so for how long it keeps its
- * velocity. Derivation: docs/theory.md, Motion. */
+ * Klein and Murray 2007) and changes by white acceleration (Ornstein and Uhlenbeck 1930). It learns
+ * how fast the camera is, and how much the velocity changes. From both follows for how long the
+ * camera keeps its velocity. Derivation: docs/theory.md, Motion. */
 class MotionModel
 {
  public:
-    /** Velocity of a frame, now that the next one is known, and how it errs with what it was made
-     * from. */
+    /** Velocity of a frame, now that the next one is known. It is linear in what it was made from:
+     * each matrix is the factor of the error of ... */
     struct Smoothed
     {
         Vector6d velocity{Vector6d::Zero()};
-        Matrix6d byVelocity{Matrix6d::Identity()};    //!< what was taken for the velocity before
-        Matrix6d byNextVelocity{Matrix6d::Zero()};    //!< velocity of the next frame
-        Matrix6d byNextMotion{Matrix6d::Zero()};      //!< motion to the next frame
-        Matrix6d byPreviousMotion{Matrix6d::Zero()};  //!< motion from the frame before
+        Matrix6d byVelocity{Matrix6d::Identity()};    //!< ... its velocity as estimated before
+        Matrix6d byNextVelocity{Matrix6d::Zero()};    //!< ... the velocity of the next frame
+        Matrix6d byNextMotion{Matrix6d::Zero()};      //!< ... the motion to the next frame
+        Matrix6d byPreviousMotion{Matrix6d::Zero()};  //!< ... the motion from the frame before
     };
 
     struct TParams
@@ -53,7 +53,8 @@ class MotionModel
             v("sigmaAcceleration",
               sigmaAcceleration,
               "m/s^2",
-              "sudden acceleration that is still followed (standard deviation)");
+              "standard deviation of a sudden acceleration; larger = trust the predicted motion "
+              "less");
             v("sigmaAngularAcceleration",
               sigmaAngularAcceleration,
               "rad/s^2",
@@ -61,8 +62,8 @@ class MotionModel
             v("accelerationTime",
               accelerationTime,
               "s",
-              "for so long a sudden acceleration lasts; at first, the camera may be as fast as one "
-              "makes it");
+              "how long a sudden acceleration lasts; the speed that it makes in this time is the "
+              "first guess of the camera's");
         }
         /** \throws std::invalid_argument naming the key */
         void check() const;
@@ -91,18 +92,18 @@ class MotionModel
     /** What becomes of pose and velocity in `dt` [s]. */
     [[nodiscard]] DecayedVelocities after(double dt) const;
 
-    /** Motion over `dt` [s] from the latest measured frame, as it will be measured: from where the
-     * estimate has put that frame, T_prev_cur and the velocity at its end. The error of the frame's
-     * pose adds to it, and is a part of the error of the velocity. \pre dt > 0 */
+    /** Motion over `dt` [s] from the latest measured frame, as it will be measured: T_prev_cur from
+     * the estimated pose of that frame, and the velocity at its end. So the covariance holds the
+     * error of that pose, too, which correlates with that of the velocity. \pre dt > 0 */
     [[nodiscard]] MotionGaussian predictFromEstimate(double dt) const;
 
-    /** Covariance of predictFromEstimate() without the part that the measured motion's own
-     * covariance makes. Over steps shorter than an acceleration lasts, the pose tells the velocity
-     * better than white acceleration would. */
+    /** Covariance of p in docs/theory.md: that of predictFromEstimate() without the errors of the
+     * previous pose and velocity, of which JointCovariance keeps account. Over steps shorter than
+     * an acceleration lasts, the pose tells the velocity better than white acceleration would. */
     [[nodiscard]] Matrix12d processNoise(double dt) const;
 
     /** Covariance of the pose after `dt` [s] if the velocity is known: by white acceleration and by
-     * a jerk. */
+     * a sudden one. */
     [[nodiscard]] Matrix6d unforeseen(double dt) const;
 
     /** Covariance of the pose by a sudden acceleration, over `dt` [s]. */
@@ -114,9 +115,9 @@ class MotionModel
 
     /** Learns from a measured motion over `dt` [s].
      * \return the velocity at its start, now that its end is known. Two estimates are weighed by
-     * their variances, because they err for different reasons. The smoother's (Rauch-Tung-Striebel)
-     * goes by the rows of the shutter, which tell only how velocities differ from those of the
-     * references, and wanders with these. That of the increments before and after misses jerks. */
+     * their variances, because they err for different reasons. The smoother (Rauch-Tung-Striebel)
+     * goes by the rows of the shutter. These tell only how velocities differ from those of the
+     * references, so it wanders with them. The increments before and after miss jerks. */
     Smoothed update(const MotionGaussian& measured, double dt);
 
     /** Moves the velocity half way to what the latest two increments say of it, by constant
@@ -154,11 +155,10 @@ class MotionModel
     TParams params_;
     Vector6d velocity_;                 //!< at the latest measured frame
     Matrix12d cov_{Matrix12d::Zero()};  //!< of [pose of the latest measured frame; velocity_]
-    Matrix12d measuredCov_{Matrix12d::Zero()};  //!< the same when it was measured
-    /** Of the acceleration; density() is not below the least. */
-    Vector6d learntDensity_{Vector6d::Zero()};
-    Vector6d speed2_{Vector6d::Zero()};  //!< mean square of the velocity, per axis
-    double elapsed_{0};                  //!< since the latest measured frame [s]
+    Matrix12d measuredCov_{Matrix12d::Zero()};  //!< the part of it that was measured
+    Vector6d learntDensity_{Vector6d::Zero()};  //!< density() without its lower limit
+    Vector6d speed2_{Vector6d::Zero()};         //!< mean square of the velocity, per axis
+    double elapsed_{0};                         //!< since the latest measured frame [s]
     IncrementVelocities increments_;
 };
 }  // namespace pointplane

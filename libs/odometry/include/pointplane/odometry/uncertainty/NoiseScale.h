@@ -45,8 +45,8 @@ class NoiseScale
         void check() const;
     };
 
-    /** What a frame says, between a tenth and a hundred times the propagated variance: a few odd
-     * frames must neither make features certain nor worthless. */
+    /** The variance, but at least a tenth and at most a hundred: a few odd frames must neither make
+     * features certain nor worthless. */
     [[nodiscard]] static double plausible(double variance);
 
     /** \throws std::invalid_argument naming the key */
@@ -56,17 +56,18 @@ class NoiseScale
      * \param tells whether residuals tell its noise: if not, it counts as a usual one */
     void update(const PoseAnalysis& analysis, double dt, bool tells = true);
 
-    /** For the solver: with the constant factors, by which features are weighed against a predicted
-     * motion. */
+    /** For the solver: variance of the residuals, times the references' disagreement, times the
+     * constant factors, by which features count less against a predicted motion. */
     [[nodiscard]] NoiseFactors factors() const;
 
-    /** Variance of the residuals so far over the one that factors() starts with, out of caution:
-     * that of points, or of planes if there are no points. */
+    /** Variance of the residuals, as residuals() and as factors() have it: their ratio. Below one
+     * while factors() still holds its cautious first guess. Of points, or of planes if there are no
+     * points. */
     [[nodiscard]] double overCautious() const;
 
-    /** Variance of the errors of the latest frame over that of a usual one: its scatter
-     * (PoseAnalysis) over the geometric mean of those before, which single bad frames hardly move.
-     */
+    /** Variance of the errors of the latest frame over that of a usual one (phi in docs/theory.md):
+     * its scatter (PoseAnalysis) over the geometric mean of those before, which single bad frames
+     * hardly move. */
     [[nodiscard]] double ofFrame() const { return ofFrame_; }
 
     /** What the points of a frame usually have, for covariances: geometric means, which soon forget
@@ -74,13 +75,13 @@ class NoiseScale
      * propagated variance. */
     struct TypicalPoints
     {
-        double residuals;     //!< variance, over the propagated one
-        double disagreement;  //!< how much more the references contradict each other
+        double residuals;     //!< variance, over the propagated one (v in docs/theory.md)
+        double disagreement;  //!< variance by which references contradict each other, over that (u)
         double turnVariance;  //!< PoseAnalysis::turnVariance; 0 = no points so far
     };
     [[nodiscard]] TypicalPoints typicalPoints() const;
 
-    /** Learnt from the residuals alone. */
+    /** Variance of the residuals, over the propagated one; the first guess is soon forgotten. */
     [[nodiscard]] NoiseFactors residuals() const
     {
         return {pointResiduals_.quick.value(), planeResiduals_.quick.value()};
@@ -94,13 +95,13 @@ class NoiseScale
     {
         explicit Residuals(double first);
         void follow(double variance, double rate);
-        FrameMean cautious;  //!< for the solver
-        FrameMean quick;
+        FrameMean cautious;  //!< for the solver: forgets the first guess by the time constant only
+        FrameMean quick;     //!< forgets it after a few frames
     };
 
     TParams params_;
     Residuals pointResiduals_, planeResiduals_;
-    FrameMean pointCommon_, planeCommon_;  //!< over that, by the references' disagreement
+    FrameMean pointCommon_, planeCommon_;  //!< disagreement of the references
     /** Logarithms, for geometric means. */
     FrameMean typicalResiduals_, typicalDisagreement_, typicalTurn_, typicalScatter_;
     double ofFrame_{1};

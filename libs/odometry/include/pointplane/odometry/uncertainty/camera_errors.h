@@ -7,8 +7,8 @@
 
 namespace pointplane
 {
-/** Variances of what a calibration does not tell of a lens: nothing, if there is one, but that rays
- * are turned as far as depth is bent; much if the intrinsics are nominal.
+/** Variances of what is to be learnt of a lens. If it was calibrated: of radial distortion only, as
+ * far as depth is bent. If the intrinsics are nominal: of all of them.
  * \param bend smooth error of depth, as a fraction of it (DepthNoise::sigmaRelative)
  * \return of principal point [px^2], focal length [relative] and radial distortion; others zero */
 [[nodiscard]] CameraVector lensVariances(const PinholeCamera& camera, double bend);

@@ -7,7 +7,7 @@
 
 namespace pointplane
 {
-/** What acceleration while a frame's images are exposed makes its estimate err by. The shutter is
+/** How an estimate errs by acceleration while the frame's images are exposed. The shutter is
  * corrected for constant velocity. With acceleration a, a row that is exposed s after the frame's
  * instant is off by a s^2 / 2: points by the mean of that over the colour image's rows, planes over
  * those of the depth image.

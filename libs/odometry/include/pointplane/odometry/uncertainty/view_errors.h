@@ -6,11 +6,11 @@
 
 namespace pointplane
 {
-/** How alike two frames err by where they stand.
+/** How alike the points of two frames err by where the camera stands (eta in docs/theory.md).
  *
- * Depth, lens and scene are not quite what they are modelled as. So all features of a frame err
+ * Depth, lens and scene are not quite what they are modelled as. So all points of a frame err
  * together, as if the camera stood elsewhere. Frames that see the scene alike err alike, and
- * nothing of it shows when they are compared; frames far apart err each for itself. This is a
+ * nothing of it shows when they are compared; frames far apart err independently. This is a
  * stationary Gaussian field over views.
  * \param motion between the two frames
  * \param distance of the features [m]: a translation moves them in view like a turn by its part of
@@ -20,9 +20,9 @@ namespace pointplane
 [[nodiscard]] double viewCorrelation(
     const Eigen::Isometry3d& motion, double distance, double viewAngle);
 
-/** The same of what the planes of the frames err by. A turn by a part of the view puts them into
- * another part of the image, where they are cut out differently.
- * \return exp(-3 (translation / distance + turn) / viewAngle) */
+/** The same of planes (zeta). A turn by a part of the view puts them into another part of the
+ * image, where they are cut out differently. \return exp(-3 (translation / distance + turn) /
+ * viewAngle) */
 [[nodiscard]] double planeViewCorrelation(
     const Eigen::Isometry3d& motion, double distance, double viewAngle);
 
@@ -30,9 +30,9 @@ namespace pointplane
  * distance times the angle. \param information of the pose by all features, J^T W J */
 [[nodiscard]] double featureDistance(const Matrix6d& information);
 
-/** Standard deviation of that error, as one of the pose (left perturbation) [m, rad]: sigma times
- * the features' distance [m] per axis of the translation and sigma per axis of the rotation, which
- * moves them as far.
+/** Standard deviation of the points' error, as one of the pose (left perturbation) [m, rad]: sigma
+ * [rad] per axis of the rotation, and sigma times the features' distance [m] per axis of the
+ * translation, which moves them as far.
  *
  * From row to row, and from colour to depth, features err as differently as from frame to frame.
  * Where these are exposed one after the other, this looks like a velocity: the last six components
