@@ -127,6 +127,10 @@ void RunSummary::add(const OutputItem& item)
     sum.msTotal += d.msTotal;
     if (isMeasured(motion.status))
     {
+        if (!sum.lens.isContradicted)
+        {
+            firstContradicted = item.source.frameIndex;
+        }
         sum.depthNoise = d.depthNoise;
         sum.lens = d.lens;
         lensPrior = lensPrior.cwiseMax(d.lens.sigmas);
@@ -218,6 +222,17 @@ void RunSummary::printAttached(std::ostream& out) const
     }
 }
 
+void RunSummary::printCalibration(std::ostream& out) const
+{
+    if (sum.lens.isContradicted)
+    {
+        out << "  from frame " << firstContradicted
+            << " on, the intrinsics were taken for nominal: the images do not fit them; until then "
+               "they may have misled the poses (calibrate the camera, or give --set "
+               "Lens.nominal=true)\n";
+    }
+}
+
 void RunSummary::printLearnt(std::ostream& out) const
 {
     if (numTracked > 0)
@@ -251,6 +266,7 @@ void RunSummary::print(std::ostream& out, bool profile) const
     printUntracked(out);
     printInPart(out);
     printAttached(out);
+    printCalibration(out);
     for (const std::string& note : notes)
     {
         out << note << "\n";

@@ -44,6 +44,7 @@ struct RunSummary
     std::size_t numWithoutColour{0};         //!< tracked ones
     std::size_t firstAttached{0};            //!< frame in which a part of the robot was seen
     double attachedShare{0};                 //!< the largest part of the view that it took; 0: none
+    std::size_t firstContradicted{0};        //!< frame whose images did not fit the intrinsics
     bool hasMotion{false};                   //!< one at least was measured
     double pathLength{0};                    //!< of the robot [m]
     double seconds{0};                 //!< wall time, without that of frames that were skipped
@@ -71,6 +72,7 @@ struct RunSummary
     void printUntracked(std::ostream& out) const;
     void printInPart(std::ostream& out) const;
     void printAttached(std::ostream& out) const;
+    void printCalibration(std::ostream& out) const;
     void printLearnt(std::ostream& out) const;  //!< of the camera
     void printTimes(std::ostream& out) const;
     [[nodiscard]] bool isMostlyUnmeasured() const;

@@ -36,7 +36,7 @@ struct LearntLens
      * length [relative], radial distortion k1. */
     Eigen::Vector4d errors{0, 0, 0, 0};
     Eigen::Vector4d sigmas{0, 0, 0, 0};  //!< their standard deviations; 0: not learnt
-    bool isContradicted{false};  //!< a calibration was given, but the images do not fit it
+    bool isContradicted{false};          //!< a calibration was given, but the images do not fit it
 };
 
 /** One line for users; empty if nothing is learnt. */

@@ -95,7 +95,8 @@ class CameraCalibrator
             v("selfCalibrate",
               selfCalibrate,
               "-",
-              "learn all intrinsics if they are nominal, and radial distortion if depth is bent");
+              "learn all intrinsics if they are nominal or do not fit the images, and radial "
+              "distortion if depth is bent");
         }
         void check() const {}
     };
