@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <filesystem>
+
 #include "Attempt.h"
 #include "ConvertApp.h"
 #include "EvalApp.h"
@@ -19,7 +21,9 @@ Tally fullDisks(double share)
     test::writeObservations(in, 40);
     writeTumFolder(folder);
     const std::string trajectory = dir / "t.txt";
+    const std::string truth = dir / "truth.txt";
     (void)attempt(runOdometry, {in, "--trajectory", trajectory, "--quiet"});
+    std::filesystem::copy(trajectory, truth);
     struct Case
     {
         App app;
@@ -41,10 +45,10 @@ Tally fullDisks(double share)
     {
         cases.push_back({runConvert, {"tum", folder, "-o", out, external, "--quiet"}});
     }
-    cases.push_back({runEval, {"rpe", trajectory, trajectory, "--json", out}});
-    cases.push_back({runEval, {"rpe", trajectory, trajectory, "--report", out}});
-    cases.push_back({runEval, {"ate", trajectory, trajectory, "--csv", out}});
-    cases.push_back({runEval, {"ate", trajectory, trajectory, "--save", out}});
+    cases.push_back({runEval, {"rpe", truth, trajectory, "--json", out}});
+    cases.push_back({runEval, {"rpe", truth, trajectory, "--report", out}});
+    cases.push_back({runEval, {"ate", truth, trajectory, "--csv", out}});
+    cases.push_back({runEval, {"ate", truth, trajectory, "--save", out}});
     for (const Case& c : cases)
     {
         for (const int kilobytes : {4, 8, 12, 16, 24, 40, 64, 128, 8192})
