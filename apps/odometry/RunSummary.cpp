@@ -127,7 +127,7 @@ void RunSummary::add(const OutputItem& item)
     sum.msTotal += d.msTotal;
     if (isMeasured(motion.status))
     {
-        if (!sum.lens.isContradicted)
+        if (d.lens.isContradicted && !firstContradicted)
         {
             firstContradicted = item.source.frameIndex;
         }
@@ -224,10 +224,10 @@ void RunSummary::printAttached(std::ostream& out) const
 
 void RunSummary::printCalibration(std::ostream& out) const
 {
-    if (sum.lens.isContradicted)
+    if (firstContradicted)
     {
-        out << "  from frame " << firstContradicted
-            << " on, the intrinsics were taken for nominal: the images do not fit them; until then "
+        out << "  after frame " << *firstContradicted
+            << ", the intrinsics were taken for nominal: the images do not fit them; until then "
                "they may have misled the poses (calibrate the camera, or give --set "
                "Lens.nominal=true)\n";
     }

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,9 +45,9 @@ struct RunSummary
     std::size_t numWithoutColour{0};         //!< tracked ones
     std::size_t firstAttached{0};            //!< frame in which a part of the robot was seen
     double attachedShare{0};                 //!< the largest part of the view that it took; 0: none
-    std::size_t firstContradicted{0};        //!< frame whose images did not fit the intrinsics
-    bool hasMotion{false};                   //!< one at least was measured
-    double pathLength{0};                    //!< of the robot [m]
+    std::optional<std::size_t> firstContradicted;  //!< frame that did not fit the intrinsics
+    bool hasMotion{false};                         //!< one at least was measured
+    double pathLength{0};                          //!< of the robot [m]
     double seconds{0};                 //!< wall time, without that of frames that were skipped
     FrameDiagnostics sum;              //!< of the times per stage; the latest noise and lens
     std::vector<std::string> notes;    //!< lines about the input

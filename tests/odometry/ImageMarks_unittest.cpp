@@ -4,30 +4,16 @@
 #include <cstdint>
 #include <functional>
 
+#include "standing_points.h"
 #include <gtest/gtest.h>
 
 namespace pointplane
 {
 namespace
 {
-constexpr int kWindowPx = 10;
-
-PinholeCamera camera()
-{
-    PinholeCamera out;
-    out.width = 320;
-    out.height = 240;
-    out.fx = out.fy = 260;
-    out.cx = 160;
-    out.cy = 120;
-    return out;
-}
-
-/** A point with 1 cm of noise in depth. */
-PointFeature pointAt(const Eigen::Vector2d& uv_px, double z)
-{
-    return {uv_px, backProject(camera(), 0.5, 0.01, uv_px, z)};
-}
+using standing::camera;
+using standing::kWindowPx;
+using standing::pointAt;
 
 /** Where a point of a camera is seen later. */
 using Motion2 = std::function<PointFeature(const PointFeature&)>;

@@ -39,7 +39,9 @@ CameraMatrix CalibrationCheck::cov() const
 
 bool CalibrationCheck::isContradicted(const CameraVector& others) const
 {
-    const CameraVector variances = CameraVector(cov().diagonal()) + calibration_ + others;
-    return (errors().array().square() > kSurely * kSurely * variances.array()).any();
+    const CameraMatrix cov = this->cov();
+    const CameraVector errors = -cov * sum_.gradient;
+    const CameraVector variances = CameraVector(cov.diagonal()) + calibration_ + others;
+    return (errors.array().square() > kSurely * kSurely * variances.array()).any();
 }
 }  // namespace pointplane
