@@ -55,7 +55,10 @@ void addTumCommand(CLI::App& app, TumOptions& options, RecordingOutput& output)
 {
     CLI::App* tum =
         app.add_subcommand("tum", "A sequence of the TUM RGB-D benchmark, or a folder like one");
-    tum->add_option("folder", options.folder, "Folder with rgb.txt, depth.txt and the images")
+    tum->add_option(
+           "folder",
+           options.folder,
+           "Folder with rgb.txt, depth.txt and the images; without rgb.txt: depth alone")
         ->type_name("DIR")
         ->required();
     tum->add_option(

@@ -105,32 +105,64 @@ namespace fs = std::filesystem;
 TumRecording::TumRecording(const TumOptions& options) : options_(options)
 {
     requireFolder(options.folder);
-    colour_ = readTumListing(options.folder, "rgb.txt");
-    depth_ = readTumListing(options.folder, "depth.txt");
-    if (options.evenStamps)
-    {
-        (void)evenOutStamps(depth_, options.folder + "/depth.txt");
-        evening_ = evenOutStamps(colour_, options.folder + "/rgb.txt");
-    }
+    readLists();
     camera_ = loadTumCamera(options.camera, options.folder);
     if (options.depthScale > 0)
     {
         camera_.unitsPerMetre = options.depthScale;
     }
-    for (const auto& [c, d] :
-         associate(secondsOf(colour_), secondsOf(depth_), 0.0, options.maxDifference))
+    pairImages();
+    readGroundTruth();
+}
+
+void TumRecording::readLists()
+{
+    const std::string ofColour = options_.folder + "/rgb.txt";
+    const std::string ofDepth = options_.folder + "/depth.txt";
+    const bool isListed = fs::exists(fs::symlink_status(ofColour));
+    if (isListed || !fs::exists(ofDepth))
     {
-        pairs_.emplace_back(c, d);
+        colour_ = readTumListing(options_.folder, "rgb.txt");
     }
-    if (pairs_.empty())
+    depth_ = readTumListing(options_.folder, "depth.txt");
+    if (options_.evenStamps)
+    {
+        evening_ = evenOutStamps(depth_, ofDepth);
+        if (!colour_.empty())
+        {
+            evening_ = evenOutStamps(colour_, ofColour);
+        }
+    }
+}
+
+void TumRecording::pairImages()
+{
+    if (colour_.empty())
+    {
+        for (std::size_t i = 0; i < depth_.size(); ++i)
+        {
+            frames_.push_back({{}, i});
+        }
+        return;
+    }
+    for (const auto& [c, d] :
+         associate(secondsOf(colour_), secondsOf(depth_), 0.0, options_.maxDifference))
+    {
+        frames_.push_back({c, d});
+    }
+    if (frames_.empty())
     {
         throw InputError(
-            options.folder + ": no colour and depth stamps within " +
-            numberText(options.maxDifference) + " s of each other: " + rangeOf("colour", colour_) +
+            options_.folder + ": no colour and depth stamps within " +
+            numberText(options_.maxDifference) + " s of each other: " + rangeOf("colour", colour_) +
             ", " + rangeOf("depth", depth_) +
             " (stamps must be in seconds; --max-difference takes a longer time)");
     }
-    const std::string truthFile = options.folder + "/groundtruth.txt";
+}
+
+void TumRecording::readGroundTruth()
+{
+    const std::string truthFile = options_.folder + "/groundtruth.txt";
     const auto truth = textOf(truthFile);
     if (truth && hasPoses(*truth))
     {
@@ -142,19 +174,23 @@ TumRecording::TumRecording(const TumOptions& options) : options_(options)
     }
 }
 
+double TumRecording::delayOf(const Frame& frame) const
+{
+    return frame.colour ? depth_[frame.depth].seconds - colour_[*frame.colour].seconds : 0;
+}
+
 std::optional<RecordedFrame> TumRecording::next()
 {
-    if (next_ == pairs_.size())
+    if (next_ == frames_.size())
     {
         return {};
     }
-    const TumImage& colour = colour_[pairs_[next_].first];
-    const TumImage& depth = depth_[pairs_[next_].second];
-    ++next_;
+    const Frame& frame = frames_[next_++];
+    const TumImage& depth = depth_[frame.depth];
     RecordedFrame out;
     // Some colour images go with the depth image before, some with that after: 33 ms apart.
-    out.depthDelay = depth.seconds - colour.seconds;
-    out.scan.stamp = colour.stamp;
+    out.depthDelay = delayOf(frame);
+    out.scan.stamp = frame.colour ? colour_[*frame.colour].stamp : depth.stamp;
     out.scan.camera = camera_.camera;
     out.scan.unitsPerMetre = camera_.unitsPerMetre;
     out.scan.depth =
@@ -166,50 +202,66 @@ std::optional<RecordedFrame> TumRecording::next()
             typeText(out.scan.depth) +
             (out.scan.depth.depth() == CV_32F ? "; pointplane-convert folder reads that" : ""));
     }
-    out.scan.colour = readImage(colour.path, cv::IMREAD_COLOR, camera_.camera);
-    out.scan.colourFile = colour.path;
+    if (frame.colour)
+    {
+        out.scan.colourFile = colour_[*frame.colour].path;
+        out.scan.colour = readImage(out.scan.colourFile, cv::IMREAD_COLOR, camera_.camera);
+    }
     return out;
 }
 
 double TumRecording::progress() const
 {
-    return static_cast<double>(next_) / static_cast<double>(pairs_.size());
+    return static_cast<double>(next_) / static_cast<double>(frames_.size());
 }
 
 std::vector<std::string> TumRecording::notes() const
 {
-    std::vector<std::string> out;
-    const std::size_t colourAlone = colour_.size() - pairs_.size();
-    const std::size_t depthAlone = depth_.size() - pairs_.size();
-    if (colourAlone + depthAlone > 0)
-    {
-        std::ostringstream alone;
-        alone << "left out, without a partner within " << options_.maxDifference
-              << " s: " << colourAlone << " colour and " << counted(depthAlone, "depth image");
-        out.push_back(alone.str());
-    }
+    std::vector<std::string> out = notesOfPairs();
     if (!camera_.guessed.empty())
     {
         out.push_back(
             "camera: " + camera_.guessed + ", by the folder's name; --camera takes another");
     }
-    if (!evening_.empty())
+    for (const std::string& note : {evening_, noTruth_})
     {
-        out.push_back(evening_);
+        if (!note.empty())
+        {
+            out.push_back(note);
+        }
     }
-    if (!noTruth_.empty())
+    if (!colour_.empty())
     {
-        out.push_back(noTruth_);
+        std::vector<double> delays;
+        for (const Frame& frame : frames_)
+        {
+            delays.push_back(delayOf(frame));
+        }
+        std::ostringstream delay;
+        delay << "depth after colour: " << std::round(1e4 * median(delays)) / 10 << " ms (median)";
+        out.push_back(delay.str());
     }
-    std::vector<double> delays;
-    for (const auto& [c, d] : pairs_)
-    {
-        delays.push_back(depth_[d].seconds - colour_[c].seconds);
-    }
-    std::ostringstream delay;
-    delay << "depth after colour: " << std::round(1e4 * median(delays)) / 10 << " ms (median)";
-    out.push_back(delay.str());
     return out;
+}
+
+std::vector<std::string> TumRecording::notesOfPairs() const
+{
+    if (colour_.empty())
+    {
+        return {
+            options_.folder +
+            ": has no rgb.txt, so frames have depth alone, and only planes tell the motion"};
+    }
+    const std::size_t colourAlone = colour_.size() - frames_.size();
+    const std::size_t depthAlone = depth_.size() - frames_.size();
+    if (colourAlone + depthAlone == 0)
+    {
+        return {};
+    }
+    std::ostringstream alone;
+    alone << "left out, without a partner within " << options_.maxDifference
+          << " s: " << colourAlone << " colour and " << counted(depthAlone, "depth image");
+    return {alone.str()};
 }
 
 std::vector<std::string> TumRecording::files() const

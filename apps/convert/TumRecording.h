@@ -2,8 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "Recording.h"
@@ -22,7 +22,7 @@ struct TumOptions
 };
 
 /** A folder of the TUM RGB-D benchmark: pairs of images, stamped with the colour image's time,
- * readings and pixels unchanged. */
+ * readings and pixels unchanged. Without rgb.txt: depth images alone, with their own stamps. */
 class TumRecording : public Recording
 {
  public:
@@ -39,10 +39,23 @@ class TumRecording : public Recording
     [[nodiscard]] const std::string& groundTruth() const { return groundTruth_; }
 
  private:
+    struct Frame
+    {
+        std::optional<std::size_t> colour;  //!< nothing: depth alone
+        std::size_t depth;
+    };
+
+    void readLists();
+    void pairImages();
+    void readGroundTruth();
+    /** Depth after colour [s]. */
+    [[nodiscard]] double delayOf(const Frame& frame) const;
+    [[nodiscard]] std::vector<std::string> notesOfPairs() const;
+
     TumOptions options_;
     std::vector<TumImage> colour_, depth_;
     TumCamera camera_;
-    std::vector<std::pair<std::size_t, std::size_t>> pairs_;
+    std::vector<Frame> frames_;
     std::string groundTruth_;
     std::string noTruth_;  //!< why there is a groundtruth.txt, but no ground truth, or empty
     std::string evening_;  //!< what was done to the stamps, or empty

@@ -414,6 +414,49 @@ TEST_F(ConvertApp, aGuessedCameraIsTold)
     EXPECT_THAT(text_, testing::Not(HasSubstr("by the folder's name")));
 }
 
+TEST_F(ConvertApp, depthMayBeAlone)
+{
+    std::filesystem::remove(dir_ / "in/rgb.txt");
+    for (const bool isExternal : {false, true})
+    {
+        std::vector<std::string> args{in_, "-o", out_};
+        if (isExternal)
+        {
+            args.emplace_back("--external");
+        }
+        ASSERT_EQ(run(args), kExitOk) << text_;
+        EXPECT_THAT(text_, HasSubstr("4 frames"));
+        EXPECT_THAT(
+            text_, HasSubstr("in: has no rgb.txt, so frames have depth alone, and only planes"));
+        EXPECT_THAT(text_, Not(HasSubstr("colour and")));
+        EXPECT_THAT(text_, Not(HasSubstr("after colour")));
+        const auto scans = scansOf(out_);
+        ASSERT_EQ(scans.size(), 4U);
+        for (std::size_t i = 0; i < scans.size(); ++i)
+        {
+            EXPECT_FALSE(scans[i]->hasIntensityImage);
+            EXPECT_TRUE(scans[i]->hasRangeImage);
+        }
+        const auto frames = test::convertedFrames(out_);
+        ASSERT_EQ(frames.size(), 4U);
+        EXPECT_EQ(frames[3].problem, "");
+        EXPECT_NEAR(frames[3].frame.stamp, 1305031104.0, 1e-6);
+        EXPECT_NEAR(
+            frames[3].frame.depth.at<float>(10, 20),
+            depths_[3].at<std::uint16_t>(10, 20) / 5000.0,
+            1e-4);
+    }
+}
+
+/** A link that leads nowhere is a list that cannot be read. */
+TEST_F(ConvertApp, aListThatCannotBeReadIsNotTakenForNone)
+{
+    std::filesystem::remove(dir_ / "in/rgb.txt");
+    std::filesystem::create_symlink(dir_ / "gone.txt", dir_ / "in/rgb.txt");
+    EXPECT_EQ(run({in_, "-o", out_}), kExitBadInput);
+    EXPECT_THAT(text_, HasSubstr("cannot open " + in_ + "/rgb.txt"));
+}
+
 TEST_F(ConvertApp, mistakesAreNamed)
 {
     const auto expect = [this](const std::string& text, std::vector<std::string> more = {})

@@ -172,23 +172,26 @@ void ScanWriter::write(const RegisteredScan& scan)
     POINTPLANE_CHECK(
         scan.depth.type() == CV_16UC1 &&
             scan.depth.size() == cv::Size(ofDepth.width, ofDepth.height) &&
-            scan.colour.size() == size,
+            (scan.colour.empty() || scan.colour.size() == size),
         "images do not fit the camera, " << size.width << "x" << size.height);
     CObservation3DRangeScan out;
     out.sensorLabel = label_;
     out.timestamp = scan.stamp;
     setCameras(out, scan);
     setDepth(out, scan);
-    out.hasIntensityImage = true;
+    out.hasIntensityImage = !scan.colour.empty();
     out.intensityImageChannel = CObservation3DRangeScan::CH_VISIBLE;
-    if (!images_)
+    const std::string stamp = stampText(scan.stamp);
+    if (out.hasIntensityImage && images_)
+    {
+        out.intensityImage.setExternalStorage(writeColourFile(scan, images_->partialPath(), stamp));
+    }
+    else if (out.hasIntensityImage)
     {
         out.intensityImage = mrpt::img::CImage(scan.colour, mrpt::img::DEEP_COPY);
     }
-    else
+    if (images_)
     {
-        const std::string stamp = stampText(scan.stamp);
-        out.intensityImage.setExternalStorage(writeColourFile(scan, images_->partialPath(), stamp));
         moveRangeToFile(out, images_->partialPath(), stamp + "_depth.bin");
     }
     writer_.write(out);

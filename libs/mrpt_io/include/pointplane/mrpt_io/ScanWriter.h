@@ -22,14 +22,14 @@ struct DepthCamera
     Eigen::Isometry3d T_depth_colour{Eigen::Isometry3d::Identity()};  //!< optical axes
 };
 
-/** A colour image with its depth image. */
+/** A depth image, and the colour image that goes with it. */
 struct RegisteredScan
 {
     mrpt::Clock::time_point stamp;
     PinholeCamera camera;
     std::optional<DepthCamera> depthCamera;  //!< nothing: depth is registered
-    cv::Mat colour;                          //!< CV_8UC3 BGR, or CV_8UC1, of the camera's size
-    cv::Mat depth;  //!< CV_16UC1 along the optical axis, of its camera's size; 0 = none
+    cv::Mat colour;  //!< CV_8UC3 BGR, or CV_8UC1, of the camera's size; empty: depth alone
+    cv::Mat depth;   //!< CV_16UC1 along the optical axis, of its camera's size; 0 = none
     double unitsPerMetre{5000};  //!< of depth
     std::string colourFile;      //!< what colour was read from; copied where images are external
 };
