@@ -87,7 +87,8 @@ CLI::App* addFolderCommand(CLI::App& app, FolderOptions& options, RecordingOutpu
     CLI::App* folder = app.add_subcommand(
         "folder",
         "Numbered or stamped images: ScanNet, 7-Scenes, Redwood, Replica, Bonn, Record3D, "
-        "StrayScanner, or any two folders like rgb and depth");
+        "StrayScanner, any two folders like rgb and depth, or one with images like rgb_12.png and "
+        "depth_12.png");
     folder->add_option("folder", options.folder, "Folder with the images")
         ->type_name("DIR")
         ->required();

@@ -56,6 +56,20 @@ namespace
 }
 }  // namespace
 
+std::vector<std::string> imagesInFolder(const fs::path& folder)
+{
+    std::vector<std::string> out;
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(folder, error))
+    {
+        if (isImage(entry.path()) && entry.path().filename().string().front() != '.')
+        {
+            out.push_back(entry.path().string());
+        }
+    }
+    return out;
+}
+
 std::vector<std::string> imagesBeside(const std::vector<ImageRef>& images)
 {
     std::set<fs::path> folders, taken;
@@ -70,13 +84,11 @@ std::vector<std::string> imagesBeside(const std::vector<ImageRef>& images)
     std::vector<std::string> out;
     for (const fs::path& folder : folders)
     {
-        std::error_code error;
-        for (const auto& entry : fs::directory_iterator(folder, error))
+        for (const std::string& image : imagesInFolder(folder))
         {
-            const bool isHidden = entry.path().filename().string().front() == '.';
-            if (isImage(entry.path()) && !isHidden && taken.count(entry.path()) == 0)
+            if (taken.count(image) == 0)
             {
-                out.push_back(entry.path().string());
+                out.push_back(image);
             }
         }
     }

@@ -27,6 +27,9 @@ struct ImageRef
     const std::string& prefix = "",
     const std::string& suffix = "");
 
+/** Paths of all images in a folder, whatever their names; hidden files are none. */
+[[nodiscard]] std::vector<std::string> imagesInFolder(const std::filesystem::path& folder);
+
 /** Names of the images in the folders of these that are none of them: their names are no numbers.
  */
 [[nodiscard]] std::vector<std::string> imagesBeside(const std::vector<ImageRef>& images);

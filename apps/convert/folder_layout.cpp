@@ -3,8 +3,9 @@
 
 #include <pointplane/mrpt_io/errors.h>
 
+#include <algorithm>
 #include <filesystem>
-#include <initializer_list>
+#include <system_error>
 
 #include "dataset_layouts.h"
 #include "layout_files.h"
@@ -16,22 +17,60 @@ namespace
 {
 namespace fs = std::filesystem;
 
-/** The images of the first of these folders that has any. \param others of them that have some */
+/** What images and folders of one kind are called. */
+using Words = std::vector<std::string>;
+
+const Words kColourWords{"rgb", "color", "colour", "image", "images", "RGB"};
+const Words kDepthWords{"depth", "depths", "Depth"};
+const Words kWordsOfBoth{"image", "img", "frame"};  //!< in folders of one kind
+
+/** Images named by a word and a number or stamp, in either order, like rgb_12.png. */
+[[nodiscard]] std::vector<ImageRef> imagesWithWord(const fs::path& folder, const Words& words)
+{
+    for (const std::string& word : words)
+    {
+        for (const char* between : {"_", "-", ".", " ", ""})
+        {
+            auto out = imagesIn(folder, word + between);
+            if (out.empty())
+            {
+                out = imagesIn(folder, "", between + word);
+            }
+            if (!out.empty())
+            {
+                return out;
+            }
+        }
+    }
+    return {};
+}
+
+/** Images of a folder of one kind: named by a number or stamp, else with a word beside it. */
+[[nodiscard]] std::vector<ImageRef> imagesOf(const fs::path& folder, const Words& words)
+{
+    auto out = imagesIn(folder);
+    for (const Words* more : {&words, &kWordsOfBoth})
+    {
+        out = out.empty() ? imagesWithWord(folder, *more) : out;
+    }
+    return out;
+}
+
+/** The images of the first of the folders with these names that has any. \param others of them that
+ * have some */
 [[nodiscard]] std::vector<ImageRef> imagesInFirst(
-    const fs::path& folder,
-    std::initializer_list<const char*> names,
-    std::vector<std::string>& others)
+    const fs::path& folder, const Words& names, std::vector<std::string>& others)
 {
     std::vector<ImageRef> out;
-    for (const char* name : names)
+    for (const std::string& name : names)
     {
         const fs::path candidate = folder / name;
         if (out.empty())
         {
-            out = imagesIn(candidate);
+            out = imagesOf(candidate, names);
         }
         else if (
-            !imagesIn(candidate).empty() &&
+            !imagesOf(candidate, names).empty() &&
             !fs::equivalent(candidate, fs::path(out.front().path).parent_path()))
         {
             others.push_back(candidate.string());
@@ -40,20 +79,24 @@ namespace fs = std::filesystem;
     return out;
 }
 
-/** Colour and depth in two folders beside each other. */
-[[nodiscard]] std::optional<FolderLayout> twoFolders(const fs::path& folder)
+/** Colour and depth in two folders beside each other, or in one, told by a word in the names. */
+[[nodiscard]] std::optional<FolderLayout> oneOrTwoFolders(const fs::path& folder)
 {
     FolderLayout out;
-    out.colour = imagesInFirst(
-        folder, {"rgb", "color", "colour", "image", "images", "RGB"}, out.otherSources);
-    out.depth = imagesInFirst(folder, {"depth", "depths", "Depth"}, out.otherSources);
+    out.colour = imagesInFirst(folder, kColourWords, out.otherSources);
+    out.depth = imagesInFirst(folder, kDepthWords, out.otherSources);
+    if (out.colour.empty() && out.depth.empty())
+    {
+        out.colour = imagesWithWord(folder, kColourWords);
+        out.depth = imagesWithWord(folder, kDepthWords);
+    }
     if (out.colour.empty() || out.depth.empty())
     {
         return {};
     }
-    out.name = out.colour.front().stamp ? "stamped images" : "numbered images";
-    const std::string first = fs::path(out.colour.front().path).stem().string();
-    if (first.find('-', 1) != std::string::npos)
+    const ImageRef& first = out.colour.front();
+    out.name = first.stamp ? "stamped images" : "numbered images";
+    if (first.stamp && first.isNumbered)
     {
         out.name = "Redwood";
         out.camera = colourCamera(pinholeOf(640, 480, 525, 319.5, 239.5));
@@ -63,12 +106,27 @@ namespace fs = std::filesystem;
     readRecord3d(folder, out);
     return out;
 }
+
+/** What there is instead: the first image in the folder or in those in it. */
+[[nodiscard]] std::string imageInstead(const fs::path& folder)
+{
+    std::vector<std::string> images = imagesInFolder(folder);
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(folder, error))
+    {
+        const auto inside = imagesInFolder(entry.path());
+        images.insert(images.end(), inside.begin(), inside.end());
+    }
+    const auto first = std::min_element(images.begin(), images.end());
+    return first == images.end() ? ". Here are no images"
+                                 : ". Here is " + fs::relative(*first, folder, error).string();
+}
 }  // namespace
 
 FolderLayout readFolderLayout(const std::string& folder)
 {
     requireFolder(folder);
-    for (const auto reader : {scanNet, strayScanner, sevenScenes, replica, twoFolders})
+    for (const auto reader : {scanNet, strayScanner, sevenScenes, replica, oneOrTwoFolders})
     {
         if (auto layout = reader(folder))
         {
@@ -84,7 +142,9 @@ FolderLayout readFolderLayout(const std::string& folder)
     throw InputError(
         folder +
         ": not a known layout. Known are ScanNet, 7-Scenes, Redwood, Replica, Bonn, Record3D, "
-        "StrayScanner, and two folders, rgb (or color, colour, image, images) and depth (depths), "
-        "whose images are named by number or stamp alone, as 12.png or 1500000000.25.png");
+        "StrayScanner; two folders, rgb (or color, colour, image, images) and depth (depths), with "
+        "images named by number or stamp, as 12.png, frame_12.png or 1500000000.25.png; and one "
+        "folder with these words in the names, as rgb_12.png and depth_12.png" +
+        imageInstead(folder));
 }
 }  // namespace pointplane

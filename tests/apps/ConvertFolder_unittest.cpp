@@ -503,12 +503,53 @@ TEST_F(ConvertFolder, eachNumberIsOneFrame)
 
 TEST_F(ConvertFolder, whichNamesOfFoldersAndImagesAreReadIsTold)
 {
-    writeFrames("in/rgb/image %d.png", "in/depth/image %d.png");
+    write("in/notes.txt", "no image");
+    EXPECT_EQ(run({"folder", in_}), kExitBadInput);
+    EXPECT_THAT(text_, HasSubstr("Here are no images\n"));
+    writeFrames("in/rgb/photo %d.png", "in/depth/photo %d.png");
     EXPECT_EQ(run({"folder", in_}), kExitBadInput);
     EXPECT_THAT(
         text_,
-        HasSubstr("two folders, rgb (or color, colour, image, images) and depth (depths), whose "
-                  "images are named by number or stamp alone, as 12.png"));
+        HasSubstr("two folders, rgb (or color, colour, image, images) and depth (depths), with "
+                  "images named by number or stamp, as 12.png, frame_12.png or "
+                  "1500000000.25.png; and one folder with these words in the names, as rgb_12.png "
+                  "and depth_12.png. Here is depth/photo 0.png\n"));
+}
+
+TEST_F(ConvertFolder, namesMayHaveAWordBesideTheNumber)
+{
+    const std::pair<const char*, const char*> names[] = {
+        {"rgb_%04d.jpg", "depth_%04d.png"},
+        {"%05d-color.png", "%05d-depth.png"},
+        {"colour%d.png", "depth%d.png"},
+        {"image.%d.png", "depth.%d.png"},
+        {"rgb/rgb_%04d.png", "depth/depth_%04d.png"},
+        {"color/frame%06d.png", "depth/frame%06d.png"}};
+    for (const auto& [colour, depth] : names)
+    {
+        std::filesystem::remove_all(in_);
+        write("in/camera.txt", kCamera);
+        writeFrames((std::string("in/") + colour).c_str(), (std::string("in/") + depth).c_str());
+        ASSERT_EQ(run({"folder", in_}), kExitOk) << colour << ": " << text_;
+        EXPECT_THAT(text_, HasSubstr("read as numbered images"));
+        EXPECT_THAT(text_, Not(HasSubstr("left out")));
+        expectFrames(30);
+    }
+}
+
+TEST_F(ConvertFolder, namesMayHaveAWordBesideTheStamp)
+{
+    write("in/camera.txt", kCamera);
+    for (int i = 0; i < 3; ++i)
+    {
+        const std::string stamp = std::to_string(1305031102 + i) + ".25.png";
+        writeImage("in/rgb_" + stamp, colourImage(i));
+        writeImage("in/depth_" + stamp, depthImage(i));
+    }
+    ASSERT_EQ(run({"folder", in_}), kExitOk) << text_;
+    EXPECT_THAT(text_, HasSubstr("stamps of the recording"));
+    expectFrames(1);
+    EXPECT_NEAR(frames()[0].stamp, 1305031102.25, 1e-6);
 }
 
 TEST_F(ConvertFolder, oneImageIsNotToldAsMany)
