@@ -6,6 +6,9 @@
 #include <mrpt/config/CConfigFileMemory.h>
 
 #include <clocale>
+#include <map>
+#include <sstream>
+#include <string>
 
 #include "TempDir.h"
 #include <gmock/gmock.h>
@@ -286,6 +289,57 @@ TEST(OdometryParamsIni, everyNumberHasARange)
                 EXPECT_THAT(e.what(), HasSubstr("[" + p.section + "] " + p.key + " = "));
             }
         }
+    }
+}
+
+TEST(OdometryParamsIni, lengthsInMillimetresAreToldApart)
+{
+    OdometryParams params;
+    std::map<std::string, std::string> wrong{
+        {"minDepth", "400"},
+        {"maxDepth", "8000"},
+        {"keyframeDistance", "150"},
+        {"maxDistance", "100"},
+        {"sigmaDepth", "2"}};
+    for (const auto& p : parametersOf(params))
+    {
+        if (p.unit != "m")
+        {
+            continue;
+        }
+        const std::string value = wrong.at(p.key);
+        std::ostringstream metres;
+        metres << std::stod(value) / 1000;
+        try
+        {
+            (void)loadOdometryParams("", {p.section + "." + p.key + "=" + value});
+            ADD_FAILURE() << p.key << " may be " << value;
+        }
+        catch (const InputError& e)
+        {
+            EXPECT_THAT(
+                e.what(),
+                HasSubstr("[" + p.section + "] " + p.key + " = " + value + " is not in ["));
+            EXPECT_THAT(
+                e.what(),
+                HasSubstr("]: it is in metres, and " + value + " mm are " + metres.str()));
+        }
+        wrong.erase(p.key);
+    }
+    EXPECT_TRUE(wrong.empty()) << wrong.begin()->first;
+}
+
+/** Where a value is no length in any unit, none is guessed. */
+TEST(OdometryParamsIni, aLengthThatIsNoneInMillimetresIsOutOfRange)
+{
+    try
+    {
+        (void)loadOdometryParams("", {"PointLifter.maxDepth=-8"});
+        ADD_FAILURE();
+    }
+    catch (const InputError& e)
+    {
+        EXPECT_THAT(e.what(), testing::EndsWith("maxDepth = -8 is not in [0.001, 200]"));
     }
 }
 

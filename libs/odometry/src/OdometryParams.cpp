@@ -24,7 +24,7 @@ void PipelineParams::check() const
     POINTPLANE_CHECK(usePoints || usePlanes, "usePoints and usePlanes are both off");
     (void)fuses();
     (void)searchesAhead();
-    checkRange("gateSigma", gateSigma, 1e-6, 10);
+    checkRange("gateSigma", gateSigma, 1e-6, 2);
     checkRange("leastAgreement", leastAgreement, 0, 0.99);
     checkRange("maxGap", maxGap, 0.001, 3600);
     checkRange("numThreads", numThreads, 1, 2);

@@ -24,7 +24,7 @@ void ReferenceWindow::TParams::check() const
     (void)isFrameToFrame();
     checkRange("maxKeyframes", maxKeyframes, 1, 50);
     checkRange("maxPlaces", maxPlaces, 0, 1000);
-    checkRange("keyframeDistance", keyframeDistance, 0.001, 100);
+    checkLength("keyframeDistance", keyframeDistance, 0.001, 10);
     checkRange("keyframeAngleDeg", keyframeAngleDeg, 0.1, 180);
     checkRange("keyframeMinOverlap", keyframeMinOverlap, 0, 0.99);
 }

@@ -145,7 +145,7 @@ void PlaneMatcher::TParams::check() const
 {
     checkRange("minOverlap", minOverlap, 0.01, 1);
     checkRange("maxNormalAngleDeg", maxNormalAngleDeg, 0.1, 90);
-    checkRange("maxDistance", maxDistance, 1e-4, 10);
+    checkLength("maxDistance", maxDistance, 1e-4, 2);
 }
 
 PlaneMatcher::PlaneMatcher(const TParams& params) : params_(params) { params_.check(); }

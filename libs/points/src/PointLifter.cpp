@@ -72,8 +72,8 @@ void PointLifter::TParams::check() const
         depthModel == "nearest" || depthModel == "mixture",
         "depthModel = " << depthModel << " is not nearest or mixture");
     checkRange("maxEdgeSigmas", maxEdgeSigmas, 0, 1e4);
-    checkRange("minDepth", minDepth, 1e-3, 1000);
-    checkRange("maxDepth", maxDepth, 1e-3, 1e4);
+    checkLength("minDepth", minDepth, 1e-3, 10);
+    checkLength("maxDepth", maxDepth, 1e-3, 200);
     POINTPLANE_CHECK(
         maxDepth > minDepth, "maxDepth = " << maxDepth << " is not above minDepth = " << minDepth);
 }

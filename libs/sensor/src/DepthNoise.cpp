@@ -21,7 +21,7 @@ void DepthNoise::check() const
             << kind
             << " is not learn, structuredLight, activeStereo, timeOfFlight, rendered or given");
     checkRange("sigmaInverseDepth", sigmaInverseDepth, 1e-7, 0.09);
-    checkRange("sigmaDepth", sigmaDepth, 0, 1);
+    checkLength("sigmaDepth", sigmaDepth, 0, 0.5);
     checkRange("sigmaRelative", sigmaRelative, 0, 1);
     checkRange("sigmaPixelPx", sigmaPixelPx, 0.001, 100);
 }

@@ -131,7 +131,7 @@ void SimulationParams::check() const
     checkRange("disparityPxMetre", disparityPxMetre, 1, 1e4);
     checkRange("noiseWindowPx", noiseWindowPx, 1, 64);
     checkRange("calibrationSigma", calibrationSigma, 0, 0.1);
-    checkRange("sigmaDepth", sigmaDepth, 0, 1);
+    checkLength("sigmaDepth", sigmaDepth, 0, 0.5);
     checkRange("sigmaRelative", sigmaRelative, 0, 0.2);
     checkRange("bendGridPx", bendGridPx, 4, 1000);
     checkRange("upsampling", upsampling, 1, 16);
@@ -139,8 +139,8 @@ void SimulationParams::check() const
     checkRange("edgeLossPx", edgeLossPx, 0, 20);
     checkRange("shadowBaseline", shadowBaseline, 0, 1);
     checkRange("maxIncidenceDeg", maxIncidenceDeg, 10, 90);
-    checkRange("minDepth", minDepth, 0, 100);
-    checkRange("maxDepth", maxDepth, minDepth, 1000);
+    checkLength("minDepth", minDepth, 0, 10);
+    checkLength("maxDepth", maxDepth, minDepth, 200);
     POINTPLANE_CHECK(
         height <= width || (readoutColour == 0 && readoutDepth == 0),
         "height = " << height << " is more than width = " << width

@@ -33,7 +33,7 @@ Matrix12d transition(const DecayedVelocities& after)
 
 void MotionModel::TParams::check() const
 {
-    checkRange("velocityRandomWalk", velocityRandomWalk, 1e-4, 100);
+    checkRange("velocityRandomWalk", velocityRandomWalk, 1e-4, 20);
     checkRange("angularVelocityRandomWalk", angularVelocityRandomWalk, 1e-4, 100);
     checkRange("timeConstant", timeConstant, 0.01, 1000);
     checkRange("sigmaAcceleration", sigmaAcceleration, 0.01, 1000);

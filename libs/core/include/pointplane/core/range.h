@@ -13,4 +13,16 @@ inline void checkRange(const char* key, double value, double low, double high)
         value >= low && value <= high,
         key << " = " << value << " is not in [" << low << ", " << high << "]");
 }
+
+/** The same of a length [m]. Its range is such that millimetres are noticed, and told. */
+inline void checkLength(const char* key, double value, double low, double high)
+{
+    constexpr double kMillimetresPerMetre = 1000;
+    const double metres = value / kMillimetresPerMetre;
+    POINTPLANE_CHECK(
+        metres < low || metres > high || (value >= low && value <= high),
+        key << " = " << value << " is not in [" << low << ", " << high << "]: it is in metres, and "
+            << value << " mm are " << metres);
+    checkRange(key, value, low, high);
+}
 }  // namespace pointplane
