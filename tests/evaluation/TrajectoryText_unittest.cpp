@@ -176,6 +176,19 @@ TEST(TrajectoryText, hintsAtWhatIsOftenWrong)
     EXPECT_THAT(warningsOf("1 0 0 0 0 0 -6.28\n900 0 0 0 6.28 0 0\n"), testing::IsEmpty());
 }
 
+/** As of --graph, of graph-slam, and of g2o. */
+TEST(TrajectoryText, aPoseGraphIsTold)
+{
+    test::TempDir files;
+    for (const char* first : {"VERTEX3 0 0 0 0 0 0 0", "EDGE_SE3:QUAT 0 1 0 0 0 0 0 0 1"})
+    {
+        EXPECT_THAT(
+            messageOf(writeFile(files, "vo.graph", std::string(first) + "\nFIX 0\n")),
+            HasSubstr("vo.graph:1: is of a pose graph, whose nodes have no time stamps; give the "
+                      "trajectory or the rawlog that was written with it"));
+    }
+}
+
 /** Their bytes would do anything to a terminal. */
 TEST(TrajectoryText, filesThatAreNoTextAreNotShown)
 {

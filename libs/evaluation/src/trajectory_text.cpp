@@ -193,6 +193,13 @@ std::string otherFormat(std::size_t columns)
                                : "";
 }
 
+/** Of the formats of TORO and g2o: VERTEX3, EDGE_SE3:QUAT, EQUIV. */
+bool isOfPoseGraph(const std::string& text)
+{
+    const auto beginsWith = [&](const char* word) { return text.rfind(word, 0) == 0; };
+    return beginsWith("VERTEX") || beginsWith("EDGE") || beginsWith("EQUIV");
+}
+
 /** Poses from the lines of a file that are no comments. */
 class PoseLines
 {
@@ -233,6 +240,14 @@ void PoseLines::add(const std::string& text, std::size_t line)
     if (!isAscii(text))
     {
         failAt(path_, line, "is not text of numbers, as a trajectory is");
+    }
+    if (isOfPoseGraph(text))
+    {
+        failAt(
+            path_,
+            line,
+            "is of a pose graph, whose nodes have no time stamps; give the trajectory or the "
+            "rawlog that was written with it");
     }
     if (text.find(',') != std::string::npos && !decimalComma(text).empty())
     {
