@@ -53,9 +53,8 @@ class JointCovariance
             v("viewNoise",
               viewNoise,
               "-",
-              "ratio of two standard deviations: of the error that all points of a frame share "
-              "because of where the camera stands, and of what references contradict each other "
-              "by");
+              "the error that all points of a frame share is this many times what its references "
+              "contradict each other by. A larger value gives larger covariances");
             v("vignetting",
               vignetting,
               "-",
