@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/core/byte_order_mark.h>
 #include <pointplane/core/counted.h>
-#include <pointplane/core/number_text.h>
 #include <pointplane/core/read_errors.h>
 #include <pointplane/evaluation/trajectory_text.h>
 
@@ -11,9 +10,10 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <set>
-#include <sstream>
 #include <stdexcept>
+
+#include "FrameMarks.h"
+#include "text_line.h"
 
 namespace pointplane
 {
@@ -23,68 +23,10 @@ constexpr std::size_t kMrptColumns = 7;
 constexpr std::size_t kTumColumns = 8;
 constexpr double kNormTolerance = 0.01;  // files have four digits and more
 
-[[noreturn]] void failAt(const std::string& path, std::size_t line, const std::string& what)
-{
-    throw std::runtime_error(path + ":" + std::to_string(line) + ": " + what);
-}
-
-/** \param hint to what may be wrong where there is no number */
-std::vector<double> parseNumbers(
-    const std::string& text, const std::string& path, std::size_t line, const std::string& hint)
-{
-    std::vector<double> numbers;
-    const char* const end = text.data() + text.size();
-    const char* at = text.data();
-    const auto isSeparator = [](char c) { return c == ' ' || c == ',' || c == '\t' || c == '\r'; };
-    while (true)
-    {
-        at = std::find_if_not(at, end, isSeparator);
-        if (at == end)
-        {
-            return numbers;
-        }
-        const char* const stop = std::find_if(at, end, isSeparator);
-        const std::string word(at, stop);
-        const auto number = parseNumber<double>(word);
-        if (!number)
-        {
-            failAt(path, line, "'" + word + "' is not a number" + hint);
-        }
-        numbers.push_back(*number);
-        at = stop;
-    }
-}
-
-/** Whether it is free of control characters and of letters beyond English, which numbers never
- * have. Else it may be anything, and is not for messages. */
-bool isAscii(const std::string& line)
-{
-    const auto isPlain = [](char c) { return (c >= ' ' && c <= '~') || c == '\t' || c == '\r'; };
-    return std::all_of(line.begin(), line.end(), isPlain);
-}
-
 bool isBeyondATurn(double angle)
 {
     constexpr double kTurn = 2 * 3.14159265358979323846;
     return std::abs(angle) > kTurn;
-}
-
-/** \return a number like 1,5 in a line of columns separated by blanks, or nothing: commas alone
- * separate columns, too */
-std::string decimalComma(const std::string& text)
-{
-    std::istringstream words(text);
-    std::string out;
-    std::size_t count = 0;
-    for (std::string word; words >> word; ++count)
-    {
-        const std::size_t comma = word.find(',');
-        if (out.empty() && comma > 0 && comma != std::string::npos && comma + 1 < word.size())
-        {
-            out = word;
-        }
-    }
-    return count >= kMrptColumns ? out : "";
 }
 
 Eigen::Isometry3d poseFromQuaternion(const std::vector<double>& v)
@@ -105,55 +47,6 @@ Eigen::Isometry3d poseFromYawPitchRoll(const std::vector<double>& v)
                         .toRotationMatrix();
     pose.translation() << v[1], v[2], v[3];
     return pose;
-}
-
-/** What `# pointplane-status` lines say about frames; docs/rawlogs.md describes them. */
-struct FrameMarks
-{
-    bool any{false};
-    std::set<double> predicted;  //!< stamps of frames with a pose
-    std::vector<double> lost;    //!< of frames without one, in order
-    std::size_t lostWithoutTime{0};
-
-    /** \param latest stamp in the lines before */
-    void read(const std::string& text, const std::string& path, std::size_t line, double latest);
-};
-
-void FrameMarks::read(
-    const std::string& text, const std::string& path, std::size_t line, double latest)
-{
-    static const std::string kKey = "# pointplane-status";
-    if (text.compare(0, kKey.size(), kKey) != 0)
-    {
-        return;
-    }
-    any = true;
-    if (text.compare(kKey.size(), 1, " ") != 0)
-    {
-        return;  // the line that explains the others
-    }
-    std::istringstream words(text.substr(kKey.size()));
-    std::string stampText;
-    std::string status;
-    words >> stampText >> status;
-    status = status.substr(0, status.find(':'));
-    const auto stamp = parseNumber<double>(stampText);
-    if (!stamp || (status != "lost" && status != "predicted"))
-    {
-        failAt(path, line, "not a status: expected # pointplane-status STAMP lost or predicted");
-    }
-    if (status == "predicted")
-    {
-        predicted.insert(*stamp);
-    }
-    else if (*stamp > std::max(latest, lost.empty() ? 0 : lost.back()))
-    {
-        lost.push_back(*stamp);
-    }
-    else  // a stamp that is not after the others may be why the frame is lost
-    {
-        ++lostWithoutTime;
-    }
 }
 
 /** Lines of one kind that the user is told of. */
@@ -193,13 +86,6 @@ std::string otherFormat(std::size_t columns)
                                : "";
 }
 
-/** Of the formats of TORO and g2o: VERTEX3, EDGE_SE3:QUAT, EQUIV. */
-bool isOfPoseGraph(const std::string& text)
-{
-    const auto beginsWith = [&](const char* word) { return text.rfind(word, 0) == 0; };
-    return beginsWith("VERTEX") || beginsWith("EDGE") || beginsWith("EQUIV");
-}
-
 /** Poses from the lines of a file that are no comments. */
 class PoseLines
 {
@@ -237,24 +123,8 @@ void PoseLines::requireColumns(std::size_t columns, std::size_t line)
 
 void PoseLines::add(const std::string& text, std::size_t line)
 {
-    if (!isAscii(text))
-    {
-        failAt(path_, line, "is not text of numbers, as a trajectory is");
-    }
-    if (isOfPoseGraph(text))
-    {
-        failAt(
-            path_,
-            line,
-            "is of a pose graph, whose nodes have no time stamps; give the trajectory or the "
-            "rawlog that was written with it");
-    }
-    if (text.find(',') != std::string::npos && !decimalComma(text).empty())
-    {
-        failAt(path_, line, "'" + decimalComma(text) + "' has a decimal comma; write points");
-    }
     const std::vector<double> v =
-        parseNumbers(text, path_, line, columns_ == 0 ? "; a header must begin with #" : "");
+        numbersOfLine(text, path_, line, columns_ == 0 ? "; a header must begin with #" : "");
     if (v.empty())
     {
         return;
