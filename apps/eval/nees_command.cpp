@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pointplane/core/number_text.h>
 #include <pointplane/evaluation/consistency.h>
 #include <pointplane/evaluation/nees.h>
-#include <pointplane/evaluation/units.h>
 
-#include <algorithm>
 #include <ostream>
 #include <set>
 
@@ -12,10 +9,10 @@
 #include "command.h"
 #include "coverage_limit.h"
 #include "input_options.h"
+#include "nees_options.h"
 #include "nees_output.h"
 #include "nees_pools.h"
 #include "notation_hint.h"
-#include "number_checks.h"
 #include "result_output.h"
 #include "trajectory_report.h"
 
@@ -23,9 +20,6 @@ namespace pointplane
 {
 namespace
 {
-constexpr double kLargestSigma = 1000;    // [m] whose square is far from overflow
-constexpr double kLargestSigmaDeg = 180;  // no rotation is larger
-
 /** What the runs of one command add up to. */
 struct NeesRuns
 {
@@ -40,14 +34,8 @@ struct NeesRuns
 struct NeesCommand
 {
     std::vector<std::string> files;
-    std::vector<std::string> intervals{"1f", "10f", "1s"};
-    bool areChosen{false};  //!< the intervals, by the user
+    NeesCommandOptions nees;
     InputOptions input;
-    NeesOptions options;
-    std::string sigmaRotationDeg{"0"};  //!< s or x,y,z
-    bool nearest{false};
-    double minNees{-1};
-    double maxNees{-1};
     CoverageLimit coverage;
     OutputFiles output;
     ReportOptions html;
@@ -59,35 +47,12 @@ struct NeesCommand
     void checkFiles() const;
     void checkOutputs() const;
     [[nodiscard]] NeesOptions resolved() const;
-    [[nodiscard]] std::vector<NeesInterval> resolvedIntervals() const;
     void addRun(
         const std::string& truthFile,
         const std::string& estimateFile,
         NeesRuns& runs,
         CommandContext& context) const;
-    void checkRange(
-        const std::vector<NeesResult>& results,
-        const std::string& untold,
-        CommandContext& context) const;
 };
-
-/** Standard deviations [rad] from "s" or "x,y,z" [deg]. */
-Eigen::Vector3d sigmaFromOption(const std::string& text)
-{
-    std::vector<double> v = numbersFromOption(text);
-    if (v.size() == 1)
-    {
-        v.resize(3, v.front());
-    }
-    const auto isSigma = [](double value) { return value >= 0 && value <= kLargestSigmaDeg; };
-    if (v.size() != 3 || !std::all_of(v.begin(), v.end(), isSigma))
-    {
-        throw std::invalid_argument(
-            "--gt-sigma-rot-deg: '" + text +
-            "' is neither a standard deviation in deg nor three as x,y,z (from 0 to 180)");
-    }
-    return Eigen::Vector3d(v[0], v[1], v[2]) / kDegreesPerRadian;
-}
 
 void NeesCommand::addTo(CLI::App& command)
 {
@@ -99,43 +64,7 @@ void NeesCommand::addTo(CLI::App& command)
         ->type_name("FILE")
         ->required()
         ->expected(2, -1);
-    command.add_option("--interval", intervals, "Lengths of the increments: frames or seconds")
-        ->delimiter(',')
-        ->capture_default_str()
-        ->each([this](const std::string&) { areChosen = true; })
-        ->group("Protocol");
-    command
-        .add_option(
-            "--gt-sigma-trans",
-            options.truthSigmaTranslation,
-            "Standard deviation of each ground-truth position, per axis [m]")
-        ->capture_default_str()
-        ->check(isBetween(0, kLargestSigma))
-        ->group("Protocol");
-    command
-        .add_option(
-            "--gt-sigma-rot-deg",
-            sigmaRotationDeg,
-            "Standard deviation of each ground-truth rotation [deg]: one for all axes, or x,y,z, "
-            "about the axes of the ground truth's body")
-        ->capture_default_str()
-        ->group("Protocol");
-    command.add_option("--offset", options.offset, "Add this to the estimate's stamps [s]")
-        ->check(isFinite())
-        ->capture_default_str()
-        ->group("Protocol");
-    command
-        .add_flag(
-            "--nearest",
-            nearest,
-            "Take ground truth at the nearest stamp instead of interpolating it")
-        ->group("Protocol");
-    command.add_option("--min-nees", minNees, "Exit with 1 if a joint NEES per dof is below this")
-        ->check(isNotNegative())
-        ->group("Limits");
-    command.add_option("--max-nees", maxNees, "Exit with 1 if a joint NEES per dof is above this")
-        ->check(isNotNegative())
-        ->group("Limits");
+    nees.addTo(command);
     coverage.addTo(command);
     input.addTo(command);
     output.addTo(command, "increment");
@@ -201,53 +130,8 @@ void NeesCommand::checkFiles() const
 
 NeesOptions NeesCommand::resolved() const
 {
-    NeesOptions out = options;
-    out.truthSigmaRotation = sigmaFromOption(sigmaRotationDeg);
-    out.truthAt = nearest ? TruthAt::NearestStamp : TruthAt::Interpolated;
+    NeesOptions out = nees.resolved();
     out.T_truth_body = input.T_truth_body();
-    return out;
-}
-
-/** Says which results are outside the stated range, and sets the exit code.
- * \param untold see NeesRuns */
-void NeesCommand::checkRange(
-    const std::vector<NeesResult>& results,
-    const std::string& untold,
-    CommandContext& context) const
-{
-    if (!untold.empty() && (minNees >= 0 || maxNees >= 0))
-    {
-        throw InputError("the stated range of NEES cannot be checked: " + untold);
-    }
-    for (const NeesResult& result : results)
-    {
-        const double nees = result.joint.nees;
-        if ((maxNees >= 0 && !(nees <= maxNees)) ||
-            (minNees >= 0 && !(nees >= minNees)))  // nor NaN
-        {
-            context.err << "pointplane-eval: NEES per dof " << numberText(nees, 3) << " at "
-                        << nameOf(result.interval) << " is outside the stated range\n";
-            context.exitCode = kExitIncomplete;
-        }
-    }
-}
-
-std::vector<NeesInterval> NeesCommand::resolvedIntervals() const
-{
-    std::vector<NeesInterval> out;
-    for (const std::string& text : intervals)
-    {
-        const NeesInterval interval = neesIntervalFromName(text);
-        const std::string name = nameOf(interval);
-        if (std::any_of(
-                out.begin(),
-                out.end(),
-                [&](const NeesInterval& other) { return nameOf(other) == name; }))
-        {
-            throw std::invalid_argument("--interval: " + name + " is given more than once");
-        }
-        out.push_back(interval);
-    }
     return out;
 }
 
@@ -309,15 +193,15 @@ void NeesCommand::run(CommandContext& context) const
     NeesReport& report = runs.report;
     report.files = files;
     report.options = resolved();
-    runs.intervals = resolvedIntervals();
+    runs.intervals = nees.resolvedIntervals();
     for (std::size_t k = 0; k < files.size(); k += 2)
     {
         addRun(files[k], files[k + 1], runs, context);
     }
-    report.results = areChosen ? runs.pools.scores() : runs.pools.scoresOfTestable(context);
+    report.results = nees.areChosen ? runs.pools.scores() : runs.pools.scoresOfTestable(context);
     writeTrajectoryReport(runs.reported, html, runs.inputs, context);
     writeReport(report, output, context.out);
-    checkRange(report.results, runs.untold, context);
+    nees.checkRange(report.results, runs.untold, context);
     for (std::size_t k = 0; k < report.coverages.size(); ++k)
     {
         coverage.check(files[2 * k + 1], report.coverages[k], ScoreIs::OfAllFrames, context);

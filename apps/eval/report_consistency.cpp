@@ -35,6 +35,21 @@ std::vector<std::string> consistencyCells(const std::string& name, const NeesRes
     cells.push_back(format("%.2f - %.2f", r.joint.lower, r.joint.upper));
     return cells;
 }
+
+const std::vector<std::string> kConsistencyColumns{
+    "increments of",
+    "verdict",
+    "independent",
+    "joint",
+    "translation",
+    "rotation",
+    "x",
+    "y",
+    "z",
+    "rx",
+    "ry",
+    "rz",
+    "95 % bounds"};
 }  // namespace
 
 void addConsistency(HtmlReport& report, const ReportedRun& run)
@@ -63,19 +78,7 @@ void addConsistency(HtmlReport& report, const ReportedRun& run)
     report.addTable(
         "NEES per degree of freedom (1 is consistent), ground truth with " +
             describeTruthNoise(run.nees),
-        {"increments of",
-         "verdict",
-         "independent",
-         "joint",
-         "translation",
-         "rotation",
-         "x",
-         "y",
-         "z",
-         "rx",
-         "ry",
-         "rz",
-         "95 % bounds"},
+        kConsistencyColumns,
         rows);
     if (!tested.note.empty())
     {

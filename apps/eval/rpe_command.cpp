@@ -15,6 +15,7 @@ namespace pointplane
 namespace
 {
 constexpr std::int64_t kScriptMaxPairs = 10000;
+constexpr const char* kProtocol = "Protocol";
 
 struct RpeCommand : ScoreCommand
 {
@@ -121,31 +122,37 @@ void RpeCommand::run(CommandContext& context) const
 }
 }  // namespace
 
-void RpeCommandOptions::addTo(CLI::App& command, bool choosesPairs)
+void RpeCommandOptions::addDeltaTo(CLI::App& command, bool choosesPairs)
 {
-    const std::string group = "Protocol";
     CLI::Option* fixedDelta = command.add_flag(
         "--fixed-delta", rpe.fixedDelta, "Only pairs --delta apart (default: all pairs)");
     CLI::Option* delta =
         command.add_option("--delta", rpe.delta, "Distance between the two poses of a pair");
-    delta->capture_default_str()->check(isPositive())->group(group);
+    delta->capture_default_str()->check(isPositive())->group(kProtocol);
     CLI::Option* deltaUnit =
         command.add_option("--delta-unit", unit, "s, m, rad, deg or f (frames)");
-    deltaUnit->capture_default_str()->check(isOneOf({"s", "m", "rad", "deg", "f"}))->group(group);
-    fixedDelta->group(choosesPairs ? group : "");
+    deltaUnit->capture_default_str()
+        ->check(isOneOf({"s", "m", "rad", "deg", "f"}))
+        ->group(kProtocol);
+    fixedDelta->group(choosesPairs ? kProtocol : "");
     if (choosesPairs)
     {
         delta->needs(fixedDelta);
         deltaUnit->needs(fixedDelta);
     }
+}
+
+void RpeCommandOptions::addTo(CLI::App& command, bool choosesPairs)
+{
+    addDeltaTo(command, choosesPairs);
     command.add_option("--offset", rpe.offset, "Add this to the estimate's stamps [s]")
         ->check(isFinite())
         ->capture_default_str()
-        ->group(group);
+        ->group(kProtocol);
     command.add_option("--scale", rpe.scale, "Multiply the estimate's translations by this")
         ->check(isPositive())
         ->capture_default_str()
-        ->group(group);
+        ->group(kProtocol);
     command
         .add_option(
             "--max-pairs",
@@ -154,17 +161,17 @@ void RpeCommandOptions::addTo(CLI::App& command, bool choosesPairs)
                            "--fixed-delta all)"
                          : "At most so many pairs, drawn at random; 0 = all")
         ->check(isNotNegative())
-        ->group(group);
+        ->group(kProtocol);
     command.add_option("--seed", rpe.seed, "Seed of the random draw")
         ->capture_default_str()
-        ->group(group);
+        ->group(kProtocol);
     command
         .add_flag("--evo", evo, "Use the formula of the TUM paper and of evo, not the TUM script's")
-        ->group(group);
+        ->group(kProtocol);
     command
         .add_flag(
             "--interpolate", interpolate, "Interpolate ground truth instead of taking the nearest")
-        ->group(group);
+        ->group(kProtocol);
 }
 
 RpeOptions RpeCommandOptions::resolved() const

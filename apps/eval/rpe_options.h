@@ -23,5 +23,8 @@ struct RpeCommandOptions
     void addTo(CLI::App& command, bool choosesPairs = false);
     /** The options as the evaluation takes them; throws std::invalid_argument. */
     [[nodiscard]] RpeOptions resolved() const;
+
+ private:
+    void addDeltaTo(CLI::App& command, bool choosesPairs);
 };
 }  // namespace pointplane
