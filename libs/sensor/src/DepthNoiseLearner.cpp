@@ -3,21 +3,20 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
 
+#include "noise_at_depths.h"
+
 namespace pointplane
 {
-using NoiseAtDepth = DepthNoiseLearner::NoiseAtDepth;
-
 namespace
 {
 constexpr int kCellPx = 10;
-constexpr int kEveryCell = 3;                              //!< in each direction
-constexpr double kLeastValid = 0.95;                       //!< of a cell
-constexpr double kLeastDepth = 0.125, kLeastSigma = 1e-6;  // [m]
+constexpr int kEveryCell = 3;          //!< in each direction
+constexpr double kLeastValid = 0.95;   //!< of a cell
+constexpr double kLeastDepth = 0.125;  // [m]
 
 /** No reading counts as farther [m]. */
 constexpr double kFarthest = 1e6;
@@ -45,17 +44,10 @@ constexpr double kStructuredStep = 2.9e-3;
 /** Below 0.7 of that lie 1 to 2 % of a Kinect's steps, and 18 % or more where there are no levels.
  */
 constexpr double kFineShare = 0.08, kFineStep = 0.7, kLargestStep = 4;
-constexpr double kNearestStep = 0.75;  //!< nearer, millimetres are coarser than its steps [m]
 constexpr double kLeastSteps = 200, kLeastCells = 20;
 
 /** Noise of structured light over that which is given; between, something else. */
 constexpr double kLessNoise = 0.5, kMoreNoise = 2;
-/** Exponent of the distance with which noise grows: 0 with time of flight, 2 with triangulation.
- * Depths that spread less than this (standard deviation of their logarithm) do not tell it. */
-constexpr double kTriangulation = 1, kLeastSpread = 0.1;
-/** Of two neighbouring bins of depth, one with 0.2 % of the cells makes the determinant 2e-2 of the
- * product of the diagonal. */
-constexpr double kTwoDistances = 1e-6;
 /** Below this, an image was not measured: rounding to millimetres makes 0.3 mm. */
 constexpr double kRenderedSigma = 1e-4;  // [m]
 
@@ -77,80 +69,6 @@ template <class Histogram>
     }
     return 0;
 }
-
-/** Mean logarithm of the noise over that of structured light, where that is larger than what
- * rounding makes. \return as a factor; 0 if all depths are nearer */
-[[nodiscard]] double levelOf(const std::vector<NoiseAtDepth>& depths, double sigmaInverseDepth)
-{
-    double sum = 0, cells = 0;
-    for (const auto& [z, sigma, n] : depths)
-    {
-        if (z > kNearestStep)
-        {
-            sum += n * std::log(std::max(sigma, kLeastSigma) / (sigmaInverseDepth * z * z));
-            cells += n;
-        }
-    }
-    return cells > 0 ? std::exp(sum / cells) : 0;
-}
-
-/** By the slope of a line through the logarithms; also where depths do not spread enough to tell.
- */
-[[nodiscard]] bool growsLikeTriangulation(const std::vector<NoiseAtDepth>& depths)
-{
-    double cells = 0, sumX = 0, sumXX = 0, sumY = 0, sumXY = 0;
-    for (const auto& [z, sigma, n] : depths)
-    {
-        if (z > kNearestStep)
-        {
-            const double x = std::log(z), y = std::log(std::max(sigma, kLeastSigma));
-            cells += n;
-            sumX += n * x;
-            sumXX += n * x * x;
-            sumY += n * y;
-            sumXY += n * x * y;
-        }
-    }
-    const double spread = cells * sumXX - sumX * sumX;
-    return spread < std::pow(kLeastSpread * cells, 2) ||
-           cells * sumXY - sumX * sumY > kTriangulation * spread;
-}
-
-/** Least squares of sigma^2 = constant + slope z^4, relative to what is measured. */
-class VarianceFit
-{
- public:
-    explicit VarianceFit(const std::vector<NoiseAtDepth>& depths)
-    {
-        for (const auto& [z, sigma, n] : depths)
-        {
-            // Near readings alone tell nothing of how the noise grows.
-            const double fourth = z > kNearestStep ? z * z * z * z : 0;
-            const Eigen::Vector2d x(1 / (sigma * sigma), fourth / (sigma * sigma));
-            A += n * x * x.transpose();
-            b += n * x;
-        }
-    }
-
-    [[nodiscard]] double constantAlone() const { return A(0, 0) > 0 ? b(0) / A(0, 0) : 0; }
-    [[nodiscard]] double slopeAlone() const { return A(1, 1) > 0 ? b(1) / A(1, 1) : 0; }
-
-    /** Constant and slope, neither of them negative. */
-    [[nodiscard]] Eigen::Vector2d solution() const
-    {
-        // Cells of one distance do not tell how the noise grows: all but singular.
-        const Eigen::Vector2d both = A.determinant() > kTwoDistances * A(0, 0) * A(1, 1)
-                                         ? Eigen::Vector2d(A.inverse() * b)
-                                         : Eigen::Vector2d(0, -1);
-        return !(both.y() >= 0)   ? Eigen::Vector2d(constantAlone(), 0)
-               : !(both.x() >= 0) ? Eigen::Vector2d(0, slopeAlone())
-                                  : both;
-    }
-
- private:
-    Eigen::Matrix2d A{Eigen::Matrix2d::Zero()};
-    Eigen::Vector2d b{Eigen::Vector2d::Zero()};
-};
 }  // namespace
 
 DepthNoiseLearner::DepthNoiseLearner(const DepthNoise& given) : given_(given), noise_(given)
@@ -292,7 +210,7 @@ std::string DepthNoiseLearner::judgedKind(const std::vector<NoiseAtDepth>& depth
     {
         return "rendered";
     }
-    const double level = levelOf(depths, given_.sigmaInverseDepth);
+    const double level = noiseLevelOf(depths, given_.sigmaInverseDepth);
     return level < kLessNoise || !growsLikeTriangulation(depths) ? "timeOfFlight"
            : level > kMoreNoise                                  ? "activeStereo"
                                                                  : "structuredLight";
