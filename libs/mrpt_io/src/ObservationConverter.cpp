@@ -9,38 +9,20 @@
 #include <mrpt/img/CImage.h>
 
 #include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "DepthRegistration.h"
 #include "cameraText.h"
+#include "scan_images.h"
 
 namespace pointplane
 {
 namespace
 {
 using mrpt::obs::CObservation3DRangeScan;
-
-constexpr float kNoDepth = std::numeric_limits<float>::quiet_NaN();
-
-/** Why a frame cannot be used; caught in convert(). */
-class FrameProblem : public std::runtime_error
-{
- public:
-    using std::runtime_error::runtime_error;
-};
-
-void requireUsable(bool condition, const std::string& problem)
-{
-    if (!condition)
-    {
-        throw FrameProblem(problem);
-    }
-}
 
 [[nodiscard]] std::string sizeText(int width, int height)
 {
@@ -75,60 +57,6 @@ void requirePose(const Eigen::Isometry3d& T, const std::string& name)
     const auto near = [](double x, double y) { return std::abs(x - y) < 1e-6; };
     return a.width == b.width && a.height == b.height && near(a.fx, b.fx) && near(a.fy, b.fy) &&
            near(a.cx, b.cx) && near(a.cy, b.cy);
-}
-
-[[nodiscard]] cv::Mat grayOf(const cv::Mat& image)
-{
-    cv::Mat bytes = image;
-    if (image.depth() == CV_16U)
-    {
-        image.convertTo(bytes, CV_8U, 1.0 / 256);
-    }
-    requireUsable(bytes.depth() == CV_8U, "intensity image is neither 8 nor 16 bit");
-    cv::Mat gray;
-    switch (bytes.channels())
-    {
-        case 1:
-            return bytes.clone();
-        case 3:
-            cv::cvtColor(bytes, gray, cv::COLOR_BGR2GRAY);
-            return gray;
-        case 4:
-            cv::cvtColor(bytes, gray, cv::COLOR_BGRA2GRAY);
-            return gray;
-        default:
-            throw FrameProblem("intensity image has neither 1 nor 3 nor 4 channels");
-    }
-}
-
-/** Raw readings to metres; 0 is none. */
-[[nodiscard]] cv::Mat metres(const mrpt::math::CMatrix_u16& raw, float units)
-{
-    const int rows = static_cast<int>(raw.rows()), cols = static_cast<int>(raw.cols());
-    cv::Mat depth(rows, cols, CV_32FC1);
-    for (int v = 0; v < rows; ++v)
-    {
-        const std::uint16_t* in = raw.data() + static_cast<std::ptrdiff_t>(v) * cols;
-        auto* out = depth.ptr<float>(v);
-        for (int u = 0; u < cols; ++u)
-        {
-            out[u] = in[u] == 0 ? kNoDepth : static_cast<float>(in[u]) * units;
-        }
-    }
-    return depth;
-}
-
-/** Distances along the rays to distances along the optical axis. */
-void rangesToDepths(const PinholeCamera& camera, cv::Mat& depth)
-{
-    for (int v = 0; v < depth.rows; ++v)
-    {
-        for (int u = 0; u < depth.cols; ++u)
-        {
-            const double length = camera.normalised({u, v}).homogeneous().norm();
-            depth.at<float>(v, u) /= static_cast<float>(length);
-        }
-    }
 }
 }  // namespace
 
@@ -177,14 +105,14 @@ cv::Mat ObservationConverter::Impl::depthOf(
     cv::Mat depth;
     if (scan.rangeImage_isExternallyStored() && scan.rangeImage.size() == 0)
     {
-        depth = metres(
+        depth = depthInMetres(
             readExternalRange(resolved(scan.rangeImage_getExternalStorageFile(""))),
             scan.rangeUnits);
     }
     else
     {
         requireUsable(scan.rangeImage.size() != 0, "range image is empty");
-        depth = metres(scan.rangeImage, scan.rangeUnits);
+        depth = depthInMetres(scan.rangeImage, scan.rangeUnits);
     }
     requireUsable(
         depth.cols == camera.width && depth.rows == camera.height,

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scan_images.h"
+
+#include <opencv2/imgproc.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+namespace pointplane
+{
+namespace
+{
+constexpr float kNoDepth = std::numeric_limits<float>::quiet_NaN();
+}  // namespace
+
+void requireUsable(bool condition, const std::string& problem)
+{
+    if (!condition)
+    {
+        throw FrameProblem(problem);
+    }
+}
+
+cv::Mat grayOf(const cv::Mat& image)
+{
+    cv::Mat bytes = image;
+    if (image.depth() == CV_16U)
+    {
+        image.convertTo(bytes, CV_8U, 1.0 / 256);
+    }
+    requireUsable(bytes.depth() == CV_8U, "intensity image is neither 8 nor 16 bit");
+    cv::Mat gray;
+    switch (bytes.channels())
+    {
+        case 1:
+            return bytes.clone();
+        case 3:
+            cv::cvtColor(bytes, gray, cv::COLOR_BGR2GRAY);
+            return gray;
+        case 4:
+            cv::cvtColor(bytes, gray, cv::COLOR_BGRA2GRAY);
+            return gray;
+        default:
+            throw FrameProblem("intensity image has neither 1 nor 3 nor 4 channels");
+    }
+}
+
+cv::Mat depthInMetres(const mrpt::math::CMatrix_u16& raw, float units)
+{
+    const int rows = static_cast<int>(raw.rows()), cols = static_cast<int>(raw.cols());
+    cv::Mat depth(rows, cols, CV_32FC1);
+    for (int v = 0; v < rows; ++v)
+    {
+        const std::uint16_t* in = raw.data() + static_cast<std::ptrdiff_t>(v) * cols;
+        auto* out = depth.ptr<float>(v);
+        for (int u = 0; u < cols; ++u)
+        {
+            out[u] = in[u] == 0 ? kNoDepth : static_cast<float>(in[u]) * units;
+        }
+    }
+    return depth;
+}
+
+void rangesToDepths(const PinholeCamera& camera, cv::Mat& depth)
+{
+    for (int v = 0; v < depth.rows; ++v)
+    {
+        for (int u = 0; u < depth.cols; ++u)
+        {
+            const double length = camera.normalised({u, v}).homogeneous().norm();
+            depth.at<float>(v, u) /= static_cast<float>(length);
+        }
+    }
+}
+}  // namespace pointplane

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pointplane/sensor/PinholeCamera.h>
+
+#include <mrpt/math/CMatrixDynamic.h>
+
+#include <opencv2/core/mat.hpp>
+
+#include <stdexcept>
+#include <string>
+
+namespace pointplane
+{
+/** Why a frame cannot be used; caught in convert(). */
+class FrameProblem : public std::runtime_error
+{
+ public:
+    using std::runtime_error::runtime_error;
+};
+
+/** \throws FrameProblem unless the condition is met */
+void requireUsable(bool condition, const std::string& problem);
+
+/** @name Images of a scan as the odometry takes them
+ * @{ */
+
+/** CV_8UC1. \param image of 8 or 16 bit, grey, BGR or BGRA \throws FrameProblem */
+[[nodiscard]] cv::Mat grayOf(const cv::Mat& image);
+
+/** CV_32FC1, NaN = no reading. \param raw readings; 0 is none */
+[[nodiscard]] cv::Mat depthInMetres(const mrpt::math::CMatrix_u16& raw, float units);
+
+/** Distances along the rays to distances along the optical axis. */
+void rangesToDepths(const PinholeCamera& camera, cv::Mat& depth);
+/** @} */
+}  // namespace pointplane
