@@ -47,9 +47,8 @@ void addOptions(CLI::App& app, OdometryOptions& o, bool& dumpConfig, bool& dumpK
         ->group("");
 }
 
-void addOutputOptions(CLI::App& app, OdometryOptions& o)
+void addRawlogOptions(CLI::App& app, OdometryOptions& o)
 {
-    const std::size_t numOthers = app.get_options().size();
     auto* output =
         app.add_option("-o,--output", o.output, "Write a rawlog with a pose PDF per frame")
             ->type_name("FILE");
@@ -71,6 +70,10 @@ void addOutputOptions(CLI::App& app, OdometryOptions& o)
            "Put point clouds into the scans of the rawlog (rbpf-slam, maps)")
         ->needs(output)
         ->excludes(onlyPoses);
+}
+
+void addMapOptions(CLI::App& app, OdometryOptions& o)
+{
     auto* simplemap =
         app.add_option(
                "--simplemap", o.simplemap, "Write key frames with pose PDFs, for observations2map")
@@ -89,6 +92,10 @@ void addOutputOptions(CLI::App& app, OdometryOptions& o)
     app.add_option(
            "--graph", o.graph, "Write a pose graph with information matrices, for graph-slam")
         ->type_name("FILE");
+}
+
+void addViewOptions(CLI::App& app, OdometryOptions& o)
+{
     auto* trajectory = app.add_option("--trajectory", o.trajectory, "Write the poses as TUM text")
                            ->type_name("FILE");
     app.add_option(
@@ -107,6 +114,14 @@ void addOutputOptions(CLI::App& app, OdometryOptions& o)
         ->check(CLI::Range(1, 1000000))
         ->capture_default_str()
         ->needs(overlay);
+}
+
+void addOutputOptions(CLI::App& app, OdometryOptions& o)
+{
+    const std::size_t numOthers = app.get_options().size();
+    addRawlogOptions(app, o);
+    addMapOptions(app, o);
+    addViewOptions(app, o);
     const auto options = app.get_options();
     for (std::size_t i = numOthers; i < options.size(); ++i)
     {

@@ -13,85 +13,6 @@
 
 namespace pointplane
 {
-namespace
-{
-constexpr std::size_t kMostGroups = 8;  // lines that are still read
-
-/** Reasons that differ in numbers alone are one reason. */
-[[nodiscard]] std::string withoutNumbers(std::string text)
-{
-    text.erase(
-        std::remove_if(
-            text.begin(), text.end(), [](char c) { return (c >= '0' && c <= '9') || c == '.'; }),
-        text.end());
-    return text;
-}
-
-/** A reason without that of frames that have depth alone, which is the last one. */
-[[nodiscard]] std::string withoutColour(const std::string& reason)
-{
-    const std::size_t at = reason.rfind("it has no colour image");
-    return at == std::string::npos ? reason : reason.substr(0, std::max<std::size_t>(at, 2) - 2);
-}
-
-[[nodiscard]] std::string lineOf(const UntrackedFrames& frames)
-{
-    const std::string first = std::to_string(frames.first);
-    return (frames.first == frames.last ? "frame " + first
-                                        : "frames " + first + "-" + std::to_string(frames.last)) +
-           " (stamp " + stampText(frames.stamp) + "): " + toString(frames.status) + ": " +
-           frames.reason;
-}
-}  // namespace
-
-void FramesInPart::add(const OutputItem& item, const std::string& reason)
-{
-    if (number++ == 0)
-    {
-        const std::size_t index = item.source.frameIndex;
-        first = {
-            index, index, item.source.observation->timestamp, item.frame->motion.status, reason};
-    }
-}
-
-void RunSummary::addUntracked(const OutputItem& item)
-{
-    const RobotMotion& motion = item.frame->motion;
-    const std::size_t index = item.source.frameIndex;
-    const bool continues = !untracked.empty() && numUntrackedMore == 0 &&
-                           untracked.back().last + 1 == index &&
-                           untracked.back().status == motion.status &&
-                           withoutNumbers(untracked.back().reason) == withoutNumbers(motion.reason);
-    if (continues)
-    {
-        untracked.back().last = index;
-    }
-    else if (untracked.size() < kMostGroups)
-    {
-        untracked.push_back(
-            {index, index, item.source.observation->timestamp, motion.status, motion.reason});
-    }
-    else
-    {
-        ++numUntrackedMore;
-    }
-}
-
-void RunSummary::addInPart(const OutputItem& item)
-{
-    const std::string& reason = item.frame->motion.reason;
-    const std::string besides = withoutColour(reason);
-    numWithoutColour += besides == reason ? 0 : 1;
-    if (!reason.empty())
-    {
-        inPart.add(item, reason);
-    }
-    if (!besides.empty())
-    {
-        inPartBesides.add(item, besides);
-    }
-}
-
 void RunSummary::add(const OutputItem& item)
 {
     const RobotMotion& motion = item.frame->motion;
@@ -102,15 +23,15 @@ void RunSummary::add(const OutputItem& item)
         case TrackingStatus::First:
         case TrackingStatus::Tracked:
             ++numTracked;
-            addInPart(item);
+            inPart.add(item);
             break;
         case TrackingStatus::Predicted:
             ++numPredicted;
-            addUntracked(item);
+            untracked.add(item);
             break;
         case TrackingStatus::Lost:
             ++numLost;
-            addUntracked(item);
+            untracked.add(item);
             break;
     }
     if (attachedShare == 0)
@@ -176,35 +97,6 @@ void RunSummary::printFrames(std::ostream& out) const
     out << line;
 }
 
-void RunSummary::printUntracked(std::ostream& out) const
-{
-    for (const UntrackedFrames& group : untracked)
-    {
-        out << "  " << lineOf(group) << "\n";
-    }
-    if (numUntrackedMore > 0)
-    {
-        out << "  and " << framesText(numUntrackedMore)
-            << " after these (--diagnostics FILE has them all)\n";
-    }
-}
-
-/** Of a recording without colour, that is told once: else all its frames would be in part. */
-void RunSummary::printInPart(std::ostream& out) const
-{
-    const bool isDepthOnly = numWithoutColour > 0 && numWithoutColour == numTracked;
-    if (isDepthOnly)
-    {
-        out << "  no tracked frame has a colour image: the motion is from planes, without points\n";
-    }
-    const FramesInPart& frames = isDepthOnly ? inPartBesides : inPart;
-    if (frames.number > 0)
-    {
-        out << "  " << frames.number << " of the tracked frames in part, first "
-            << lineOf(frames.first) << "\n";
-    }
-}
-
 void RunSummary::printAttached(std::ostream& out) const
 {
     if (attachedShare > 0)
@@ -263,8 +155,8 @@ void RunSummary::printTimes(std::ostream& out) const
 void RunSummary::print(std::ostream& out, bool profile) const
 {
     printFrames(out);
-    printUntracked(out);
-    printInPart(out);
+    untracked.print(out);
+    inPart.print(out, numTracked);
     printAttached(out);
     printCalibration(out);
     for (const std::string& note : notes)
@@ -286,13 +178,9 @@ void RunSummary::printProblems(std::ostream& err) const
 {
     if (numLost > 0)
     {
-        const auto lost = std::find_if(
-            untracked.begin(),
-            untracked.end(),
-            [](const UntrackedFrames& f) { return f.status == TrackingStatus::Lost; });
+        const std::string first = untracked.firstLost();
         err << "pointplane-odometry: " << numLost << " of " << framesText(numFrames)
-            << " could not be used"
-            << (lost == untracked.end() ? std::string() : ", first " + lineOf(*lost)) << "\n";
+            << " could not be used" << (first.empty() ? "" : ", first " + first) << "\n";
     }
     if (isMostlyUnmeasured() && numPredicted > 0)
     {

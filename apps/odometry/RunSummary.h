@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <mrpt/core/Clock.h>
-
 #include <Eigen/Core>
 
 #include <cstddef>
@@ -11,40 +9,20 @@
 #include <string>
 #include <vector>
 
+#include "FrameGroups.h"
 #include "FrameRecord.h"
 
 namespace pointplane
 {
-/** Frames in a row that were not tracked, for one reason. */
-struct UntrackedFrames
-{
-    std::size_t first{0}, last{0};  //!< frame numbers in the input
-    mrpt::Clock::time_point stamp;  //!< of the first
-    TrackingStatus status{TrackingStatus::Lost};
-    std::string reason;  //!< of the first; of the others the same but for numbers in it
-};
-
-/** Tracked frames with a reason: they lack something. */
-struct FramesInPart
-{
-    std::size_t number{0};
-    UntrackedFrames first;
-
-    void add(const OutputItem& item, const std::string& reason);
-};
-
 /** What a run amounted to. */
 struct RunSummary
 {
     std::string label;
     std::size_t numFrames{0}, numTracked{0}, numPredicted{0}, numLost{0};
-    std::vector<UntrackedFrames> untracked;  //!< the first few
-    std::size_t numUntrackedMore{0};         //!< frames of the others
-    FramesInPart inPart;                     //!< for any reason
-    FramesInPart inPartBesides;              //!< for another reason than that colour is missing
-    std::size_t numWithoutColour{0};         //!< tracked ones
-    std::size_t firstAttached{0};            //!< frame in which a part of the robot was seen
-    double attachedShare{0};                 //!< the largest part of the view that it took; 0: none
+    UntrackedFrames untracked;
+    FramesInPart inPart;
+    std::size_t firstAttached{0};  //!< frame in which a part of the robot was seen
+    double attachedShare{0};       //!< the largest part of the view that it took; 0: none
     std::optional<std::size_t> firstContradicted;  //!< frame that did not fit the intrinsics
     bool hasMotion{false};                         //!< one at least was measured
     double pathLength{0};                          //!< of the robot [m]
@@ -70,15 +48,11 @@ struct RunSummary
  private:
     [[nodiscard]] double perFrame(double total) const;
     void printFrames(std::ostream& out) const;
-    void printUntracked(std::ostream& out) const;
-    void printInPart(std::ostream& out) const;
     void printAttached(std::ostream& out) const;
     void printCalibration(std::ostream& out) const;
     void printLearnt(std::ostream& out) const;  //!< of the camera
     void printTimes(std::ostream& out) const;
     [[nodiscard]] bool isMostlyUnmeasured() const;
-    void addUntracked(const OutputItem& item);
-    void addInPart(const OutputItem& item);
     [[nodiscard]] LearntLens learntLens() const;
 };
 }  // namespace pointplane
