@@ -8,15 +8,11 @@
 #include <ostream>
 #include <system_error>
 
-#include "BagRecording.h"
 #include "FolderRecording.h"
-#include "KlgRecording.h"
 #include "OutputGuard.h"
 #include "TextOutput.h"
-#include "TumRecording.h"
+#include "convert_options.h"
 #include "convert_recording.h"
-#include "label_check.h"
-#include "number_checks.h"
 #include "own_ground_truth.h"
 #include "run_program.h"
 #include <CLI/CLI.hpp>
@@ -25,157 +21,6 @@ namespace pointplane
 {
 namespace
 {
-void addOutputOptions(CLI::App& command, RecordingOutput& output)
-{
-    command.add_option("-o,--output", output.path, "Rawlog to write")
-        ->type_name("FILE")
-        ->required();
-    command.add_option("--label", output.label, "Label of the camera in the rawlog")
-        ->type_name("LABEL")
-        ->check(isLabel())
-        ->capture_default_str();
-    auto* external = command.add_flag(
-        "--external", output.external, "Put the images into files beside the rawlog");
-    command.add_flag("--embedded", "Put them into the rawlog (default)")->excludes(external);
-    command.add_flag(
-        "--strict", output.strict, "Stop at a frame that cannot be read (default: leave it out)");
-    command.add_flag("--quiet", output.quiet, "Show no progress");
-}
-
-constexpr const char* kEvenStampsHelp =
-    "Take stamps for those of a camera with a steady rate: without a host's jitter and rounding. "
-    "Poses then belong to these stamps";
-
-const std::string kCameraFile =
-    "file: MRPT's camera ini, or one line `fx fy cx cy k1 k2 p1 p2 k3 width height unitsPerMetre`";
-const std::string kFileHelp = "Calibration, a ";
-const std::string kPresetHelp = "Calibration: fr1, fr2, fr3, or a ";
-
-void addTumCommand(CLI::App& app, TumOptions& options, RecordingOutput& output)
-{
-    CLI::App* tum =
-        app.add_subcommand("tum", "A sequence of the TUM RGB-D benchmark, or a folder like one");
-    tum->add_option(
-           "folder",
-           options.folder,
-           "Folder with rgb.txt, depth.txt and the images; without rgb.txt: depth alone")
-        ->type_name("DIR")
-        ->required();
-    tum->add_option(
-           "--camera",
-           options.camera,
-           kPresetHelp + kCameraFile +
-               " (default: camera.txt in the folder, or by the folder's name)")
-        ->type_name("FILE");
-    tum->add_option(
-           "--depth-scale",
-           options.depthScale,
-           "Depth units per metre (default: the camera's, 5000)")
-        ->check(isBetween(kLeastDepthUnits, kMostDepthUnits));
-    tum->add_option(
-           "--max-difference",
-           options.maxDifference,
-           "Longest time between colour and depth of a frame [s]")
-        ->check(isNotNegative())
-        ->capture_default_str();
-    tum->add_flag("--even-stamps", options.evenStamps, kEvenStampsHelp);
-    addOutputOptions(*tum, output);
-}
-
-CLI::App* addFolderCommand(CLI::App& app, FolderOptions& options, RecordingOutput& output)
-{
-    CLI::App* folder = app.add_subcommand(
-        "folder",
-        "Numbered or stamped images: ScanNet, 7-Scenes, Redwood, Replica, Bonn, Record3D, "
-        "StrayScanner, any two folders like rgb and depth, or one with images like rgb_12.png and "
-        "depth_12.png");
-    folder->add_option("folder", options.folder, "Folder with the images")
-        ->type_name("DIR")
-        ->required();
-    folder
-        ->add_option(
-            "--camera",
-            options.camera,
-            kFileHelp + kCameraFile +
-                " (default: camera.txt in the folder, or what its layout tells)")
-        ->type_name("FILE");
-    folder
-        ->add_option(
-            "--depth-scale",
-            options.depthScale,
-            "Depth units per metre (default: the "
-            "layout's, else 1000; 1 for floating point)")
-        ->check(isBetween(kLeastDepthUnits, kMostDepthUnits));
-    folder
-        ->add_option(
-            "--fps",
-            options.fps,
-            "Frames a second, where images are numbered (default: stamps, else the "
-            "layout's rate, else 30)")
-        ->check(isPositive());
-    folder
-        ->add_option(
-            "--max-difference",
-            options.maxDifference,
-            "Longest time between colour and depth of a frame [s]")
-        ->check(isNotNegative())
-        ->capture_default_str();
-    folder->add_flag("--even-stamps", options.evenStamps, kEvenStampsHelp);
-    addOutputOptions(*folder, output);
-    return folder;
-}
-
-CLI::App* addKlgCommand(CLI::App& app, KlgOptions& options, RecordingOutput& output)
-{
-    CLI::App* klg = app.add_subcommand("klg", "A log of Kintinuous or ElasticFusion");
-    klg->add_option("file", options.file, "Log to read")->type_name("FILE")->required();
-    klg->add_option(
-           "--camera", options.camera, kFileHelp + kCameraFile + " (default: 528 px, 640x480)")
-        ->type_name("FILE");
-    klg->add_option(
-           "--depth-scale",
-           options.depthScale,
-           "Depth units per metre (default: the camera's, 1000)")
-        ->check(isBetween(kLeastDepthUnits, kMostDepthUnits));
-    klg->add_flag("--bgr", options.bgr, "Its colours are in the order blue, green, red");
-    addOutputOptions(*klg, output);
-    return klg;
-}
-
-CLI::App* addBagCommand(CLI::App& app, BagOptions& options, RecordingOutput& output)
-{
-    CLI::App* bag = app.add_subcommand("bag", "A ROS 1 bag, also of RealSense's recorder");
-    bag->add_option("file", options.file, "Bag to read")->type_name("FILE")->required();
-    bag->add_option(
-           "--colour-topic",
-           options.colourTopic,
-           "Topic of the colour images (default: the only ones)")
-        ->type_name("TOPIC");
-    bag->add_option(
-           "--depth-topic",
-           options.depthTopic,
-           "Topic of the depth images (default: the only ones)")
-        ->type_name("TOPIC");
-    bag->add_option(
-           "--camera",
-           options.camera,
-           kPresetHelp + kCameraFile + " (default: camera_info of the bag)")
-        ->type_name("FILE");
-    bag->add_option(
-           "--depth-scale",
-           options.depthScale,
-           "Depth units per metre (default: the recorder's, else 1000; 1 for floating point)")
-        ->check(isBetween(kLeastDepthUnits, kMostDepthUnits));
-    bag->add_option(
-           "--max-difference",
-           options.maxDifference,
-           "Longest time between colour and depth of a frame [s]")
-        ->check(isNotNegative())
-        ->capture_default_str();
-    addOutputOptions(*bag, output);
-    return bag;
-}
-
 void addOutputs(const RecordingOutput& output, OutputGuard& guard)
 {
     guard.addRawlog("-o", output.path);
@@ -251,15 +96,9 @@ int runConvert(const std::vector<std::string>& args, std::ostream& out, std::ost
     CLI::App app{"Converts RGB-D recordings to MRPT rawlogs, losslessly.", "pointplane-convert"};
     app.set_version_flag("--version", POINTPLANE_VERSION);
     app.require_subcommand(1);
-    RecordingOutput output;
-    TumOptions tumOptions;
-    FolderOptions folderOptions;
-    KlgOptions klgOptions;
-    BagOptions bagOptions;
-    addTumCommand(app, tumOptions, output);
-    const CLI::App* folder = addFolderCommand(app, folderOptions, output);
-    const CLI::App* klg = addKlgCommand(app, klgOptions, output);
-    const CLI::App* bag = addBagCommand(app, bagOptions, output);
+    ConvertOptions options;
+    addConvertCommands(app, options);
+    const RecordingOutput& output = options.output;
     return runCommand(
         app,
         args,
@@ -268,28 +107,28 @@ int runConvert(const std::vector<std::string>& args, std::ostream& out, std::ost
         [&]
         {
             OutputGuard guard;
-            if (folder->parsed())
+            if (app.got_subcommand("folder"))
             {
-                FolderRecording recording(folderOptions);
-                guard.addInputFolder(folderOptions.folder);
-                guard.addInput(folderOptions.camera);
+                FolderRecording recording(options.folder);
+                guard.addInputFolder(options.folder.folder);
+                guard.addInput(options.folder.camera);
                 return convert(recording, output, guard, out, err);
             }
-            if (klg->parsed())
+            if (app.got_subcommand("klg"))
             {
-                KlgRecording recording(klgOptions);
-                guard.addInput(klgOptions.file);
-                guard.addInput(klgOptions.camera);
+                KlgRecording recording(options.klg);
+                guard.addInput(options.klg.file);
+                guard.addInput(options.klg.camera);
                 return convert(recording, output, guard, out, err);
             }
-            if (bag->parsed())
+            if (app.got_subcommand("bag"))
             {
-                const auto recording = openBag(bagOptions);
-                guard.addInput(bagOptions.file);
-                guard.addInput(bagOptions.camera);
+                const auto recording = openBag(options.bag);
+                guard.addInput(options.bag.file);
+                guard.addInput(options.bag.camera);
                 return convert(*recording, output, guard, out, err);
             }
-            TumRecording recording(tumOptions);
+            TumRecording recording(options.tum);
             return convertTum(recording, output, out, err);
         });
 }

@@ -83,6 +83,22 @@ void requireUsable(const RecordingSummary& summary, bool strict)
     }
 }
 
+void count(const RegisteredScan& scan, RecordingSummary& out)
+{
+    out.numWithoutDepth += cv::countNonZero(scan.depth) == 0 ? 1 : 0;
+    out.depth = out.depth > 0 ? out.depth : medianDepth(scan);
+    ++out.numFrames;
+}
+
+void count(const BadFrame& bad, RecordingSummary& out)
+{
+    ++out.numBad;
+    if (out.problems.size() < kShown)
+    {
+        out.problems.push_back(oneLine(bad));
+    }
+}
+
 /** \throws as convertRecording() */
 [[nodiscard]] RecordingSummary writeFrames(
     Recording& recording, const RecordingOutput& output, ScanWriter& writer, std::ostream& progress)
@@ -104,9 +120,7 @@ void requireUsable(const RecordingSummary& summary, bool strict)
                 camera.write(writer, output.label, *frame);
                 writer.write(frame->scan);
                 stamps.push_back(toSeconds(frame->scan.stamp));
-                out.numWithoutDepth += cv::countNonZero(frame->scan.depth) == 0 ? 1 : 0;
-                out.depth = out.depth > 0 ? out.depth : medianDepth(frame->scan);
-                ++out.numFrames;
+                count(frame->scan, out);
             }
             else
             {
@@ -119,11 +133,7 @@ void requireUsable(const RecordingSummary& summary, bool strict)
             {
                 throw;
             }
-            ++out.numBad;
-            if (out.problems.size() < kShown)
-            {
-                out.problems.push_back(oneLine(bad));
-            }
+            count(bad, out);
         }
         if (bar)
         {
@@ -134,6 +144,23 @@ void requireUsable(const RecordingSummary& summary, bool strict)
     requireUsable(out, output.strict);
     out.stamps = problemOfStamps(stamps);
     return out;
+}
+
+/** What of the input is not in the output. */
+void reportLeftOut(const RecordingSummary& summary, std::ostream& err)
+{
+    for (const std::string& problem : summary.problems)
+    {
+        err << "pointplane-convert: left out: " << problem << "\n";
+    }
+    if (summary.numBad > summary.problems.size())
+    {
+        err << "pointplane-convert: " << summary.numBad << " frames were left out in all\n";
+    }
+    if (!summary.damage.empty())
+    {
+        err << "pointplane-convert: " << summary.damage << "\n";
+    }
 }
 }  // namespace
 
@@ -193,18 +220,7 @@ int report(
     {
         out << "stamps: " << summary.stamps << "\n";
     }
-    for (const std::string& problem : summary.problems)
-    {
-        err << "pointplane-convert: left out: " << problem << "\n";
-    }
-    if (summary.numBad > summary.problems.size())
-    {
-        err << "pointplane-convert: " << summary.numBad << " frames were left out in all\n";
-    }
-    if (!summary.damage.empty())
-    {
-        err << "pointplane-convert: " << summary.damage << "\n";
-    }
+    reportLeftOut(summary, err);
     return summary.numBad == 0 && summary.damage.empty() && !isWithoutDepth ? kExitOk
                                                                             : kExitIncomplete;
 }

@@ -54,6 +54,35 @@ namespace
             return {};
     }
 }
+
+/** Without its path; nothing if the name is neither number nor stamp. */
+[[nodiscard]] std::optional<ImageRef> imageNamed(const std::string& stem)
+{
+    ImageRef image;
+    const auto dash = stem.find('-', 1);
+    const auto first = parseFinite(stem.substr(0, dash));
+    const auto second =
+        dash == std::string::npos ? std::nullopt : parseFinite(stem.substr(dash + 1));
+    if (!first || (dash != std::string::npos && !second))
+    {
+        return {};
+    }
+    if (second)
+    {
+        image.stamp = 1e-6 * *second;
+    }
+    else
+    {
+        image.stamp = stampOf(stem, *first);
+    }
+    image.isNumbered = second || !image.stamp;
+    if (image.isNumbered && !(std::abs(*first) < 1e15))
+    {
+        return {};
+    }
+    image.key = image.isNumbered ? std::lround(*first) : 0;
+    return image;
+}
 }  // namespace
 
 std::vector<std::string> imagesInFolder(const fs::path& folder)
@@ -128,31 +157,11 @@ std::vector<ImageRef> imagesIn(
             continue;
         }
         stem = stem.substr(prefix.size(), stem.size() - prefix.size() - suffix.size());
-        ImageRef image;
-        image.path = entry.path().string();
-        const auto dash = stem.find('-', 1);
-        const auto first = parseFinite(stem.substr(0, dash));
-        const auto second =
-            dash == std::string::npos ? std::nullopt : parseFinite(stem.substr(dash + 1));
-        if (!first || (dash != std::string::npos && !second))
+        if (auto image = imageNamed(stem))
         {
-            continue;
+            image->path = entry.path().string();
+            out.push_back(*image);
         }
-        if (second)
-        {
-            image.stamp = 1e-6 * *second;
-        }
-        else
-        {
-            image.stamp = stampOf(stem, *first);
-        }
-        image.isNumbered = second || !image.stamp;
-        if (image.isNumbered && !(std::abs(*first) < 1e15))
-        {
-            continue;
-        }
-        image.key = image.isNumbered ? std::lround(*first) : 0;
-        out.push_back(image);
     }
     std::sort(
         out.begin(),
