@@ -42,6 +42,25 @@ struct Words
     bool list{false};
 };
 
+/** How the camera sees, and what it is called. */
+void addCalibrationOptions(CLI::App& app, GrabberOptions& o, const std::string& group)
+{
+    app.add_option(
+           "--calibration",
+           o.calibration,
+           "Calibration file: yml of camera-calib, ini of rawlog-grabber")
+        ->type_name("FILE")
+        ->group(group);
+    app.add_option("--section", o.section, "S of its sections S_LEFT, S_RIGHT, S_LEFT2RIGHT_POSE")
+        ->type_name("NAME")
+        ->capture_default_str()
+        ->group(group);
+    app.add_option("--label", o.label, "Sensor label (default: the ini file's, or OPENNI2)")
+        ->type_name("LABEL")
+        ->check(isLabel())
+        ->group(group);
+}
+
 void addCameraOptions(CLI::App& app, GrabberOptions& o, Words& words)
 {
     const std::string group = "Camera";
@@ -79,47 +98,12 @@ void addCameraOptions(CLI::App& app, GrabberOptions& o, Words& words)
         ->check(isPositive())
         ->capture_default_str()
         ->group(group);
-    app.add_option(
-           "--calibration",
-           o.calibration,
-           "Calibration file: yml of camera-calib, ini of rawlog-grabber")
-        ->type_name("FILE")
-        ->group(group);
-    app.add_option("--section", o.section, "S of its sections S_LEFT, S_RIGHT, S_LEFT2RIGHT_POSE")
-        ->type_name("NAME")
-        ->capture_default_str()
-        ->group(group);
-    app.add_option("--label", o.label, "Sensor label (default: the ini file's, or OPENNI2)")
-        ->type_name("LABEL")
-        ->check(isLabel())
-        ->group(group);
+    addCalibrationOptions(app, o, group);
 }
 
-void addRecordingOptions(CLI::App& app, GrabberOptions& o, Words& words)
+/** What is written of a frame, and how fast. */
+void addStorageOptions(CLI::App& app, GrabberOptions& o, Words& words, const std::string& group)
 {
-    const std::string group = "Recording";
-    app.add_option("-o,--output", o.output, "Rawlog (or .oni file) to write; never overwritten")
-        ->type_name("FILE")
-        ->group(group);
-    app.add_option("--duration", o.capture.duration, "Stop after so many seconds")
-        ->check(isPositive())
-        ->group(group);
-    app.add_option("--frames", o.capture.maxFrames, "Stop after so many frames")
-        ->check(isBetween(1, kMostFrames))
-        ->group(group);
-    app.add_option("--warm-up", o.capture.warmUp, "Seconds before recording begins")
-        ->check(isBetween(0.2, 60))
-        ->capture_default_str()
-        ->group(group);
-    app.add_option(
-           "--max-skew",
-           o.capture.maxSkew,
-           "Longest time between colour and depth of a frame [s] (default: half a frame)")
-        ->check(isPositive())
-        ->group(group);
-    app.add_option("--split-minutes", words.splitMinutes, "Begin a new file every so many minutes")
-        ->check(isPositive())
-        ->group(group);
     app.add_option(
            "--images",
            words.images,
@@ -152,6 +136,34 @@ void addRecordingOptions(CLI::App& app, GrabberOptions& o, Words& words)
         ->check(isNotNegative())
         ->capture_default_str()
         ->group(group);
+}
+
+void addRecordingOptions(CLI::App& app, GrabberOptions& o, Words& words)
+{
+    const std::string group = "Recording";
+    app.add_option("-o,--output", o.output, "Rawlog (or .oni file) to write; never overwritten")
+        ->type_name("FILE")
+        ->group(group);
+    app.add_option("--duration", o.capture.duration, "Stop after so many seconds")
+        ->check(isPositive())
+        ->group(group);
+    app.add_option("--frames", o.capture.maxFrames, "Stop after so many frames")
+        ->check(isBetween(1, kMostFrames))
+        ->group(group);
+    app.add_option("--warm-up", o.capture.warmUp, "Seconds before recording begins")
+        ->check(isBetween(0.2, 60))
+        ->capture_default_str()
+        ->group(group);
+    app.add_option(
+           "--max-skew",
+           o.capture.maxSkew,
+           "Longest time between colour and depth of a frame [s] (default: half a frame)")
+        ->check(isPositive())
+        ->group(group);
+    app.add_option("--split-minutes", words.splitMinutes, "Begin a new file every so many minutes")
+        ->check(isPositive())
+        ->group(group);
+    addStorageOptions(app, o, words, group);
 }
 
 void addOtherOptions(CLI::App& app, GrabberOptions& o, Words& words)
