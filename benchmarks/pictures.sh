@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Writes the pictures of README.md and docs/consistency.md: an overlay, the path with its covariances,
-# NEES over time. One minute.
+# Writes the pictures of README.md and the tutorials: an overlay, the path with its covariances, NEES over
+# time, and, with Debian's mrpt-apps, a map. One minute.
 # usage: POINTPLANE_DATA=DIR benchmarks/pictures.sh BIN_DIR
 set -euo pipefail
 bin=$(realpath "${1:?usage: POINTPLANE_DATA=DIR benchmarks/pictures.sh BIN_DIR}")
@@ -17,3 +17,12 @@ quietly "$bin/pointplane-eval" nees "$work/in.groundtruth.txt" "$work/out.rawlog
 cp "$work/overlay/000100.jpg" docs/figures/overlay.jpg
 cp "$work/report/path-from-above.svg" docs/figures/path.svg
 cp "$work/report/nees-of-increments-of-1f.svg" docs/figures/nees.svg
+
+if command -v observations2map >/dev/null; then  # docs/tutorials/mrpt_slam.md
+    quietly "$bin/pointplane-simulate" room -o "$work/room.rawlog" --duration 3 --size 320x240 --quiet
+    quietly "$bin/pointplane-odometry" "$work/room.rawlog" -o "$work/vo.rawlog" --format1 --with-points \
+        --simplemap "$work/vo.simplemap" --quiet
+    printf '[MappingApplication]\npointsMap_count = 1\n' >"$work/o2m.ini"
+    quietly observations2map "$work/o2m.ini" "$work/vo.simplemap" "$work/map"
+    benchmarks/map_picture.py "$work/map_mrpt__maps__CSimplePointsMap_00.txt" docs/figures/map.png
+fi

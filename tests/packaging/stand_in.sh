@@ -56,7 +56,7 @@ run_once() {
         case $previous in
             --duration) word=1.5 ;;
             --size) word=160x120 ;;
-            -o | --trajectory | --overlay | --report | --csv | --json | --figure)
+            -o | --trajectory | --simplemap | --overlay | --report | --csv | --json | --figure)
                 [[ $word == - ]] || outputs+=("$word")
                 ;;
         esac
