@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "overlay_legend.h"
 #include "overlay_marks.h"
@@ -51,7 +52,25 @@ constexpr double kFullSpeed = 1.0;
     return picture;
 }
 
-/** Fills the planes that the pose follows, or that are new, and outlines all. */
+/** The colour of a plane's pixel by the grey of the image. */
+using Tints = std::array<cv::Vec3b, 256>;
+
+[[nodiscard]] Tints tintsOf(const cv::Vec3b& colour)
+{
+    Tints out;
+    for (std::size_t grey = 0; grey < out.size(); ++grey)
+    {
+        for (int c = 0; c < 3; ++c)
+        {
+            out[grey][c] = static_cast<std::uint8_t>(
+                (1 - kTint) * static_cast<double>(grey) + kTint * colour[c]);
+        }
+    }
+    return out;
+}
+
+/** Fills the planes that the pose follows, or that are new, and outlines all. \param picture grey
+ */
 void drawPlanes(const FrameFeatures& features, cv::Mat& picture)
 {
     const cv::Mat& labels = features.planes.labels;
@@ -59,11 +78,14 @@ void drawPlanes(const FrameFeatures& features, cv::Mat& picture)
     {
         return;
     }
+    const std::size_t numPlanes = std::min<std::size_t>(255, features.planes.planes.size());
     std::array<cv::Vec3b, 256> colours{};
+    std::vector<Tints> tints(numPlanes + 1);
     std::array<bool, 256> filled{};
-    for (std::size_t i = 0; i < std::min<std::size_t>(255, features.planes.planes.size()); ++i)
+    for (std::size_t i = 0; i < numPlanes; ++i)
     {
         colours[i + 1] = sigmaColour(sigmaOfDistance(features.planes.planes[i]));
+        tints[i + 1] = tintsOf(colours[i + 1]);
         filled[i + 1] = features.planeUses[i] != FeatureUse::Rejected;
     }
     for (int v = 0; v < labels.rows; ++v)
@@ -80,11 +102,7 @@ void drawPlanes(const FrameFeatures& features, cv::Mat& picture)
             }
             else if (here != 0 && filled[here])
             {
-                for (int c = 0; c < 3; ++c)
-                {
-                    pixel[u][c] = static_cast<std::uint8_t>(
-                        (1 - kTint) * pixel[u][c] + kTint * colours[here][c]);
-                }
+                pixel[u] = tints[here][pixel[u][0]];
             }
         }
     }
