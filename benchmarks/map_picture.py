@@ -1,5 +1,6 @@
-#!/usr/bin/env python3
-"""Draws a map of points, x y z in a line, obliquely from above: map_picture.py MAP.txt OUT.png"""
+#!/usr/bin/python3
+"""Draws a map of points, x y z in a line, obliquely from above: map_picture.py MAP.txt OUT.png
+Needs the package python3-numpy."""
 import struct
 import sys
 import zlib

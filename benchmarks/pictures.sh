@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Writes the pictures of README.md and the tutorials: an overlay, the path with its covariances, NEES over
-# time, and, with Debian's mrpt-apps, a map. One minute.
+# time, and, with the packages mrpt-apps and python3-numpy, the map of docs/tutorials/mrpt_slam.md. One minute.
 # usage: POINTPLANE_DATA=DIR benchmarks/pictures.sh BIN_DIR
 set -euo pipefail
 bin=$(realpath "${1:?usage: POINTPLANE_DATA=DIR benchmarks/pictures.sh BIN_DIR}")
@@ -18,7 +18,7 @@ cp "$work/overlay/000100.jpg" docs/figures/overlay.jpg
 cp "$work/report/path-from-above.svg" docs/figures/path.svg
 cp "$work/report/nees-of-increments-of-1f.svg" docs/figures/nees.svg
 
-if command -v observations2map >/dev/null; then  # docs/tutorials/mrpt_slam.md
+if command -v observations2map >/dev/null && /usr/bin/python3 -c 'import numpy' 2>/dev/null; then
     quietly "$bin/pointplane-simulate" room -o "$work/room.rawlog" --duration 3 --size 320x240 --quiet
     quietly "$bin/pointplane-odometry" "$work/room.rawlog" -o "$work/vo.rawlog" --format1 --with-points \
         --simplemap "$work/vo.simplemap" --quiet
