@@ -38,6 +38,24 @@ const std::string kCameraFile =
 const std::string kFileHelp = "Calibration, a ";
 const std::string kPresetHelp = "Calibration: fr1, fr2, fr3, or a ";
 
+/** \param otherwise the scale if none is given */
+void addDepthScale(CLI::App& command, double& unitsPerMetre, const std::string& otherwise)
+{
+    command
+        .add_option(
+            "--depth-scale", unitsPerMetre, "Depth units per metre (default: " + otherwise + ")")
+        ->check(isBetween(kLeastDepthUnits, kMostDepthUnits));
+}
+
+void addMaxDifference(CLI::App& command, double& seconds)
+{
+    command
+        .add_option(
+            "--max-difference", seconds, "Longest time between colour and depth of a frame [s]")
+        ->check(isNotNegative())
+        ->capture_default_str();
+}
+
 void addTumCommand(CLI::App& app, TumOptions& options, RecordingOutput& output)
 {
     CLI::App* tum =
@@ -54,17 +72,8 @@ void addTumCommand(CLI::App& app, TumOptions& options, RecordingOutput& output)
            kPresetHelp + kCameraFile +
                " (default: camera.txt in the folder, or by the folder's name)")
         ->type_name("FILE");
-    tum->add_option(
-           "--depth-scale",
-           options.depthScale,
-           "Depth units per metre (default: the camera's, 5000)")
-        ->check(isBetween(kLeastDepthUnits, kMostDepthUnits));
-    tum->add_option(
-           "--max-difference",
-           options.maxDifference,
-           "Longest time between colour and depth of a frame [s]")
-        ->check(isNotNegative())
-        ->capture_default_str();
+    addDepthScale(*tum, options.depthScale, "the camera's, 5000");
+    addMaxDifference(*tum, options.maxDifference);
     tum->add_flag("--even-stamps", options.evenStamps, kEvenStampsHelp);
     addOutputOptions(*tum, output);
 }
@@ -86,13 +95,7 @@ void addFolderCommand(CLI::App& app, FolderOptions& options, RecordingOutput& ou
             kFileHelp + kCameraFile +
                 " (default: camera.txt in the folder, or what its layout tells)")
         ->type_name("FILE");
-    folder
-        ->add_option(
-            "--depth-scale",
-            options.depthScale,
-            "Depth units per metre (default: the "
-            "layout's, else 1000; 1 for floating point)")
-        ->check(isBetween(kLeastDepthUnits, kMostDepthUnits));
+    addDepthScale(*folder, options.depthScale, "the layout's, else 1000; 1 for floating point");
     folder
         ->add_option(
             "--fps",
@@ -100,13 +103,7 @@ void addFolderCommand(CLI::App& app, FolderOptions& options, RecordingOutput& ou
             "Frames a second, where images are numbered (default: stamps, else the "
             "layout's rate, else 30)")
         ->check(isPositive());
-    folder
-        ->add_option(
-            "--max-difference",
-            options.maxDifference,
-            "Longest time between colour and depth of a frame [s]")
-        ->check(isNotNegative())
-        ->capture_default_str();
+    addMaxDifference(*folder, options.maxDifference);
     folder->add_flag("--even-stamps", options.evenStamps, kEvenStampsHelp);
     addOutputOptions(*folder, output);
 }
@@ -118,11 +115,7 @@ void addKlgCommand(CLI::App& app, KlgOptions& options, RecordingOutput& output)
     klg->add_option(
            "--camera", options.camera, kFileHelp + kCameraFile + " (default: 528 px, 640x480)")
         ->type_name("FILE");
-    klg->add_option(
-           "--depth-scale",
-           options.depthScale,
-           "Depth units per metre (default: the camera's, 1000)")
-        ->check(isBetween(kLeastDepthUnits, kMostDepthUnits));
+    addDepthScale(*klg, options.depthScale, "the camera's, 1000");
     klg->add_flag("--bgr", options.bgr, "Its colours are in the order blue, green, red");
     addOutputOptions(*klg, output);
 }
@@ -146,17 +139,8 @@ void addBagCommand(CLI::App& app, BagOptions& options, RecordingOutput& output)
            options.camera,
            kPresetHelp + kCameraFile + " (default: camera_info of the bag)")
         ->type_name("FILE");
-    bag->add_option(
-           "--depth-scale",
-           options.depthScale,
-           "Depth units per metre (default: the recorder's, else 1000; 1 for floating point)")
-        ->check(isBetween(kLeastDepthUnits, kMostDepthUnits));
-    bag->add_option(
-           "--max-difference",
-           options.maxDifference,
-           "Longest time between colour and depth of a frame [s]")
-        ->check(isNotNegative())
-        ->capture_default_str();
+    addDepthScale(*bag, options.depthScale, "the recorder's, else 1000; 1 for floating point");
+    addMaxDifference(*bag, options.maxDifference);
     addOutputOptions(*bag, output);
 }
 }  // namespace
