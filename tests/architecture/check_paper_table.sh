@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # The table of docs/theory.md that compares the paper with the code: the files and tests that it
 # names exist, the files mark the line with the place in the paper, tools/mutants.txt has a line to
-# break that one of these tests must notice, and no row is without. Run in the root of the sources.
+# break that one of these tests must notice, and no row is without. What is done as the paper says
+# stands in tools/mutants.txt alone: marks and tests of these places exist. Run in the root of the sources.
 set -u
 failed=0
 rows=0
@@ -38,7 +39,21 @@ while IFS='|' read -r _ place what files tests _; do
             problem "docs/theory.md: there is no test $test ($place)"
     done
 done < <(sed -n '/<!-- paper begin -->/,/<!-- paper end -->/p' docs/theory.md | grep '^|' | tail -n +3)
-((rows >= 20)) || problem "docs/theory.md: only $rows rows in the table of the paper"
+((rows >= 15)) || problem "docs/theory.md: only $rows rows in the table of the paper"
+
+places=0
+while IFS= read -r place; do
+    ((++places))
+    mark=${place##*, }
+    [[ $mark != nowhere ]] || mark=
+    grep -rqE "\\[P17[^]]*${mark//./\\.}([^0-9]|\$)" libs apps || grep -qE "// $mark([^0-9]|\$)" config-paper.ini ||
+        problem "tools/mutants.txt: no line is marked [P17 $mark]"
+done < <(sed -n 's/.*| \[P17\] //p' tools/mutants.txt | sort -u)
+((places >= 20)) || problem "tools/mutants.txt: only $places places of the paper"
+while IFS= read -r test; do
+    grep -rqE "TEST(_[FP])?\(${test%.*}, ${test#*.}" tests --include='*.cpp' ||
+        problem "tools/mutants.txt: there is no test $test"
+done < <(sed -nE 's/.*:([^ ]+) \| \[P17\] .*/\1/p' tools/mutants.txt | sed -E 's/^\*//; s/\*$//' | grep -F . | sort -u)
 
 while IFS= read -r mutant; do
     IFS=$'\x1f' read -r file old _ <<<"${mutant// | /$'\x1f'}"
