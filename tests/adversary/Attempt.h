@@ -62,8 +62,7 @@ class Tally
 
  private:
     std::string what_;
-    std::size_t tried_{0}, crashes_{0};
-    std::map<int, std::size_t> codes_;
+    std::size_t tried_{0};
     std::vector<std::string> failures_;
 };
 

@@ -72,9 +72,7 @@ void writeTumFolder(const std::string& folder)
 
 Tally damagedFolders(double share)
 {
-    Tally tally(
-        "damaged folders (`pointplane-convert tum`): images, lists, calibration cut, garbled, "
-        "gone, exchanged for folders");
+    Tally tally("damaged folders of `pointplane-convert tum`: files cut, garbled, gone, exchanged");
     const test::TempDir dir;
     std::mt19937 rng(22);
     const std::string whole = dir / "whole", folder = dir / "folder";

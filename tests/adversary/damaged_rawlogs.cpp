@@ -62,9 +62,7 @@ enum class Damage
 
 Tally damagedRawlogs(double share)
 {
-    Tally tally(
-        "damaged rawlogs (`pointplane-odometry`): cut, bits flipped, bytes zeroed or foreign; "
-        "plain and gz, both formats");
+    Tally tally("damaged rawlogs, plain and gz: cut, bits flipped, bytes zeroed or foreign");
     const test::TempDir dir;
     std::mt19937 rng(21);
     for (const bool format1 : {false, true})

@@ -14,8 +14,7 @@ namespace pointplane::adversary
 Tally fullDisks(double share)
 {
     Tally tally(
-        "disks (tmpfs) of 4 kB and more that fill up: outputs of `odometry`, `simulate`, `convert` "
-        "and `eval`");
+        "disks (tmpfs) that fill up: outputs of `odometry`, `simulate`, `convert` and `eval`");
     const test::TempDir dir;
     const std::string disk = dir / "disk", in = dir / "in.rawlog", folder = dir / "tum";
     test::writeObservations(in, 40);

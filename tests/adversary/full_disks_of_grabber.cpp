@@ -35,9 +35,7 @@ constexpr int kCopied = 8192;  // kilobytes of a disk on which all is well
 
 Tally fullDisksOfGrabber(double share)
 {
-    Tally tally(
-        "the same of `grabber` (a virtual camera): rawlogs with images in and beside them, .oni, "
-        "`--preview`, `--live-output`");
+    Tally tally("the same of `grabber`, with a virtual camera");
     const test::TempDir dir;
     const test::VirtualCamera camera("", test::patternFrames(30, 64, 48), 52.5);
     const std::string disk = dir / "disk", copy = dir / "copy";

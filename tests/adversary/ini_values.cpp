@@ -39,8 +39,7 @@ namespace
 
 Tally iniValues(double share)
 {
-    Tally tally(
-        "values of keys (`pointplane-odometry --set`): every key, from 1e-300 to nan and text");
+    Tally tally("values of every key, from 1e-300 to nan and text");
     const test::TempDir dir;
     const std::string in = dir / "in.rawlog", out = dir / "out.txt";
     {

@@ -8,9 +8,7 @@ namespace pointplane::adversary
 Tally mrptSamples(double)
 {
     namespace fs = std::filesystem;
-    Tally tally(
-        "whole rawlogs, MRPT's samples: read, or refused as without RGB-D or as not supported, "
-        "never as damaged");
+    Tally tally("MRPT's sample rawlogs: read, or refused as not supported, never as damaged");
     const test::TempDir dir;
     std::error_code missing;
     for (const auto& entry : fs::directory_iterator("/usr/share/mrpt/datasets", missing))

@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 
 Tally optionValues(double share)
 {
-    Tally tally("values of options of all programs: every option, from nan to text and nothing");
+    Tally tally("values of every option, from nan to text and nothing");
     const test::TempDir dir;
     const test::VirtualCamera camera("", test::patternFrames(30, 64, 48), 52.5);
     const std::string whole = dir / "whole", folder = dir / "folder";

@@ -239,9 +239,7 @@ void tryOutputsOfAllPrograms(Tally& tally)
 
 Tally sameFiles(double)
 {
-    Tally tally(
-        "outputs of all programs that are an input, another output or a folder; by the same name, "
-        "another way, symbolic and hard links, partial names");
+    Tally tally("outputs that are an input, another output or a folder, also by links");
     const test::TempDir dir;
     fs::create_directory(dir / "d");
     const std::string in = dir / "d/a.rawlog", config = dir / "d/c.ini", text = dir / "d/t.txt";

@@ -51,9 +51,7 @@ struct LimitedProgram
 
 Tally tightLimits(double share)
 {
-    Tally tally(
-        "limits: a stack of 64 kB and more, files of 0 bytes and more, 220 to 620 MB of memory; "
-        "all programs");
+    Tally tally("limits: a stack of 64 kB, files of 0 bytes, 220 to 620 MB of memory, and more");
     const test::TempDir dir;
     const std::string in = dir / "in.rawlog", folder = dir / "tum", out = dir / "out";
     const std::string text = dir / "t.txt", truth = dir / "truth.txt";
