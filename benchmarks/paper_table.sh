@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Writes the figures of docs/paper_figures.md and its pictures, by `pointplane-lab reproduce`. 10 minutes on 2 cores.
+# Writes the figures of docs/paper_figures.md and its pictures, by `pointplane-lab reproduce`. Less than 10
+# minutes on 2 cores.
 # usage: POINTPLANE_DATA=DIR benchmarks/paper_table.sh BIN_DIR   (BIN_DIR holds the pointplane programs)
 set -euo pipefail
 shopt -s inherit_errexit
@@ -17,7 +18,7 @@ for folder in "$data"/*fr*1_desk{,_part} "$data"/*fr*1_360{,_part} \
 done
 
 "$bin/pointplane-lab" reproduce "${sequences[@]}" --paper-config config-paper.ini \
-    --only tables,tukey,alpha,corner,paper --figure docs/figures >"$work/figures.md"
+    --only tables,alpha,corner --figure docs/figures >"$work/figures.md"
 {
     echo
     cat "$work/figures.md"
