@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Writes the results of README.md and the bars of docs/figures/rpe_bars.svg from the tables of
+# Writes the summary of results of README.md and the bars of docs/figures/rpe_bars.svg from the tables of
 # docs/accuracy.md. usage: benchmarks/readme_results.sh
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -46,24 +46,35 @@ awk -F ' *[|] *' '
     exit 1
 }
 
-rows() { # yes, other seeds or no; heading
+group() { # yes, other seeds or no; heading
     awk -F '|' -v kind="$1" -v heading="$2" '
-        function pair(mm, deg) { return mm == "-" ? "-" : mm " / " deg }
+        function add(name, value) {
+            if (value == "-") return
+            if (!(name in least) || value + 0 < least[name] + 0) least[name] = value
+            if (!(name in most) || value + 0 > most[name] + 0) most[name] = value
+        }
+        function range(name) { return name in least ? least[name] " to " most[name] : "-" }
         $2 == kind {
-            if (!n++) print "| **" heading "** | | | | |"
-            name = $1; sub(/_part$/, "", name); sub(/^tum_/, "", name); gsub(/_/, " ", name)
-            if (name ~ /^iphone/) name = name " (truth: its own odometry)"
-            printf "| %s | %s | %s | %s | %s / %s |\n", name, pair($3, $4), pair($5, $6),
-                $9 == "-" ? "-" : pair($7, $8) " (" $9 ")", $10, $11
+            ++n
+            add("ours", $3)
+            add("fast", $5)
+            add("peer", $7)
+            add("nees", $11)
+            compared += $3 != "-" && $7 != "-"
+            ahead += $3 != "-" && $7 != "-" && $3 + 0 < $7 + 0
+        }
+        END {
+            if (n) printf "| **%d %s** | %s | %s | %s | %d of %d | %s |\n", n, heading,
+                range("ours"), range("fast"), range("peer"), ahead, compared, range("nees")
         }' "$work/lines"
 }
 {
     echo
-    echo "| recording | config.ini [mm / deg] | config-fast.ini [mm / deg] | best peer [mm / deg] | NEES over 1 frame / 1 s |"
-    echo "|---|---|---|---|---|"
-    rows yes "parameters were chosen on these"
-    rows "other seeds" "on the same scenes, but other seeds"
-    rows no "not chosen on these, except as *decisions* below says"
+    echo "| recordings | config.ini [mm] | config-fast.ini [mm] | best peer [mm] | config.ini is ahead in | its NEES |"
+    echo "|---|---|---|---|---|---|"
+    group yes "on which parameters were chosen"
+    group "other seeds" "of simulated scenes, other seeds"
+    group no "on which none was chosen"
     echo
 } >"$work/results"
 replace README.md results "$work/results"
@@ -99,7 +110,7 @@ awk -F '|' '
         group("yes", "Parameters were chosen on these")
         group("other seeds", "Same scenes, other seeds")
         group("no", "Not chosen on these")
-        print "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 640 " y + 36 "\" role=\"img\""
+        print "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 640 " y + 36 "\" width=\"640\" height=\"" y + 36 "\" role=\"img\""
         print " aria-label=\"Relative pose error beside the best peer\" style=\"background:#fff\">"
         print "<style>text{font:12px system-ui,\"DejaVu Sans\",sans-serif;fill:#1c2430}"
         print ".v{font-size:10px;fill:#4a5563}.n{text-anchor:end}.h{font-weight:bold}.t{text-anchor:middle;font-size:11px}</style>"
