@@ -32,14 +32,14 @@ run() {
 row() {
     local scene=$2 seed files=() rpe nees noise
     run exact "$@"
-    noise=$(sed -n 's/^depth noise: //p' "$work/log")
+    noise=$(sed -n 's/; surfaces bent .*//; s/^depth noise: //p' "$work/log")
     rpe=$(for ((seed = 1; seed <= seeds; ++seed)); do
         "$bin/pointplane-eval" rpe --fixed-delta --delta 1 --body-from-gt optical --csv - \
             "$work/exact.$seed.groundtruth.txt" "$work/exact.$seed.poses.rawlog"
     done | awk -F, '
         /,translation,m,/ {t += $(NF - 5) ^ 2; ++n}
         /,rotation,deg,/ {r += $(NF - 5) ^ 2}
-        END {printf "%.1f mm, %.2f deg", 1000 * sqrt(t / n), sqrt(r / n)}')
+        END {printf "%.1f / %.2f", 1000 * sqrt(t / n), sqrt(r / n)}')
     run off "$@" "${calibration[@]}"
     for ((seed = 1; seed <= seeds; ++seed)); do
         files+=("$work/off.$seed.groundtruth.txt" "$work/off.$seed.poses.rawlog")
@@ -52,7 +52,7 @@ row() {
 
 mapfile -t calibration < <(calibration_errors)
 {
-    echo "| camera | scene | RPE, 1 s | NEES, 1 frame / 10 frames / 1 s | depth noise as learnt |"
+    echo "| camera | scene | RPE, 1 s [mm / deg] | NEES, 1 frame / 10 frames / 1 s | depth noise as learnt |"
     echo "|---|---|---|---|---|"
     for camera in kinect d435 azure phone; do
         row "$camera" corner 1

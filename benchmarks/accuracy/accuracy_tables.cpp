@@ -60,6 +60,29 @@ template <class Value>
     }
     return nullptr;
 }
+
+[[nodiscard]] std::string errors(const MethodScore& m)
+{
+    return number(mm(m.rpeTranslation), 1) + " / " + number(degrees(m.rpeRotation), 2);
+}
+
+/** The least translation and rotation, and whose they are. */
+[[nodiscard]] std::string leastErrors(const MethodScore& t, const MethodScore& r)
+{
+    return &t == &r ? errors(t) + " (" + t.method + ")"
+                    : number(mm(t.rpeTranslation), 1) + " (" + t.method + ") / " +
+                          number(degrees(r.rpeRotation), 2) + " (" + r.method + ")";
+}
+
+[[nodiscard]] std::string neesText(const MethodScore& m)
+{
+    std::string out;
+    for (const auto& value : m.nees)
+    {
+        out += (out.empty() ? "" : " / ") + (value ? number(*value, 2) : "-");
+    }
+    return m.nees.front() ? out : "-";
+}
 }  // namespace
 
 std::string markdownTable(const SequenceScores& scores)
@@ -92,37 +115,15 @@ std::string markdownTable(const SequenceScores& scores)
 
 std::string markdownOverview(const std::vector<SequenceScores>& all)
 {
-    MarkdownGrid translation, rotation, nees, lost, time;
+    MarkdownGrid grid;
     for (const SequenceScores& scores : all)
     {
         for (const MethodScore& m : scores.methods)
         {
-            const auto add = [&](MarkdownGrid& grid, const std::string& text)
-            { grid.add(m.method, scores.sequence, m.failure.empty() ? text : "failed"); };
-            add(translation, number(mm(m.rpeTranslation), 1));
-            add(rotation, number(degrees(m.rpeRotation), 2));
-            add(time, number(m.msMedian, 1) + " / " + number(m.msP99, 1));
-            if (m.numLost + m.numPredicted > 0)
-            {
-                add(lost, std::to_string(m.numLost) + " / " + std::to_string(m.numPredicted));
-            }
-            if (m.nees.front())
-            {
-                std::string text;
-                for (const auto& value : m.nees)
-                {
-                    text += (text.empty() ? "" : " / ") + (value ? number(*value, 2) : "-");
-                }
-                add(nees, text);
-            }
+            grid.add(m.method, scores.sequence, m.failure.empty() ? errors(m) : "failed");
         }
     }
-    const auto section = [](const std::string& title, const MarkdownGrid& grid)
-    { return grid.isEmpty() ? "" : "\n" + title + "\n\n" + grid.markdown("method"); };
-    return section("RPE over a second, mm:", translation) + section("The same, deg:", rotation) +
-           section("NEES over 1 frame / 10 frames / 1 s:", nees) +
-           section("Frames lost / predicted, where there are any:", lost) +
-           section("Time per frame, median / 99th percentile, ms:", time);
+    return "\nAll methods, RPE over a second, mm / deg:\n\n" + grid.markdown("method");
 }
 
 std::string markdownSummary(const std::vector<SequenceScores>& all)
@@ -141,17 +142,15 @@ std::string markdownSummary(const std::vector<SequenceScores>& all)
             continue;
         }
         name = own->method;
+        const bool isAhead =
+            own->rpeTranslation < t->rpeTranslation && own->rpeRotation < r->rpeRotation;
         rows << "| " << scores.sequence << " | " << chosenOn(scores.sequence) << " | "
-             << number(mm(own->rpeTranslation), 1) << " | " << number(mm(t->rpeTranslation), 1)
-             << " (" << t->method << ") | " << number(degrees(own->rpeRotation), 2) << " | "
-             << number(degrees(r->rpeRotation), 2) << " (" << r->method << ") | "
-             << (own->rpeTranslation < t->rpeTranslation && own->rpeRotation < r->rpeRotation
-                     ? "yes"
-                     : "**no**")
-             << " |\n";
+             << (isAhead ? errors(*own) : "**" + errors(*own) + "**") << " | "
+             << leastErrors(*t, *r) << " | " << neesText(*own) << " |\n";
     }
-    return "| sequence | chosen on it | " + name + " mm/s | best peer mm/s | " + name +
-           " deg/s | best peer deg/s | ahead in both |\n|---|---|---|---|---|---|---|\n" +
+    return "| sequence | chosen on it | " + name +
+           " [mm / deg] | least of a peer [mm / deg] | NEES over 1 frame / 10 frames / 1 s |\n"
+           "|---|---|---|---|---|\n" +
            rows.str();
 }
 

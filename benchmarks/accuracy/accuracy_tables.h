@@ -16,13 +16,14 @@ struct SequenceScores
     std::vector<MethodScore> methods;
 };
 
-/** A heading and one table, Markdown. */
+/** A heading and one table with all measures, Markdown. */
 [[nodiscard]] std::string markdownTable(const SequenceScores& scores);
 
-/** A line a sequence: the first method against the best peer of each column, Markdown. */
+/** A line a sequence: the first method against the least errors of the peers (bold where it is
+ * behind), and its NEES; Markdown. */
 [[nodiscard]] std::string markdownSummary(const std::vector<SequenceScores>& all);
 
-/** A table for each measure: a line a method, a column a sequence, Markdown. */
+/** Relative pose errors: a line a method, a column a sequence, Markdown. */
 [[nodiscard]] std::string markdownOverview(const std::vector<SequenceScores>& all);
 
 [[nodiscard]] nlohmann::ordered_json toJson(const std::vector<SequenceScores>& all);

@@ -160,7 +160,7 @@ EnvelopeBenchmark::EnvelopeBenchmark(CLI::App& app)
     app.add_option("--jobs", jobs_, "runs at the same time; the figures do not depend on it")
         ->capture_default_str()
         ->check(CLI::Range(1U, 64U));
-    app.add_flag("--details", details_, "print each sequence's table, too");
+    app.add_flag("--details", details_, "print every cell, a table per sequence");
     app.add_option("--csv", csvFile_, "write a line per sequence, condition and method");
     app.add_option(
         "--add",
@@ -356,7 +356,8 @@ void EnvelopeBenchmark::run(std::ostream& out, std::ostream& err) const
     {
         all = withMethodsOf(all, scoresFromCsv(addedFile_));
     }
-    out << envelopeSummary(all);
+    const std::string page = "\n" + envelopeSummary(all) + envelopeOverview(all) + "\n";
+    out << page;
     if (!csvFile_.empty())
     {
         writeTextFile(csvFile_, envelopeCsv(all));
@@ -367,8 +368,7 @@ void EnvelopeBenchmark::run(std::ostream& out, std::ostream& err) const
     }
     if (!markdownFile_.empty())
     {
-        const std::string text = "\n" + envelopeSummary(all) + envelopeOverview(all) + "\n";
-        replaceMarkdownSection(markdownFile_, section_, text);
+        replaceMarkdownSection(markdownFile_, section_, page);
     }
 }
 }  // namespace pointplane

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "envelope_overview.h"
 
+#include <pointplane/core/quantile.h>
+
 #include <algorithm>
-#include <functional>
 #include <map>
 #include <utility>
 
@@ -13,43 +14,82 @@ namespace pointplane
 {
 namespace
 {
-using Value = double EnvelopeScore::*;
-using Format = std::function<std::string(double)>;
-
 /** Our error, bold where a tracked step is beyond five standard deviations; in brackets the least
  * of a peer. */
-std::string besideBestPeer(const Cell& cell, Value value, const Format& format)
+std::string besideBestPeer(const Cell& cell)
 {
     const EnvelopeScore& own = *cell.own;
-    std::string out = own.numPairs > 0 ? format(own.*value) : "-";
+    std::string out = own.numPairs > 0 ? lengthText(own.rpeTranslation) : "-";
     out = own.beyond.empty() ? out : "**" + out + "**";
-    const EnvelopeScore* peer = bestPeer(cell, value);
-    return peer == nullptr ? out : out + " (" + format(peer->*value) + ")";
+    const EnvelopeScore* peer = bestPeer(cell, &EnvelopeScore::rpeTranslation);
+    return peer == nullptr ? out : out + " (" + lengthText(peer->rpeTranslation) + ")";
 }
 
-std::string millimetres(double metres) { return lengthText(metres); }
-
-std::string degreesText(double radians) { return text("%.2f", degrees(radians)); }
-
-/** What is told of a sequence under its only condition. */
+/** What is told of a sequence if there is one condition. */
 void addAlone(MarkdownGrid& grid, const Cell& cell)
 {
     const EnvelopeScore& own = *cell.own;
-    grid.add(own.sequence, "tracked %", shareText(own));
-    grid.add(
-        own.sequence,
-        "RPE, mm (best peer)",
-        besideBestPeer(cell, &EnvelopeScore::rpeTranslation, millimetres));
-    grid.add(
-        own.sequence,
-        "deg (best peer)",
-        besideBestPeer(cell, &EnvelopeScore::rpeRotation, degreesText));
+    grid.add(own.sequence, "mm (best peer)", besideBestPeer(cell));
     grid.add(own.sequence, "worst step", errorText(own.worstTranslation, own.worstRotation));
-    grid.add(own.sequence, "beyond 5σ", std::to_string(own.beyond.size()));
     grid.add(
         own.sequence,
         "NEES median / 99 %",
         own.neesMedian ? text("%.2f / %.1f", *own.neesMedian, *own.nees99) : "-");
+}
+
+/** What is told of a sequence under several conditions. */
+struct Summary
+{
+    std::size_t numCells{0}, numBeyond{0};
+    std::vector<double> translation, rotation, peerTranslation, peerRotation;
+    std::vector<int> shares;  //!< of tracked frames [%]
+    double largestStep{0};    //!< [m]
+
+    void add(const Cell& cell)
+    {
+        const EnvelopeScore& own = *cell.own;
+        ++numCells;
+        numBeyond += own.beyond.empty() ? 0 : 1;
+        shares.push_back(std::stoi(shareText(own)));
+        largestStep = std::max(largestStep, own.worstTranslation);
+        if (own.numPairs > 0)
+        {
+            translation.push_back(own.rpeTranslation);
+            rotation.push_back(own.rpeRotation);
+        }
+        const EnvelopeScore* t = bestPeer(cell, &EnvelopeScore::rpeTranslation);
+        const EnvelopeScore* r = bestPeer(cell, &EnvelopeScore::rpeRotation);
+        if (t != nullptr && r != nullptr)
+        {
+            peerTranslation.push_back(t->rpeTranslation);
+            peerRotation.push_back(r->rpeRotation);
+        }
+    }
+};
+
+std::string medians(const std::vector<double>& translation, const std::vector<double>& rotation)
+{
+    return translation.empty() ? "-" : errorText(median(translation), median(rotation));
+}
+
+void addSummary(MarkdownGrid& grid, const std::string& sequence, const Summary& s)
+{
+    grid.add(sequence, "cells", std::to_string(s.numCells));
+    grid.add(sequence, "RPE", medians(s.translation, s.rotation));
+    if (!s.peerTranslation.empty())
+    {
+        grid.add(sequence, "best peer's", medians(s.peerTranslation, s.peerRotation));
+    }
+    grid.add(sequence, "cells with steps beyond 5σ", std::to_string(s.numBeyond));
+}
+
+void addSteps(MarkdownGrid& grid, const std::string& sequence, const Summary& s)
+{
+    grid.add(sequence, "cells", std::to_string(s.numCells));
+    grid.add(sequence, "tracked %, median", std::to_string(median(s.shares)));
+    grid.add(
+        sequence, "least", std::to_string(*std::min_element(s.shares.begin(), s.shares.end())));
+    grid.add(sequence, "largest tracked step, mm", lengthText(s.largestStep));
 }
 
 std::string section(const MarkdownGrid& grid, const std::string& title, const std::string& heading)
@@ -61,43 +101,34 @@ std::string section(const MarkdownGrid& grid, const std::string& title, const st
 std::string envelopeOverview(const std::vector<EnvelopeScore>& scores)
 {
     const std::vector<Cell> cells = cellsOf(scores);
-    std::map<std::string, int> numConditions;
+    std::map<std::string, Summary> sums;
     for (const Cell& cell : cells)
     {
-        ++numConditions[cell.own->sequence];
+        sums[cell.own->sequence].add(cell);
     }
-    MarkdownGrid translation, rotation, steps, alone;
+    const bool isOneCondition = std::all_of(
+        cells.begin(),
+        cells.end(),
+        [&](const Cell& cell) { return cell.own->condition == cells.front().own->condition; });
+    MarkdownGrid sequences, steps, alone;
     for (const Cell& cell : cells)
     {
-        const EnvelopeScore& own = *cell.own;
-        if (own.truth == Truth::None)
+        const Summary& sum = sums[cell.own->sequence];
+        if (cell.own->truth == Truth::None)
         {
-            const std::string step = lengthText(own.worstTranslation);
-            steps.add(own.condition, own.sequence, shareText(own) + " %, " + step);
+            addSteps(steps, cell.own->sequence, sum);
         }
-        else if (numConditions[own.sequence] == 1)
+        else if (isOneCondition)
         {
             addAlone(alone, cell);
         }
         else
         {
-            translation.add(
-                own.condition,
-                own.sequence,
-                besideBestPeer(cell, &EnvelopeScore::rpeTranslation, millimetres));
-            rotation.add(
-                own.condition,
-                own.sequence,
-                besideBestPeer(cell, &EnvelopeScore::rpeRotation, degreesText));
+            addSummary(sequences, cell.own->sequence, sum);
         }
     }
-    return section(translation, "RPE over a second, mm (best peer):", "condition") +
-           section(rotation, "The same, deg:", "condition") +
-           section(
-               steps,
-               "Where there is no ground truth: tracked frames, and the largest tracked step in "
-               "mm:",
-               "condition") +
-           section(alone, "At 30 Hz only:", "sequence");
+    return section(sequences, "RPE over a second, mm / deg: the median cell.", "sequence") +
+           section(steps, "Where there is no ground truth:", "sequence") +
+           section(alone, "RPE over a second:", "sequence");
 }
 }  // namespace pointplane

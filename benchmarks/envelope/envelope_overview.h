@@ -8,8 +8,8 @@
 
 namespace pointplane
 {
-/** What our first method makes of each sequence under each condition, beside the best peer. A line
- * per condition, a column per sequence. Markdown.
+/** What our first method makes of each sequence, a line per sequence: the median of its conditions
+ * beside that of the best peers; more if there is one condition. Markdown.
  * \param scores as of envelopeTables() */
 [[nodiscard]] std::string envelopeOverview(const std::vector<EnvelopeScore>& scores);
 }  // namespace pointplane

@@ -77,17 +77,14 @@ namespace
 struct Sum
 {
     std::string name;
-    std::size_t cells{0}, cellsBeyond{0}, steps{0}, tracked{0}, beyond{0}, large{0};
+    std::size_t steps{0}, tracked{0}, beyond{0};
     double worstTranslation{0}, worstRotation{0};
 
     void add(const EnvelopeScore& s)
     {
-        ++cells;
-        cellsBeyond += s.beyond.empty() ? 0 : 1;
         steps += s.numSteps;
         tracked += s.numTracked;
         beyond += s.beyond.size();
-        large += s.large.size();
         worstTranslation = std::max(worstTranslation, s.worstTranslation);
         worstRotation = std::max(worstRotation, s.worstRotation);
     }
@@ -118,22 +115,21 @@ struct Sum
     }
     std::ostringstream out;
     out << "| " << title
-        << " | cells | steps | tracked % | beyond 5σ | in cells | off by 50 mm or 5 deg | worst "
-           "tracked step |\n|---|---|---|---|---|---|---|---|\n";
+        << " | steps | tracked % | beyond 5σ | largest error, mm / deg |\n|---|---|---|---|---|\n";
     for (const Sum& s : sums)
     {
-        out << "| " << s.name << " | " << s.cells << " | " << s.steps << " | "
+        out << "| " << s.name << " | " << s.steps << " | "
             << (100 * s.tracked) / std::max<std::size_t>(s.steps, 1) << " | " << s.beyond << " | "
-            << s.cellsBeyond << " | " << s.large << " | "
             << errorText(s.worstTranslation, s.worstRotation) << " |\n";
     }
     return out.str();
 }
 
+/** How often we are behind a peer, and a line per sequence with the conditions. */
 [[nodiscard]] std::string behindPeers(const std::vector<EnvelopeScore>& scores)
 {
     std::size_t compared = 0, behind = 0;
-    std::string rows;
+    std::string lines, sequence;
     for (const Cell& cell : cellsOf(scores))
     {
         const EnvelopeScore* t = bestPeer(cell, &EnvelopeScore::rpeTranslation);
@@ -146,9 +142,9 @@ struct Sum
         if (cell.own->rpeTranslation > t->rpeTranslation || cell.own->rpeRotation > r->rpeRotation)
         {
             ++behind;
-            rows += "| " + cell.own->sequence + " | " + cell.own->condition + " | " +
-                    rpeText(*cell.own) + " | " + errorText(t->rpeTranslation, r->rpeRotation) +
-                    " | " + t->method + " / " + r->method + " |\n";
+            lines += cell.own->sequence == sequence ? ", " : "\n- " + cell.own->sequence + ": ";
+            lines += cell.own->condition;
+            sequence = cell.own->sequence;
         }
     }
     if (compared == 0)
@@ -156,10 +152,15 @@ struct Sum
         return "";
     }
     return text("\nBehind the best peer in %zu of %zu cells", behind, compared) +
-           (behind == 0 ? ".\n"
-                        : ":\n\n| sequence | condition | RPE | best peer's | translation / "
-                          "rotation |\n|---|---|---|---|---|\n" +
-                              rows);
+           (behind == 0 ? ".\n" : ":\n" + lines + "\n");
+}
+
+[[nodiscard]] bool hasOneCondition(const std::vector<EnvelopeScore>& scores)
+{
+    return std::all_of(
+        scores.begin(),
+        scores.end(),
+        [&](const EnvelopeScore& s) { return s.condition == scores.front().condition; });
 }
 }  // namespace
 
@@ -173,8 +174,10 @@ std::string envelopeSummary(const std::vector<EnvelopeScore>& scores)
     const auto method = [](const EnvelopeScore& s) { return s.isPeer ? "" : s.method; };
     const auto condition = [&own](const EnvelopeScore& s)
     { return s.method == own ? s.condition : ""; };
-    return sumTable(scores, "all with exact truth", method) + "\n" +
-           sumTable(scores, own + ", by condition", condition) + behindPeers(scores);
+    return sumTable(scores, "all with exact truth", method) +
+           (hasOneCondition(scores) ? ""
+                                    : "\n" + sumTable(scores, own + ", by condition", condition)) +
+           behindPeers(scores);
 }
 
 std::string envelopeTables(const std::vector<EnvelopeScore>& scores)

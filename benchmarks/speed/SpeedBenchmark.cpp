@@ -14,8 +14,10 @@
 #include <optional>
 #include <ostream>
 #include <sstream>
+#include <utility>
 
 #include "FrameTimes.h"
+#include "MarkdownGrid.h"
 #include "markdown_section.h"
 #include "methods.h"
 #include "sequences.h"
@@ -76,7 +78,7 @@ std::size_t SpeedBenchmark::numFrames(const BenchmarkSequence& sequence) const
     return maxFrames_ == 0 ? sequence.numFrames : std::min(maxFrames_, sequence.numFrames);
 }
 
-std::string SpeedBenchmark::wholeTable(const BenchmarkSequence& sequence) const
+std::string SpeedBenchmark::wholeTable(const BenchmarkSequence& sequence, MarkdownGrid& times) const
 {
     std::vector<Contender> all;
     for (const char* name : kConfigs)
@@ -100,6 +102,16 @@ std::string SpeedBenchmark::wholeTable(const BenchmarkSequence& sequence) const
             c.wall.addWall([&] { (void)c.twoThreads->process(frame); });
         }
     }
+    for (const Contender& c : all)
+    {
+        times.add(c.name, sequence.name, number(c.cpu.median()) + " / " + number(c.cpu.p99()));
+    }
+    for (std::size_t i = 0; i < std::size(kConfigs); ++i)
+    {
+        const FrameTimes& wall = all[i].wall;
+        const std::string text = number(wall.median()) + " / " + number(wall.p99());
+        times.add(all[i].name + ", two threads", sequence.name, text);
+    }
     std::ostringstream out;
     out << "| method | one thread, median ms | p99 | two threads, median ms | p99 |"
         << (oursAlone_ ? "\n" : " times RgbdICP | times Rgbd |\n") << "|---|---|---|---|---|"
@@ -120,13 +132,20 @@ std::string SpeedBenchmark::wholeTable(const BenchmarkSequence& sequence) const
     return out.str();
 }
 
-std::string SpeedBenchmark::stageTable(const BenchmarkSequence& sequence) const
+std::string SpeedBenchmark::stageTable(
+    const BenchmarkSequence& sequence, MarkdownGrid& shares) const
 {
     struct Stages
     {
         std::unique_ptr<Odometry> odometry;
         FrameTimes points, planes, matching, pose, rest, total;
     };
+    static const std::pair<const char*, FrameTimes Stages::*> kStages[] = {
+        {"pyramid or key points", &Stages::points},
+        {"planes", &Stages::planes},
+        {"matching and tracking", &Stages::matching},
+        {"pose", &Stages::pose},
+        {"references and the rest", &Stages::rest}};
     cv::setNumThreads(1);
     Stages all[std::size(kConfigs)];
     for (std::size_t i = 0; i < std::size(kConfigs); ++i)
@@ -151,16 +170,24 @@ std::string SpeedBenchmark::stageTable(const BenchmarkSequence& sequence) const
         extraction.addCpu([&] { (void)extractor.extract(frame.depth, frame.camera); });
     }
     std::ostringstream out;
-    out << "| share of the mean time, % | pyramid or key points | planes | matching and tracking | "
-           "pose | references and the rest |\n"
-        << "|---|---|---|---|---|---|\n";
+    out << "| share of the mean time, % |";
+    for (const auto& [name, times] : kStages)
+    {
+        out << ' ' << name << " |";
+    }
+    out << "\n|---|---|---|---|---|---|\n";
     for (std::size_t i = 0; i < std::size(kConfigs); ++i)
     {
         const Stages& s = all[i];
         out << "| " << kConfigs[i];
-        for (const FrameTimes* t : {&s.points, &s.planes, &s.matching, &s.pose, &s.rest})
+        for (const auto& [name, times] : kStages)
         {
-            out << " | " << std::lround(100 * t->mean() / s.total.mean());
+            const long share = std::lround(100 * (s.*times).mean() / s.total.mean());
+            out << " | " << share;
+            if (i == 0)
+            {
+                shares.add(sequence.name, name, std::to_string(share));
+            }
         }
         out << " |\n";
     }
@@ -175,19 +202,20 @@ void SpeedBenchmark::run(std::ostream& out, std::ostream& err) const
     {
         checkMarkdownSection(markdownFile_, "speed");
     }
-    std::string page = "\n";
+    MarkdownGrid times, shares;
     for (const SequenceSource& source : tumSequences(data_))
     {
         const BenchmarkSequence sequence = source.open();
         err << source.name << " (" << numFrames(sequence) << " frames)\n";
-        const std::string text = "### " + source.name + " (" + std::to_string(numFrames(sequence)) +
-                                 " frames)\n\n" + wholeTable(sequence) + "\n" +
-                                 stageTable(sequence) + "\n";
-        out << text << std::flush;
-        page += text;
+        out << "### " << source.name << " (" << numFrames(sequence) << " frames)\n\n"
+            << wholeTable(sequence, times) << "\n";
+        out << stageTable(sequence, shares) << "\n" << std::flush;
     }
     if (!markdownFile_.empty())
     {
+        const std::string page = "\nMilliseconds, median / 99th percentile:\n\n" +
+                                 times.markdown("method") + "\nStages of " + kConfigs[0] +
+                                 ", % of the mean time:\n\n" + shares.markdown("sequence") + "\n";
         replaceMarkdownSection(markdownFile_, "speed", page);
     }
 }

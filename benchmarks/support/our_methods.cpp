@@ -77,9 +77,7 @@ std::vector<NamedMethod> ourMethods(const std::string& configDirectory)
         {"frame to frame", standard, {"Reference.reference=previous"}},
         {"unweighted", standard, {"PoseSolver.weighting=none"}},
         {"config-fast.ini", fast, {}},
-        {"config-paper.ini", paper, {}},
-        {"paper, points alone", paper, {"Pipeline.usePlanes=false"}},
-        {"paper, unweighted", paper, {"PoseSolver.weighting=none"}}};
+        {"config-paper.ini", paper, {}}};
     std::vector<NamedMethod> out;
     for (auto [name, file, settings] : variants)
     {

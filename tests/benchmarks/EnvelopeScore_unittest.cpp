@@ -210,7 +210,9 @@ TEST(EnvelopeTables, CellsBehindAPeerAreNamed)
     peer.isPeer = true;
     steps[12].T_prev_cur.translation().x() = 0.06;
     const EnvelopeScore own = scoreOf(sequence, steps);
-    EXPECT_THAT(envelopeSummary({own, peer}), HasSubstr("Behind the best peer in 1 of 1 cells:"));
+    EXPECT_THAT(
+        envelopeSummary({own, peer}),
+        HasSubstr("Behind the best peer in 1 of 1 cells:\n\n- straight: 10 Hz\n"));
     EXPECT_THAT(envelopeTables({own, peer}), HasSubstr("| 10 Hz | 30 | 100 |"));
     EXPECT_THAT(envelopeTables({own, peer}), HasSubstr("**1**"));
     peer.rpeTranslation = 1;
@@ -218,7 +220,7 @@ TEST(EnvelopeTables, CellsBehindAPeerAreNamed)
     EXPECT_THAT(envelopeSummary({own, peer}), HasSubstr("Behind the best peer in 0 of 1 cells."));
 }
 
-TEST(EnvelopeTables, OverviewHasAColumnPerSequence)
+TEST(EnvelopeTables, OverviewHasALinePerSequence)
 {
     const BenchmarkSequence sequence = straight(31);
     std::vector<MethodStep> steps = perfect(sequence);
@@ -227,23 +229,29 @@ TEST(EnvelopeTables, OverviewHasAColumnPerSequence)
     peer.isPeer = true;
     peer.rpeTranslation = 0.0123;
     steps[12].T_prev_cur.translation().x() = 0.06;
-    const EnvelopeScore own = scoreOf(sequence, steps);
-    // Under a single condition, a sequence has a line of its own.
+    EnvelopeScore own = scoreOf(sequence, steps);
+    // Under a single condition, sequences are told in full.
     EXPECT_THAT(
         envelopeOverview({own, peer}),
-        HasSubstr(
-            "| " + own.sequence + " | 100 | **" + lengthText(own.rpeTranslation) + "** (12) |"));
-    EnvelopeScore slow = own, other = own;
+        HasSubstr("| " + own.sequence + " | **" + lengthText(own.rpeTranslation) + "** (12) |"));
+    EXPECT_THAT(envelopeSummary({own, peer}), Not(HasSubstr("by condition")));
+
+    own.rpeTranslation = 0.004;
+    own.rpeRotation = 0;
+    EnvelopeScore slow = own, slower = own;
     slow.condition = "3 Hz";
     slow.beyond.clear();
     slow.rpeTranslation = 0.0045;
-    other.sequence = "other";
-    EnvelopeScore otherSlow = other;
-    otherSlow.condition = "6 Hz";
-    const std::string all = envelopeOverview({own, peer, slow, other, otherSlow});
-    EXPECT_THAT(all, HasSubstr("| condition | " + own.sequence + " | other |"));
-    EXPECT_THAT(all, HasSubstr("| 3 Hz | 4.5 | |"));
-    EXPECT_THAT(all, Not(HasSubstr("At 30 Hz only")));
+    slower.condition = "2 Hz";
+    slower.rpeTranslation = 1;
+    EXPECT_THAT(envelopeSummary({own, slow}), HasSubstr("by condition"));
+    const std::string all = envelopeOverview({own, peer, slow, slower});
+    EXPECT_THAT(all, HasSubstr("| straight | 3 | 4.5 / 0.00 | 12 / 0.00 | 2 |"));
+    EXPECT_THAT(all, Not(HasSubstr("worst step")));
+    EXPECT_THAT(envelopeOverview({own, slow}), HasSubstr("| straight | 2 | 4.5 / 0.00 | 1 |"));
+
     slow.truth = Truth::None;
-    EXPECT_THAT(envelopeOverview({slow}), HasSubstr("| 3 Hz | 100 %, 60 |"));
+    slower.truth = Truth::None;
+    slower.numTracked = slower.numSteps / 2;
+    EXPECT_THAT(envelopeOverview({slow, slower}), HasSubstr("| straight | 2 | 100 | 50 | 60 |"));
 }

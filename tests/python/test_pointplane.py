@@ -365,10 +365,11 @@ time.sleep(0.2)
                 pointplane.VisualOdometry("", wrong)
 
 
-class Readme(unittest.TestCase):
-    def test_its_lines_run_as_they_are_written(self):
+class Documents(unittest.TestCase):
+    def test_their_lines_run_as_they_are_written(self):
         root = pathlib.Path(__file__).parents[2]
-        code = re.search(r"```python\n(.*?)```", (root / "README.md").read_text(), re.S).group(1)
+        pages = [(root / page).read_text() for page in ("docs/python.md", "README.md")]
+        images, rawlog = (re.search(r"```python\n(.*?)```", page, re.S).group(1) for page in pages)
         rows, columns = np.mgrid[0:480, 0:640]
         names = {
             "depth": (2 + 0.001 * columns).astype(np.float32),
@@ -381,7 +382,9 @@ class Readme(unittest.TestCase):
             before = os.getcwd()
             os.chdir(folder)
             try:
-                exec(code, names)
+                exec(images, names)
+                self.assertEqual(names["result"].status, "first")
+                exec(rawlog, names)
             finally:
                 os.chdir(before)
         self.assertEqual(names["result"].status, "tracked")

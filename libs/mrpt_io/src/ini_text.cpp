@@ -47,11 +47,11 @@ std::string markdownText(const ParameterTable& table, const std::string& firstEx
             out << (section.empty() ? "" : "\n")
                 << (p.section == firstExpert ? "**For experts:** " + std::string(kExpert) + "\n\n"
                                              : "")
-                << "### [" << p.section
-                << "]\n\n| key | default | unit | meaning |\n|---|---|---|---|\n";
+                << "### [" << p.section << "]\n\n| key | default | meaning |\n|---|---|---|\n";
             section = p.section;
         }
-        out << "| `" << p.key << "` | " << p.text() << " | " << p.unit << " | " << p.help << " |\n";
+        const std::string unit = p.unit == "-" ? "" : " " + p.unit;
+        out << "| `" << p.key << "` | " << p.text() << unit << " | " << p.help << " |\n";
     }
     return out.str();
 }
