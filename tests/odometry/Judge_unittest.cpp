@@ -126,6 +126,25 @@ TEST(Judge, surfacesThatAreNotWhereTheyShouldBeContradict)
     EXPECT_THAT(a.reason, testing::HasSubstr("only 40 %"));
 }
 
+/** Of a motion that nothing foresaw, surfaces and points may say little; planes say more. */
+TEST(Judge, planesThatAreElsewhereContradict)
+{
+    for (const double sigma : {kCertain, kUncertain})
+    {
+        for (const double rise : {20.0, 300.0})
+        {
+            Alignment a = makeAlignment(sigma);
+            a.agreement = {600, 0, 400};
+            a.estimate.numPointInliers = 100;
+            a.estimate.planeChi2PerDof = rise;
+            const Judge judge{OdometryParams{}};
+            judge.judge(a);
+            judge.contradict(a, kUsual);
+            EXPECT_EQ(a.holds, rise == 20) << a.reason;
+        }
+    }
+}
+
 TEST(Judge, farFromThePredictionOnlyWhatConvincesIsBelieved)
 {
     for (const double rise : {1.0, 10.0})

@@ -137,6 +137,19 @@ TEST(RivalMotions, theLoserAndPointsOfNeitherAreLeftOut)
     EXPECT_EQ(associations[1].movingPlanes.size(), 1U);
 }
 
+/** All of its points seem to have moved, and none agree with the others. */
+TEST(RivalMotions, aReferenceWhosePoseIsOffIsNoMotion)
+{
+    PoseProblem problem = emptyProblem();
+    addPoints(10, 10, 0, 2, {0, 0, 0}, problem);
+    addPoints(6, 10, 0, 2, {0.03, 0, 0}, problem);
+    for (size_t i = 100; i < problem.points.size(); ++i)
+    {
+        problem.points[i].reference = 1;
+    }
+    EXPECT_FALSE(rivalryIn(problem));
+}
+
 TEST(RivalMotions, wrongMatchesAreNoMotion)
 {
     PoseProblem problem = emptyProblem();

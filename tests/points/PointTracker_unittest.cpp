@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/quantile.h>
 #include <pointplane/points/PointTracker.h>
 
 #include <Eigen/Geometry>
@@ -408,8 +409,36 @@ TEST(PointTracker, EdgesTellTheDirectionAcrossThem)
         const Eigen::Matrix3d information =
             metrePerPixel * metrePerPixel * t.cur.p_cam.cov.inverse();
         EXPECT_GT(across.dot(information * across), 1 / (0.4 * 0.4));
-        EXPECT_LT(along.dot(information * along), 1 / (10.0 * 10.0));
+        EXPECT_LT(along.dot(information * along), across.dot(information * across) / 1000);
     }
+}
+
+TEST(PointTracker, NoiseOfTheFrameIsThatOfItsTracks)
+{
+    const PointTracker tracker = makeTracker();
+    const PointReference reference = tracker.makeReference(wall({0, 0}, 1));
+    const auto addedBy = [&](double noise)
+    {
+        RgbdFrame frame = wall({0, 0}, 2);
+        test::GaussianSampler random(3);
+        for (auto& grey : cv::Mat_<uchar>(frame.gray))
+        {
+            grey = cv::saturate_cast<uchar>(grey + noise * random.normal());
+        }
+        const double metrePerPixel = kDepth / frame.camera.fy;
+        std::vector<double> stated;  // across the ray [px^2]
+        for (const PointTrack& t : tracker.track(
+                 reference, frame, tracker.pyramid(frame.gray), Eigen::Isometry3d::Identity()))
+        {
+            stated.push_back(t.cur.p_cam.cov(1, 1) / (metrePerPixel * metrePerPixel));
+        }
+        return stated.empty() ? 0 : *std::min_element(stated.begin(), stated.end());
+    };
+    // The best track has the frame's noise, and hardly any of its own.
+    const double sigma = 0.05, clear = addedBy(0) - sigma * sigma;
+    EXPECT_GT(clear, 0);
+    EXPECT_GT(addedBy(6) - sigma * sigma, 4 * clear) << "noise of 6.2 grey levels, not 1.5";
+    EXPECT_LT(addedBy(6) - sigma * sigma, 30 * clear);
 }
 
 /** The camera has rolled: the direction that an edge does not tell has turned with its image. */
@@ -426,13 +455,14 @@ TEST(PointTracker, EdgesTurnWithTheCamera)
         2);
     const auto tracks = tracker.track(reference, frame, tracker.pyramid(frame.gray), roll());
     ASSERT_GT(tracks.size(), 5U);
+    const Eigen::Vector3d across = roll() * Eigen::Vector3d(0.8, 0.6, 0);
     const Eigen::Vector3d along = roll() * Eigen::Vector3d(-0.6, 0.8, 0);
     for (const PointTrack& t : tracks)
     {
         const double metrePerPixel = kDepth / frame.camera.fx;
         const Eigen::Matrix3d information =
             metrePerPixel * metrePerPixel * t.cur.p_cam.cov.inverse();
-        EXPECT_LT(along.dot(information * along), 1 / (10.0 * 10.0));
+        EXPECT_LT(along.dot(information * along), across.dot(information * across) / 1000);
     }
 }
 

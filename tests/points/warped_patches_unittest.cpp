@@ -3,10 +3,12 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
 
 #include <cmath>
 
+#include "monte_carlo.h"
 #include "texture.h"
 #include <gtest/gtest.h>
 
@@ -100,6 +102,62 @@ TEST(WarpedPatches, constantBrightnessFollowsASlope)
                     .refine(0, slope(4), Matrix2d::Identity(), position));
     EXPECT_NEAR(position.x, 19.5, 1e-4);
     EXPECT_EQ(position.y, 20);
+}
+
+/** By hand: every pixel is 3 grey levels off, in turns, so the mean square is 9. Four pixels tell
+ * as much as one; the slope of 8 levels per pixel over 15 x 15 pixels tells the position by 8. */
+TEST(WarpedPatches, whatDoesNotFitIsNoise)
+{
+    const auto slope = [](double off)
+    {
+        return test::renderImage(
+            40,
+            40,
+            [=](double u, double v)
+            {
+                const bool isEven = (std::lround(u) + std::lround(v)) % 2 == 0;
+                return 8 * (u - 5) + (isEven ? off : -off);
+            });
+    };
+    cv::Point2f position(20, 20);
+    const auto variance = patchAt(slope(0), position, Vector2d(1, 0), Brightness::Constant)
+                              .refine(0, slope(3), Matrix2d::Identity(), position);
+    ASSERT_TRUE(variance);
+    EXPECT_NEAR(*variance, 4 * 9.0 / (15 * 15 * 8 * 8), 1e-4);
+
+    position = {70, 55};
+    const auto same = patchAt(textured(1), position, kBoth)
+                          .refine(0, textured(1), Matrix2d::Identity(), position);
+    ASSERT_TRUE(same);
+    EXPECT_NEAR(*same, 0, 1e-9);
+}
+
+/** Noise that is the same in squares of 2 x 2 pixels moves the position as much as is stated. */
+TEST(WarpedPatches, theVarianceIsThatOfManyImages)
+{
+    test::GaussianSampler random(1);
+    double stated = 0, squares = 0;
+    constexpr int kImages = 300;
+    for (int k = 0; k < kImages; ++k)
+    {
+        const cv::Mat image = textured(static_cast<unsigned>(k % 10 + 1));
+        cv::Mat noise(image.rows / 2, image.cols / 2, CV_32FC1), noisy;
+        for (auto& value : cv::Mat_<float>(noise))
+        {
+            value = static_cast<float>(3 * random.normal());
+        }
+        cv::resize(noise, noise, image.size(), 0, 0, cv::INTER_NEAREST);
+        cv::add(image, noise, noisy, cv::noArray(), CV_8U);
+        cv::Point2f position(70, 55);
+        const auto variance =
+            patchAt(image, position, kBoth).refine(0, noisy, Matrix2d::Identity(), position);
+        ASSERT_TRUE(variance);
+        stated += *variance / kImages;
+        squares +=
+            (Vector2d(position.x, position.y) - Vector2d(70, 55)).squaredNorm() / 2 / kImages;
+    }
+    EXPECT_GT(squares / stated, 0.75);
+    EXPECT_LT(squares / stated, 1.25);
 }
 
 TEST(WarpedPatches, moveAlongMeasuredDirectionsOnly)

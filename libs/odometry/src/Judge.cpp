@@ -34,6 +34,9 @@ constexpr double kConvincingRise = 4;
  * world and that of what moves. */
 constexpr double kNoMotionRise = kConvincingRise * kConvincingRise;
 
+/** Residuals ten times as large as usual, squared: planes are not where the motion puts them. */
+constexpr double kElsewhereRise = 100;
+
 /** How many directions the measurements know better than the motion model does. */
 int observableDirections(const Matrix6d& information, const Matrix6d& priorCovariance)
 {
@@ -251,6 +254,11 @@ void Judge::contradict(Alignment& alignment, const NoiseFactors& usual) const
                << "points in view " << alignment.estimate.numPointInliers << " of "
                << alignment.numSought << ", of the surfaces " << std::lround(100 * agreement)
                << " %";
+    }
+    else if (alignment.estimate.planeChi2PerDof > kElsewhereRise * std::max(1.0, usual.planes))
+    {
+        reason << "planes are " << std::lround(std::sqrt(alignment.estimate.planeChi2PerDof))
+               << " standard deviations from where the motion puts them";
     }
     else if (isOfDoubtfulPlanes(alignment))
     {

@@ -49,16 +49,10 @@ Pairs chosen(const Pairs& pairs, Keep keep)
     return out;
 }
 
-struct SecondMotion
-{
-    Motion motion;
-    int reference{0};  //!< whose points tell it
-};
-
 /** Motion of the points that disagree with an estimate, of the reference that most of them are of:
  * what moves has another place in each reference, so it has one motion only for one of them.
  * \param limit squared norm up to which points agree */
-std::optional<SecondMotion> secondMotion(
+std::optional<Motion> secondMotion(
     const PoseSolver& solver,
     const PoseProblem& problem,
     const PoseEstimate& estimate,
@@ -81,7 +75,7 @@ std::optional<SecondMotion> secondMotion(
     const auto isOfRest = [&](size_t i)
     { return disagrees(i) && problem.points[i].reference == most->first; };
     const PoseProblem rest{chosen(problem.points, isOfRest), {}, problem.prior, problem.noise};
-    return SecondMotion{solver.solve(rest, estimate.motion.mean).motion.mean, most->first};
+    return solver.solve(rest, estimate.motion.mean).motion.mean;
 }
 
 std::vector<Side> sides(
@@ -97,21 +91,32 @@ std::vector<Side> sides(
     return out;
 }
 
-/** Whether enough points of a reference tell two motions apart, of those that agree with any. */
-bool areDistinct(
-    const std::vector<PointPair>& points, const std::vector<Side>& sides, int reference)
+/** Whether a reference tells two motions apart, by enough of its points that agree with any. Both
+ * motions need points there: else it is the reference's own pose that is off. */
+bool areDistinct(const std::vector<PointPair>& points, const std::vector<Side>& sides)
 {
-    double tell = 0, both = 0, second = 0;
+    struct Counts
+    {
+        int both{0}, first{0}, second{0};
+    };
+    std::map<int, Counts> counts;
     for (size_t i = 0; i < points.size(); ++i)
     {
-        if (points[i].reference == reference)
-        {
-            both += sides[i] == Side::Both ? 1 : 0;
-            second += sides[i] == Side::Second ? 1 : 0;
-            tell += sides[i] == Side::First || sides[i] == Side::Second ? 1 : 0;
-        }
+        Counts& ofReference = counts[points[i].reference];
+        ofReference.both += sides[i] == Side::Both ? 1 : 0;
+        ofReference.first += sides[i] == Side::First ? 1 : 0;
+        ofReference.second += sides[i] == Side::Second ? 1 : 0;
     }
-    return tell >= kTelling * (tell + both) && second >= kLeastPoints;
+    return std::any_of(
+        counts.begin(),
+        counts.end(),
+        [](const auto& entry)
+        {
+            const Counts& c = entry.second;
+            const int tell = c.first + c.second;
+            return tell >= kTelling * (tell + c.both) &&
+                   std::min(c.first, c.second) >= kLeastPoints;
+        });
 }
 
 /** Surface of the cells of the view in which points are on one side: [m^2]. */
@@ -168,7 +173,7 @@ std::optional<Rivalry> findRivalry(
     {
         return {};
     }
-    out.second = second->motion;
+    out.second = *second;
     const auto split = [&]
     {
         const PairNorms first = solver.norms(problem, out.first);
@@ -186,7 +191,7 @@ std::optional<Rivalry> findRivalry(
             problem.noise};
         return solver.solve(ofOwn, start);
     };
-    const auto areTwo = [&] { return areDistinct(problem.points, out.points, second->reference); };
+    const auto areTwo = [&] { return areDistinct(problem.points, out.points); };
     split();
     if (!areTwo())
     {

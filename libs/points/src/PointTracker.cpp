@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/core/covariance.h>
+#include <pointplane/core/quantile.h>
 #include <pointplane/core/range.h>
 #include <pointplane/points/PointTracker.h>
 
@@ -8,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "local_surface.h"
 #include "reference_patches.h"
@@ -26,6 +28,10 @@ double vignettingBetween(
     return ((from_px - centre).squaredNorm() - (to_px - centre).squaredNorm()) /
            centre.squaredNorm();
 }
+
+/** Where a wide search ends, from the point's place: patches are only shifted there, so a turn of
+ * six degrees costs this much. */
+constexpr double kUnrefined_px = 0.5;
 }  // namespace
 
 struct PointTracker::Search
@@ -35,6 +41,13 @@ struct PointTracker::Search
     bool isWide;
     bool hasDepth{true};  //!< the frame in which points are searched for
     size_t step{1};       //!< every step-th point
+};
+
+struct PointTracker::Found
+{
+    PointTrack track;
+    Eigen::Matrix<double, 3, 2> ofPixel;  //!< change with its pixel [m/px]
+    double variance_px2;                  //!< of its position, as its patch fits
 };
 
 struct PointTracker::Sought
@@ -157,7 +170,7 @@ bool PointTracker::isFound(
 }
 
 /** Exactly where it is, and in space, with what is not known of it. */
-std::optional<PointTrack> PointTracker::trackOf(
+std::optional<PointTracker::Found> PointTracker::trackOf(
     const Sought& point,
     const PointReference& reference,
     const RgbdFrame& frame,
@@ -166,11 +179,15 @@ std::optional<PointTrack> PointTracker::trackOf(
 {
     const PointFeature& ref = reference.points[point.ref];
     cv::Point2f position = point.position;
-    if (!search.isWide &&
-        !reference.patches->refined.refine(
-            point.ref, frame.gray, surfaceWarp(frame.camera, ref, T_cur_ref), position))
+    std::optional<double> variance = kUnrefined_px * kUnrefined_px;
+    if (!search.isWide)
     {
-        return {};
+        variance = reference.patches->refined.refine(
+            point.ref, frame.gray, surfaceWarp(frame.camera, ref, T_cur_ref), position);
+        if (!variance)
+        {
+            return {};
+        }
     }
     const Eigen::Vector2d uv_px = Eigen::Vector2f(position.x, position.y).cast<double>();
     auto feature = search.hasDepth ? lifter_.lift(frame, uv_px)
@@ -184,7 +201,26 @@ std::optional<PointTrack> PointTracker::trackOf(
     feature->p_cam.cov += propagate(J, reference.cov_px[point.ref]);
     feature->ofVignetting_m = J * (vignettingBetween(frame.gray, ref.uv_px, feature->uv_px) *
                                    reference.ofBrightness_px[point.ref]);
-    return PointTrack{static_cast<int>(point.ref), *feature};
+    return Found{{static_cast<int>(point.ref), *feature}, J, *variance};
+}
+
+/** With the noise of their positions: the median of what patches tell. A patch alone may fit well
+ * by chance, or because it is a mark on the image. */
+std::vector<PointTrack> PointTracker::withNoise(const std::vector<Found>& found)
+{
+    std::vector<double> variances;
+    for (const Found& f : found)
+    {
+        variances.push_back(f.variance_px2);
+    }
+    const double variance_px2 = found.empty() ? 0 : median(std::move(variances));
+    std::vector<PointTrack> out;
+    for (const Found& f : found)
+    {
+        out.push_back(f.track);
+        out.back().cur.p_cam.cov += variance_px2 * f.ofPixel * f.ofPixel.transpose();
+    }
+    return out;
 }
 
 std::vector<PointTrack> PointTracker::track(
@@ -194,10 +230,9 @@ std::vector<PointTrack> PointTracker::track(
     const Eigen::Isometry3d& T_cur_ref,
     double radiusFactor) const
 {
-    std::vector<PointTrack> tracks;
     if (!reference.patches || pyramid.empty())
     {
-        return tracks;
+        return {};
     }
     Search search = searchFor(
         radiusFactor * searchRadius_px(frame.gray), radiusFactor > 1, reference.points.size());
@@ -214,16 +249,17 @@ std::vector<PointTrack> PointTracker::track(
                     point.ref, pyramid, search.ofPatch, point.position);
             }
         });
+    std::vector<Found> found;
     for (const Sought& point : sought)
     {
         if (isFound(point, reference, frame.gray, search))
         {
             if (auto track = trackOf(point, reference, frame, T_cur_ref, search))
             {
-                tracks.push_back(*track);
+                found.push_back(*track);
             }
         }
     }
-    return tracks;
+    return withNoise(found);
 }
 }  // namespace pointplane

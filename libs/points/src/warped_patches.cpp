@@ -12,6 +12,8 @@ namespace
 {
 constexpr int kIterations = 2;
 constexpr float kFarthest_px = 2;
+// What does not fit is much the same at neighbours: 2 x 2 pixels tell as much as one.
+constexpr double kPixelsAlike = 4;
 
 /** Bilinear. \pre canSample(image, pixel), up to rounding */
 float greyAt(const cv::Mat& image, const Eigen::Vector2f& pixel)
@@ -44,14 +46,16 @@ void WarpedPatches::reserve(std::size_t patches, int halfPx)
 void WarpedPatches::add(const Patch& patch, Brightness brightness, const Directions& measured)
 {
     const cv::Rect& pixels = patch.pixels();
+    const Eigen::Matrix2d ofGradient =
+        measured * (measured.transpose() * patch.structure(brightness) * measured).inverse() *
+        measured.transpose();
     patches_.push_back(
         {cv::Rect2f(cv::Rect(pixels.tl(), pixels.size() - cv::Size(1, 1))) - patch.centre(),
          pixels.width,
          pixels.height,
-         samples_.size()});
-    const Eigen::Matrix2d ofGradient =
-        measured * (measured.transpose() * patch.structure(brightness) * measured).inverse() *
-        measured.transpose();
+         samples_.size(),
+         brightness == Brightness::Shifted,
+         ofGradient.trace() / static_cast<double>(std::max<Eigen::Index>(1, measured.cols()))});
     const Eigen::Vector2d explained = patch.explained(brightness);
     for (Eigen::Index i = 0; i < patch.greys().size(); ++i)
     {
@@ -60,14 +64,13 @@ void WarpedPatches::add(const Patch& patch, Brightness brightness, const Directi
     }
 }
 
-/** In the reference's image. */
-Eigen::Vector2f WarpedPatches::step(
+WarpedPatches::Step WarpedPatches::step(
     const Samples& patch,
     const cv::Mat& image,
     const Eigen::Matrix2f& warp,
     const Eigen::Vector2f& position) const
 {
-    Eigen::Vector2f out(0, 0);
+    Step out;
     const Sample* sample = samples_.data() + patch.begin;
     Eigen::Vector2f row = position + warp * Eigen::Vector2f(patch.pixels.x, patch.pixels.y);
     for (int y = 0; y < patch.rows; ++y, row += warp.col(1))
@@ -75,13 +78,16 @@ Eigen::Vector2f WarpedPatches::step(
         Eigen::Vector2f pixel = row;
         for (int x = 0; x < patch.columns; ++x, pixel += warp.col(0), ++sample)
         {
-            out += sample->gain * (greyAt(image, pixel) - sample->grey);
+            const float brighter = greyAt(image, pixel) - sample->grey;
+            out.shift += sample->gain * brighter;
+            out.sum += brighter;
+            out.sumOfSquares += brighter * brighter;
         }
     }
     return out;
 }
 
-bool WarpedPatches::refine(
+std::optional<double> WarpedPatches::refine(
     std::size_t patch,
     const cv::Mat& image,
     const Eigen::Matrix2d& warp,
@@ -91,6 +97,7 @@ bool WarpedPatches::refine(
     const Eigen::Matrix2f A = warp.cast<float>();
     const Eigen::Vector2f start(position.x, position.y);
     Eigen::Vector2f found = start;
+    Step last;
     const auto isInside = [&](float x, float y)
     { return canSample(image, found + A * Eigen::Vector2f(x, y)); };
     for (int i = 0; i < kIterations; ++i)
@@ -99,16 +106,20 @@ bool WarpedPatches::refine(
         if (!(isInside(r.x, r.y) && isInside(r.x + r.width, r.y) && isInside(r.x, r.y + r.height) &&
               isInside(r.x + r.width, r.y + r.height)))
         {
-            return false;
+            return {};
         }
-        found += A * step(p, image, A, found);
+        last = step(p, image, A, found);
+        found += A * last.shift;
         if (!((found - start).norm() <= kFarthest_px))  // also for NaN
         {
-            return false;
+            return {};
         }
     }
     position = {found.x(), found.y()};
-    return true;
+    const auto pixels = static_cast<double>(p.rows * p.columns);
+    const double mean = p.isShifted ? static_cast<double>(last.sum) / pixels : 0;
+    const double variance = static_cast<double>(last.sumOfSquares) / pixels - mean * mean;
+    return kPixelsAlike * std::max(0.0, variance) * p.ofGrey;
 }
 
 Likeness WarpedPatches::compare(

@@ -5,6 +5,7 @@
 #include <opencv2/core/mat.hpp>
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "Patch.h"
@@ -35,9 +36,10 @@ class WarpedPatches
     void add(const Patch& patch, Brightness brightness, const Directions& measured);
 
     /** \param image CV_8UC1 \param warp how its pixels move with those of the reference
-     * \param position where the search starts, within a pixel or two; where it ends \return false
-     * where the patch is not all in the image or the search goes astray */
-    [[nodiscard]] bool refine(
+     * \param position where the search starts, within a pixel or two; where it ends
+     * \return its variance in a direction [px^2]: what does not fit in the patch, taken as noise.
+     * Nothing where the patch is not all in the image or the search goes astray */
+    [[nodiscard]] std::optional<double> refine(
         std::size_t patch,
         const cv::Mat& image,
         const Eigen::Matrix2d& warp,
@@ -62,8 +64,17 @@ class WarpedPatches
         cv::Rect2f pixels;  //!< first and last pixel's place from the centre [px]
         int columns, rows;
         std::size_t begin;  //!< of its samples, row by row
+        bool isShifted;     //!< a shift of brightness is solved for
+        double
+            ofGrey;  //!< variance of the position in a direction, per that of a grey value [px^2]
     };
-    [[nodiscard]] Eigen::Vector2f step(
+    /** A step of Gauss-Newton. */
+    struct Step
+    {
+        Eigen::Vector2f shift{0, 0};    //!< in the reference's image [px]
+        float sum{0}, sumOfSquares{0};  //!< of what the image is brighter than the patch [grey]
+    };
+    [[nodiscard]] Step step(
         const Samples& patch,
         const cv::Mat& image,
         const Eigen::Matrix2f& warp,

@@ -34,7 +34,7 @@ class PointTracker
         int numLevels{4};
         double searchRadiusFraction{0.02};
         double minZncc{0.8};
-        double sigmaPx{0.15};
+        double sigmaPx{0.05};
         double depthVarianceFactor{3.0};
 
         template <class V>
@@ -70,7 +70,7 @@ class PointTracker
               minZncc,
               "-",
               "least similarity of a match (zero-mean normalised cross-correlation)");
-            v("sigmaPx", sigmaPx, "px", "noise of a tracked position");
+            v("sigmaPx", sigmaPx, "px", "noise of a tracked position, besides what does not fit in patches");
             v("depthVarianceFactor",
               depthVarianceFactor,
               "-",
@@ -119,6 +119,7 @@ class PointTracker
     struct Search;
     [[nodiscard]] Search searchFor(double radius_px, bool isWide, size_t numPoints) const;
     /** A point of the reference that is looked for. */
+    struct Found;
     struct Sought;
     [[nodiscard]] static std::vector<Sought> inView(
         const PointReference& reference,
@@ -130,12 +131,14 @@ class PointTracker
         const PointReference& reference,
         const cv::Mat& gray,
         const Search& search) const;
-    [[nodiscard]] std::optional<PointTrack> trackOf(
+    [[nodiscard]] std::optional<Found> trackOf(
         const Sought& point,
         const PointReference& reference,
         const RgbdFrame& frame,
         const Eigen::Isometry3d& T_cur_ref,
         const Search& search) const;
+
+    [[nodiscard]] static std::vector<PointTrack> withNoise(const std::vector<Found>& found);
 
     [[nodiscard]] DepthNoise cornerNoise(const DepthNoise& noise) const;
 
