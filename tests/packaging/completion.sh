@@ -23,4 +23,9 @@ expect pointplane-eval r : rpe
 expect pointplane-eval rpe --fixed : --fixed-delta
 expect pointplane-convert t : tum
 expect pointplane-convert tum --cam : --camera
+expect pointplane-simulate desk --camera az : azure
+expect pointplane-simulate cab : cabinet
+expect pointplane-simulate desk --set focalLengthE : focalLengthError=
+expect pointplane-odometry --trajectory-frame r : robot
+expect pointplane-odometry in.rawlog --set Pipeline.maxG : Pipeline.maxGap=
 exit "$failed"
