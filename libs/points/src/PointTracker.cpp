@@ -43,18 +43,18 @@ struct PointTracker::Search
     size_t step{1};       //!< every step-th point
 };
 
-struct PointTracker::Found
-{
-    PointTrack track;
-    Eigen::Matrix<double, 3, 2> ofPixel;  //!< change with its pixel [m/px]
-    double variance_px2;                  //!< of its position, as its patch fits
-};
-
 struct PointTracker::Sought
 {
     size_t ref;
     cv::Point2f predicted, position;
     bool found{false};
+};
+
+struct PointTracker::Found
+{
+    PointTrack track;
+    Eigen::Matrix<double, 3, 2> ofPixel;  //!< change with its pixel [m/px]
+    double variance_px2;                  //!< of its position, as its patch fits
 };
 
 void PointTracker::TParams::check() const

@@ -70,7 +70,10 @@ class PointTracker
               minZncc,
               "-",
               "least similarity of a match (zero-mean normalised cross-correlation)");
-            v("sigmaPx", sigmaPx, "px", "noise of a tracked position, besides what does not fit in patches");
+            v("sigmaPx",
+              sigmaPx,
+              "px",
+              "noise of a tracked position, besides what does not fit in patches");
             v("depthVarianceFactor",
               depthVarianceFactor,
               "-",
@@ -119,8 +122,9 @@ class PointTracker
     struct Search;
     [[nodiscard]] Search searchFor(double radius_px, bool isWide, size_t numPoints) const;
     /** A point of the reference that is looked for. */
-    struct Found;
     struct Sought;
+    /** One that is found, before the noise of its position is known. */
+    struct Found;
     [[nodiscard]] static std::vector<Sought> inView(
         const PointReference& reference,
         const RgbdFrame& frame,
