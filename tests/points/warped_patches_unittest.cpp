@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
 
+#include <array>
 #include <cmath>
 
 #include "monte_carlo.h"
@@ -141,9 +142,10 @@ TEST(WarpedPatches, theVarianceIsThatOfManyImages)
     test::GaussianSampler random(1);
     double stated = 0, squares = 0;
     constexpr int kImages = 300;
+    const std::array<cv::Mat, 3> images{textured(1), textured(2), textured(3)};
     for (int k = 0; k < kImages; ++k)
     {
-        const cv::Mat image = textured(static_cast<unsigned>(k % 10 + 1));
+        const cv::Mat& image = images[static_cast<size_t>(k) % images.size()];
         cv::Mat noise(image.rows / 2, image.cols / 2, CV_32FC1), noisy;
         for (auto& value : cv::Mat_<float>(noise))
         {
