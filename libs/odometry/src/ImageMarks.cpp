@@ -185,6 +185,13 @@ void ImageMarks::split(Association& association) const
                                             : others;
         kind.push_back(track);
     }
+    const size_t leftOut = association.fixedPoints.size() + association.doubtedPoints.size();
+    if (areKnown_ && leftOut > others.size())
+    {
+        association.doubtedPoints.insert(
+            association.doubtedPoints.end(), others.begin(), others.end());
+        others.clear();
+    }
     association.points = std::move(others);
 }
 
