@@ -231,17 +231,39 @@ TEST(ImageMarks, onceMarksAreKnownNothingThatStandsCounts)
     EXPECT_EQ(marks.whyNoPoint({moved.association}), "");
 }
 
-TEST(ImageMarks, whatIsFoundWhereAMarkIsDoesNotCount)
+/** How many points of an association count, of which a share is found where marks are. */
+size_t countingOf(double shareAtMarks)
 {
     const ImageMarks marks = thatKnows();
-    Pair onMarks([](const PointFeature& point)
-                 { return pointAt(point.uv_px + Eigen::Vector2d(40, 2), 2); });
-    Pair between([](const PointFeature& point)
-                 { return pointAt(point.uv_px + Eigen::Vector2d(20, 2), 2); });
-    (void)onMarks.split(marks);
-    (void)between.split(marks);
-    EXPECT_EQ(onMarks.association.points.size(), 6);  // beyond the image
-    EXPECT_TRUE(between.association.doubtedPoints.empty());
+    Pair pair(stays);
+    std::vector<PointTrack>& points = pair.association.points;
+    const size_t atMarks = std::lround(shareAtMarks * static_cast<double>(points.size()));
+    for (size_t i = 0; i < points.size(); ++i)
+    {
+        const PointFeature& ref = pair.reference.points.points[i];
+        const double toRight_px = ref.uv_px.x() < 160 ? 40 : -40;  // from mark to mark
+        const double shift_px = i < atMarks ? toRight_px : toRight_px / 2;
+        points[i].cur = pointAt(ref.uv_px + Eigen::Vector2d(shift_px, 2), 2);
+    }
+    (void)pair.split(marks);
+    EXPECT_EQ(
+        pair.association.points.size() + pair.association.doubtedPoints.size(),
+        pair.reference.points.points.size());
+    return pair.association.points.size();
+}
+
+TEST(ImageMarks, whatIsFoundWhereAMarkIsDoesNotCount)
+{
+    const size_t all = countingOf(0);
+    EXPECT_GT(all, 40);
+    EXPECT_EQ(countingOf(0.25), std::lround(0.75 * static_cast<double>(all)));
+}
+
+/** The others may be marks, too, that are taken for their neighbours. */
+TEST(ImageMarks, amongMarksNoPointCounts)
+{
+    EXPECT_GT(countingOf(0.49), 20);
+    EXPECT_EQ(countingOf(0.55), 0);
 }
 
 TEST(ImageMarks, whatShouldHaveMovedIsAMark)

@@ -185,6 +185,7 @@ void ImageMarks::split(Association& association) const
                                             : others;
         kind.push_back(track);
     }
+    // Among many marks, one is easily taken for its neighbour, and seems to have moved.
     const size_t leftOut = association.fixedPoints.size() + association.doubtedPoints.size();
     if (areKnown_ && leftOut > others.size())
     {

@@ -39,7 +39,7 @@ class ImageMarks
 
     /** Takes points that stand in the image out of an association: to fixedPoints if the depth
      * behind many of them has changed, else to doubtedPoints once marks are known, as points that
-     * are found where a mark is. */
+     * are found where a mark is. If these are most of the points, no point counts. */
     void split(Association& association) const;
 
     [[nodiscard]] bool areKnown() const { return areKnown_; }
