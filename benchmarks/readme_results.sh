@@ -72,8 +72,8 @@ group() { # yes, other seeds or no; heading
     echo
     echo "| RPE over 1 s [mm] | config.ini | config-fast.ini | best peer | ahead | NEES |"
     echo "|---|---|---|---|---|---|"
-    group yes "recordings used for tuning"
-    group "other seeds" "simulated, with other seeds"
+    group yes "used for tuning"
+    group "other seeds" "with other seeds"
     group no "not used for tuning"
     echo
 } >"$work/results"
