@@ -53,7 +53,7 @@ group() { # yes, other seeds or no; heading
             if (!(name in least) || value + 0 < least[name] + 0) least[name] = value
             if (!(name in most) || value + 0 > most[name] + 0) most[name] = value
         }
-        function range(name) { return name in least ? least[name] " to " most[name] : "-" }
+        function range(name) { return name in least ? least[name] "–" most[name] : "-" }
         $2 == kind {
             ++n
             add("ours", $3)
@@ -70,54 +70,57 @@ group() { # yes, other seeds or no; heading
 }
 {
     echo
-    echo "| recordings | config.ini [mm] | config-fast.ini [mm] | best peer [mm] | config.ini is ahead in | its NEES |"
+    echo "| RPE over 1 s [mm] | config.ini | config-fast.ini | best peer | ahead | NEES |"
     echo "|---|---|---|---|---|---|"
-    group yes "on which parameters were chosen"
-    group "other seeds" "of simulated scenes, other seeds"
-    group no "on which none was chosen"
+    group yes "used for tuning"
+    group "other seeds" "with other seeds"
+    group no "not used for tuning"
     echo
 } >"$work/results"
 replace README.md results "$work/results"
 
-# Bars on a logarithmic scale, ours above the best peer's; first where parameters were chosen.
+# Bars on a logarithmic scale, ours above the best peer's; first where parameters were chosen. The letters are
+# large: README shows the picture small.
 awk -F '|' '
     function x(mm) { return left + width * log(mm / least) / log(most / least) }
-    function bar(y, mm, colour, label) {
-        body = body sprintf("<rect x=\"%d\" y=\"%d\" width=\"%.1f\" height=\"9\" fill=\"%s\"/>\n",
+    function bar(y, mm, colour) {
+        body = body sprintf("<rect x=\"%d\" y=\"%d\" width=\"%.1f\" height=\"10\" fill=\"%s\"/>\n",
             left, y, x(mm) - left, colour)
-        body = body sprintf("<text x=\"%.1f\" y=\"%d\" class=\"v\">%s</text>\n", x(mm) + 4, y + 8, label)
+        body = body sprintf("<text x=\"%.1f\" y=\"%d\" class=\"v\">%s</text>\n", x(mm) + 4, y + 10, mm)
     }
     function group(kind, heading,    i, label, n) {
         for (i = 0; i < count; ++i) {
             if (chosen[i] != kind) continue
             if (!n++) {
-                body = body sprintf("<text x=\"8\" y=\"%d\" class=\"h\">%s</text>\n", y + 13, heading)
-                y += 22
+                body = body sprintf("<text x=\"8\" y=\"%d\" class=\"h\">%s</text>\n", y + 15, heading)
+                y += 23
             }
             label = name[i]; sub(/_part$/, "", label); sub(/^tum_/, "", label); gsub(/_/, " ", label)
-            sub(/structure notexture/, "notexture", label); sub(/icl living room/, "ICL", label)
-            body = body sprintf("<text x=\"%d\" y=\"%d\" class=\"n\">%s</text>\n", left - 8, y + 14, label)
-            bar(y, ours[i], "#0072b2", ours[i])
-            bar(y + 10, peer[i], "#a3acb5", peer[i] " " by[i])
-            y += 26
+            sub(/structure notexture far/, "notexture", label); sub(/icl living room/, "ICL", label)
+            sub(/^simulated /, "", label); sub(/ lidar bedroom/, "", label); sub(/ fixed person/, "", label)
+            body = body sprintf("<text x=\"%d\" y=\"%d\" class=\"n\">%s</text>\n", left - 8, y + 16, label)
+            bar(y, ours[i], "#0072b2")
+            bar(y + 11, peer[i], "#a3acb5")
+            y += 27
         }
-        if (n) y += 6
+        if (n) y += 5
     }
-    BEGIN { left = 170; width = 290; least = 0.1; most = 1000; count = 0 }
-    $7 != "-" { name[count] = $1; chosen[count] = $2; ours[count] = $3; peer[count] = $7; by[count++] = $9 }
+    BEGIN { left = 128; width = 255; least = 0.1; most = 1000; count = 0 }
+    $7 != "-" { name[count] = $1; chosen[count] = $2; ours[count] = $3; peer[count++] = $7 }
     END {
-        y = 4
-        group("yes", "Parameters were chosen on these")
-        group("other seeds", "Same scenes, other seeds")
-        group("no", "Not chosen on these")
-        print "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 640 " y + 36 "\" width=\"640\" height=\"" y + 36 "\" role=\"img\""
+        y = 22
+        group("yes", "Used for tuning")
+        group("other seeds", "Simulated, other seeds")
+        group("no", "Not used for tuning")
+        print "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 440 " y + 24 "\" width=\"440\" height=\"" y + 24 "\" role=\"img\""
         print " aria-label=\"Relative pose error beside the best peer\" style=\"background:#fff\">"
-        print "<style>text{font:12px system-ui,\"DejaVu Sans\",sans-serif;fill:#1c2430}"
-        print ".v{font-size:10px;fill:#4a5563}.n{text-anchor:end}.h{font-weight:bold}.t{text-anchor:middle;font-size:11px}</style>"
+        print "<style>text{font:15px system-ui,\"DejaVu Sans\",sans-serif;fill:#1c2430}"
+        print ".v{font-size:12px;fill:#4a5563}.n{text-anchor:end}.h{font-weight:bold}.t{text-anchor:middle;font-size:13px}</style>"
+        print "<text x=\"8\" y=\"17\">RPE over 1 s [mm]:</text>"
+        print "<rect x=\"160\" y=\"7\" width=\"12\" height=\"11\" fill=\"#0072b2\"/><text x=\"177\" y=\"17\">pointplane</text>"
+        print "<rect x=\"280\" y=\"7\" width=\"12\" height=\"11\" fill=\"#a3acb5\"/><text x=\"297\" y=\"17\">best peer</text>"
         for (mm = least; mm <= most * 1.001; mm *= 10)
-            printf "<path d=\"M%.1f 4V%d\" stroke=\"#e1e6eb\"/><text x=\"%.1f\" y=\"%d\" class=\"t\">%g</text>\n",
-                x(mm), y, x(mm), y + 13, mm
-        printf "<text x=\"%d\" y=\"%d\" class=\"t\">relative pose error over 1 s, RMSE [mm]: blue pointplane, grey the best of OpenCV and DIFODO</text>\n",
-            320, y + 30
+            printf "<path d=\"M%.1f 24V%d\" stroke=\"#e1e6eb\"/><text x=\"%.1f\" y=\"%d\" class=\"t\">%g</text>\n",
+                x(mm), y, x(mm), y + 15, mm
         printf "%s</svg>\n", body
     }' "$work/lines" >docs/figures/rpe_bars.svg

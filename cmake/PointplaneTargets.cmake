@@ -16,6 +16,14 @@ function(pointplane_target_defaults target)
   endif()
 endfunction()
 
+# pointplane_bind_now(TARGET): addresses of functions are found at the start and are read-only after it, as
+# Debian asks of programs.
+function(pointplane_bind_now target)
+  if(CMAKE_SYSTEM_NAME STREQUAL "Linux")
+    target_link_options(${target} PRIVATE LINKER:-z,relro,-z,now)
+  endif()
+endfunction()
+
 # pointplane_add_library(NAME SOURCES a.cpp ... [LINK lib ...] [LINK_PRIVATE lib ...])
 # Target pointplane_NAME, alias pointplane::NAME, headers in include/.
 function(pointplane_add_library name)
@@ -35,8 +43,8 @@ function(pointplane_add_library name)
   add_dependencies(products ${target})
 endfunction()
 
-# pointplane_add_manual(NAME): the manual page of pointplane-NAME out of its --help, and completion of
-# its command line in bash.
+# pointplane_add_manual(NAME): the manual pages of pointplane-NAME and its subcommands out of their --help,
+# and completion of its command line in bash.
 find_program(POINTPLANE_HELP2MAN help2man)
 function(pointplane_add_manual name)
   set(program pointplane-${name})
@@ -46,15 +54,17 @@ function(pointplane_add_manual name)
     return()
   endif()
   set(page ${CMAKE_CURRENT_BINARY_DIR}/${program}.1)
+  set(pages_of_commands ${CMAKE_CURRENT_BINARY_DIR}/${program}_commands)
   add_custom_command(
     OUTPUT ${page}
     COMMAND ${PROJECT_SOURCE_DIR}/packaging/manual_page.sh ${POINTPLANE_HELP2MAN}
-            $<TARGET_FILE:${program}> ${PROJECT_VERSION} ${page}
+            $<TARGET_FILE:${program}> ${PROJECT_VERSION} ${page} ${pages_of_commands}
     DEPENDS ${program} ${PROJECT_SOURCE_DIR}/packaging/manual_page.sh
     VERBATIM)
   add_custom_target(${program}-manual DEPENDS ${page})
   add_dependencies(products ${program}-manual)
   install(FILES ${page} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT tools)
+  install(DIRECTORY ${pages_of_commands}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT tools)
 endfunction()
 
 # pointplane_add_app(NAME SOURCES a.cpp ... LINK lib ...): executable pointplane-NAME.
@@ -67,6 +77,7 @@ function(pointplane_add_app name)
   target_compile_definitions(${target} PRIVATE POINTPLANE_VERSION="${PROJECT_VERSION}")
   set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
   pointplane_target_defaults(${target})
+  pointplane_bind_now(${target})
   install(TARGETS ${target} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT tools)
   add_dependencies(products ${target})
   pointplane_add_manual(${name})

@@ -19,6 +19,11 @@ foreach(tree IN LISTS components)
     "Upstream-Name: pointplane\n\nFiles: *\nCopyright: 2026, the pointplane authors\n"
     "License: BSD-3-clause${license}")
 
+  if(EXISTS ${doc}/LICENSE)  # documents link to it
+    file(REMOVE ${doc}/LICENSE)
+    file(CREATE_LINK copyright ${doc}/LICENSE SYMBOLIC)
+  endif()
+
   string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)
   file(WRITE ${doc}/changelog
     "pointplane (${CPACK_PACKAGE_VERSION}) unstable; urgency=medium\n\n"
@@ -31,6 +36,12 @@ foreach(tree IN LISTS components)
   if(libraries)
     execute_process(COMMAND ${CPACK_POINTPLANE_STRIP} --strip-debug --remove-section=.comment
                     --remove-section=.note --enable-deterministic-archives ${libraries}
+                    COMMAND_ERROR_IS_FATAL ANY)
+  endif()
+  # Symbols are gone already (CPACK_STRIP_FILES). The compiler's name is of no use to users.
+  file(GLOB programs ${tree}/usr/bin/* ${tree}/usr/lib/python3/dist-packages/*.so)
+  if(programs)
+    execute_process(COMMAND ${CPACK_POINTPLANE_STRIP} --remove-section=.comment --remove-section=.note ${programs}
                     COMMAND_ERROR_IS_FATAL ANY)
   endif()
   file(GLOB_RECURSE files LIST_DIRECTORIES false ${tree}/usr/*)

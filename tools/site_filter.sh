@@ -31,6 +31,8 @@ exec awk -v file="$1" '
         while (place > 0 && substr(text, place, 1) != "[") --place
         return substr(text, 1, place - 1) substr(text, place + 1)
     }
+    # Pictures that stand in HTML: Doxyfile names them.
+    /^<a href="/ { gsub(/"docs\/figures\//, "\""); print; next }
     /^```/ { inCode = !inCode }
     inCode || /^    / { print; next }
     /^##+ / {

@@ -27,7 +27,7 @@ if [[ -d /data/tum_fr1_xyz_part ]]; then
     while read -r command; do
         echo "\$ $command"
         bash -c "$command" </dev/null
-    done < <(sed -nE '/TUM sequence/,/^## /s/^    (pointplane-.*)/\1/p' /clone/README.md)
+    done < <(sed -nE '/TUM sequence/,/My camera/s/^    (pointplane-.*)/\1/p' /clone/README.md)
 fi
 if [[ -e /usr/lib/python3/dist-packages/pointplane.$(python3 -c 'import sysconfig
 print(sysconfig.get_config_var("SOABI"))' 2>/dev/null).so ]]; then

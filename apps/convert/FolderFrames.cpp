@@ -56,7 +56,7 @@ void FolderFrames::pairImages(const FolderOptions& options)
         {
             evenOutStamps();
         }
-        pairByStamp(options.maxDifference);
+        images_.isDepthAlone() ? takeDepthAlone() : pairByStamp(options.maxDifference);
     }
     else if (options.evenStamps)
     {
@@ -64,16 +64,12 @@ void FolderFrames::pairImages(const FolderOptions& options)
     }
     else
     {
-        if (options.fps <= 0 && fs::exists(folder_ + "/rgb.txt") &&
-            fs::exists(folder_ + "/depth.txt"))
+        if (options.fps <= 0)
         {
-            throw InputError(
-                folder_ +
-                ": rgb.txt and depth.txt tell the stamps of its numbered images; convert it by "
-                "pointplane-convert tum, or give a rate by --fps");
+            checkLists();
         }
         checkNumbers(options.fps > 0);
-        pairByNumber();
+        images_.isDepthAlone() ? takeDepthAlone() : pairByNumber();
         checkStamps();
     }
     if (frames_.empty())
@@ -81,6 +77,19 @@ void FolderFrames::pairImages(const FolderOptions& options)
         throw InputError(
             folder_ + ": no colour image belongs to a depth image by its " +
             (hasStamps_ ? "time stamp" : "number"));
+    }
+}
+
+/** \throws InputError if lists as TUM's tell the stamps of the numbered images */
+void FolderFrames::checkLists() const
+{
+    const bool isAlone = images_.isDepthAlone();
+    if (fs::exists(folder_ + "/depth.txt") && (isAlone || fs::exists(folder_ + "/rgb.txt")))
+    {
+        throw InputError(
+            folder_ + (isAlone ? ": depth.txt tells" : ": rgb.txt and depth.txt tell") +
+            " the stamps of its numbered images; convert it by pointplane-convert tum, or give a "
+            "rate by --fps");
     }
 }
 
@@ -130,7 +139,10 @@ void FolderFrames::evenOutStamps()
         }
     };
     evenOutOf(images_.depth, "depth");
-    evenOutOf(images_.colour, "colour");  // its note is told
+    if (!images_.isDepthAlone())
+    {
+        evenOutOf(images_.colour, "colour");  // its note is told
+    }
 }
 
 void FolderFrames::pairByStamp(double maxDifference)
@@ -161,6 +173,14 @@ void FolderFrames::pairByNumber()
     }
 }
 
+void FolderFrames::takeDepthAlone()
+{
+    for (const ImageRef& depth : images_.depth)
+    {
+        frames_.push_back({ImageRef(), depth, stampOf(depth), 0});
+    }
+}
+
 double FolderFrames::stampOf(const ImageRef& image) const
 {
     return hasStamps_ ? *image.stamp : static_cast<double>(image.key) / fps_;
@@ -172,7 +192,7 @@ std::string FolderFrames::noteOfSteps() const
     std::vector<double> steps;
     for (std::size_t i = 1; i < frames_.size(); ++i)
     {
-        steps.push_back(static_cast<double>(frames_[i].colour.key - frames_[i - 1].colour.key));
+        steps.push_back(static_cast<double>(frames_[i].depth.key - frames_[i - 1].depth.key));
     }
     const double step = steps.empty() ? 1 : quantile(steps, 0.5);
     if (step <= 1)

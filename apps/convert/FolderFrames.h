@@ -24,9 +24,9 @@ class FolderFrames
  public:
     struct Frame
     {
-        ImageRef colour, depth;
-        double stamp;       //!< [s]
-        double depthDelay;  //!< stamp of depth minus that of colour [s]; NaN = not known
+        ImageRef colour, depth;  //!< of depth alone, colour has no path
+        double stamp;            //!< [s]
+        double depthDelay;       //!< stamp of depth minus that of colour [s]; NaN = not known
     };
 
     FolderFrames() = default;
@@ -34,6 +34,7 @@ class FolderFrames
     FolderFrames(const FolderLayout& layout, const FolderOptions& options);
 
     [[nodiscard]] const std::vector<Frame>& all() const { return frames_; }
+    [[nodiscard]] bool areDepthAlone() const { return images_.isDepthAlone(); }
     /** In half a sentence, for people. */
     [[nodiscard]] std::string whatStampsAre() const;
     /** What was done to the stamps, and which images were left out. */
@@ -41,11 +42,13 @@ class FolderFrames
 
  private:
     void pairImages(const FolderOptions& options);
+    void checkLists() const;
     void checkNumbers(bool isRateAsked) const;
     void checkStamps() const;
     void evenOutStamps();
     void pairByStamp(double maxDifference);
     void pairByNumber();
+    void takeDepthAlone();
     [[nodiscard]] double stampOf(const ImageRef& image) const;
     /** How far numbers are apart, if that is more than one, or empty. */
     [[nodiscard]] std::string noteOfSteps() const;

@@ -64,7 +64,7 @@ void FolderImages::leaveOutUnlisted()
     const auto isListed = [](const ImageRef& image) { return image.stamp.has_value(); };
     for (const auto* images : {&colour, &depth})
     {
-        if (std::none_of(images->begin(), images->end(), isListed))
+        if (!images->empty() && std::none_of(images->begin(), images->end(), isListed))
         {
             throw InputError(
                 stampList_ + ": tells no stamps of the images beside it; give a rate by --fps");
@@ -116,13 +116,17 @@ std::vector<std::string> FolderImages::notesOfLeftOut(std::size_t numFrames) con
     for (const std::string& source : otherSources_)
     {
         out.push_back(
-            source + " was left out: there are images in " + folderOfImages(colour) + " and " +
-            folderOfImages(depth) + "; move away what is not meant");
+            source + " was left out: there are images in " +
+            (isDepthAlone() ? "" : folderOfImages(colour) + " and ") + folderOfImages(depth) +
+            "; move away what is not meant");
     }
     add(unlisted_.size(),
         "without a stamp in " + stampList_,
         "; --fps takes all, at a rate of its own");
-    add(colour.size() + depth.size() - 2 * numFrames, "without a partner", "");
+    if (!isDepthAlone())
+    {
+        add(colour.size() + depth.size() - 2 * numFrames, "without a partner", "");
+    }
     if (!doubles_.empty())
     {
         add(doubles_.size(),

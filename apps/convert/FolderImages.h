@@ -20,9 +20,10 @@ class FolderImages
     std::vector<ImageRef> colour, depth;
 
     [[nodiscard]] bool areStamped() const;
+    [[nodiscard]] bool isDepthAlone() const { return colour.empty(); }
 
     /** Images of which FolderLayout::stampList tells nothing.
-     * \throws InputError if it tells of none of colour, or of depth */
+     * \throws InputError if it tells of none of colour, or of depth, where there are any */
     void leaveOutUnlisted();
 
     /** Names are in order of their stamps, a list need not be.

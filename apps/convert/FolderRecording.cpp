@@ -106,8 +106,11 @@ std::optional<RecordedFrame> FolderRecording::next()
     out.depthDelay = frame.depthDelay;
     out.isNominal = layout_.cameraIsNominal;
     readDepth(frame.depth, out.scan);
-    out.scan.colour = colourOf(frame.colour);
-    out.scan.colourFile = frame.colour.path;
+    if (!frames_.areDepthAlone())
+    {
+        out.scan.colour = colourOf(frame.colour);
+        out.scan.colourFile = frame.colour.path;
+    }
     setCameras(out.scan, layout_, frame.colour.path.empty() ? frame.depth.path : frame.colour.path);
     return out;
 }
@@ -123,6 +126,11 @@ std::vector<std::string> FolderRecording::notes() const
     layout << "read as " << layout_.name << ", " << (isFloat_ ? floatUnits_ : unitsPerMetre_)
            << " depth units per metre, " << frames_.whatStampsAre();
     std::vector<std::string> out{layout.str()};
+    if (frames_.areDepthAlone())
+    {
+        out.emplace_back(
+            "no colour images: frames have depth alone, and only planes tell the motion");
+    }
     if (layout_.cameraIsNominal)
     {
         out.emplace_back("camera: nominal, that of the data set; --camera takes a calibration");

@@ -84,7 +84,7 @@ void addFolderCommand(CLI::App& app, FolderOptions& options, RecordingOutput& ou
         "folder",
         "Numbered or stamped images: ScanNet, 7-Scenes, Redwood, Replica, Bonn, Record3D, "
         "StrayScanner, any two folders like rgb and depth, or one with images like rgb_12.png and "
-        "depth_12.png");
+        "depth_12.png; also depth alone");
     folder->add_option("folder", options.folder, "Folder with the images")
         ->type_name("DIR")
         ->required();

@@ -18,32 +18,48 @@ void checkCamera(const PinholeCamera& camera, const std::string& file, const cha
         throw BadFrame(file + ": calibration of the " + which + " camera: " + problem);
     }
 }
+
+/** Fits the calibration to the size of an image. \param name of the image \throws BadFrame if it is
+ * of another view */
+void fitCamera(
+    PinholeCamera& camera,
+    const cv::Size& size,
+    const FolderLayout& layout,
+    const std::string& name,
+    const char* which)
+{
+    if (camera.width == 0)  // of a matrix without a size
+    {
+        camera.width = size.width;
+        camera.height = size.height;
+    }
+    checkCamera(camera, layout.calibration, which);
+    // A calibration for another size of the same picture.
+    if (size.width != camera.width &&
+        std::int64_t{size.width} * camera.height == std::int64_t{size.height} * camera.width)
+    {
+        camera = camera.scaled(static_cast<double>(size.width) / camera.width);
+        // A principal point at the border of one size can be outside of another.
+        checkCamera(camera, layout.calibration, which);
+    }
+    if (size.width != camera.width || size.height != camera.height)
+    {
+        throw BadFrame(
+            name + ": is " + sizeText(size) + ", but the camera is for " +
+            sizeText({camera.width, camera.height}));
+    }
+}
 }  // namespace
 
 void setCameras(RegisteredScan& scan, const FolderLayout& layout, const std::string& name)
 {
     scan.camera = layout.camera->camera;
-    if (scan.camera.width == 0)  // of a matrix without a size
+    if (scan.colour.empty())
     {
-        scan.camera.width = scan.colour.cols;
-        scan.camera.height = scan.colour.rows;
+        fitCamera(scan.camera, scan.depth.size(), layout, name, "depth");
+        return;
     }
-    checkCamera(scan.camera, layout.calibration, "colour");
-    // A calibration for another size of the same picture.
-    if (scan.colour.cols != scan.camera.width &&
-        std::int64_t{scan.colour.cols} * scan.camera.height ==
-            std::int64_t{scan.colour.rows} * scan.camera.width)
-    {
-        scan.camera = scan.camera.scaled(static_cast<double>(scan.colour.cols) / scan.camera.width);
-        // A principal point at the border of one size can be outside of another.
-        checkCamera(scan.camera, layout.calibration, "colour");
-    }
-    if (scan.colour.cols != scan.camera.width || scan.colour.rows != scan.camera.height)
-    {
-        throw BadFrame(
-            name + ": is " + sizeText(scan.colour.size()) + ", but the camera is for " +
-            sizeText({scan.camera.width, scan.camera.height}));
-    }
+    fitCamera(scan.camera, scan.colour.size(), layout, name, "colour");
     if (layout.depthCamera)
     {
         scan.depthCamera = DepthCamera{*layout.depthCamera, layout.T_depth_colour};

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 #include <system_error>
 
 #include "dataset_layouts.h"
@@ -79,7 +80,58 @@ const Words kWordsOfBoth{"image", "img", "frame"};  //!< in folders of one kind
     return out;
 }
 
-/** Colour and depth in two folders beside each other, or in one, told by a word in the names. */
+/** Images of the folder and those in it, but for `depth` and what is in folders of depth. */
+[[nodiscard]] std::vector<std::string> imagesBut(
+    const fs::path& folder, const std::vector<ImageRef>& depth)
+{
+    std::set<std::string> known;
+    for (const ImageRef& image : depth)
+    {
+        known.insert(image.path);
+    }
+    std::vector<std::string> out;
+    for (const std::string& path : imagesInFolder(folder))
+    {
+        if (known.count(path) == 0)
+        {
+            out.push_back(path);
+        }
+    }
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(folder, error))
+    {
+        const std::string name = entry.path().filename();
+        if (depth.empty() ||
+            std::find(kDepthWords.begin(), kDepthWords.end(), name) == kDepthWords.end())
+        {
+            const auto inside = imagesInFolder(entry.path());
+            out.insert(out.end(), inside.begin(), inside.end());
+        }
+    }
+    std::sort(out.begin(), out.end());
+    return out;
+}
+
+[[nodiscard]] std::string relativeTo(const fs::path& folder, const std::string& path)
+{
+    std::error_code error;
+    return fs::relative(path, folder, error).string();
+}
+
+/** Depth may be alone only if nothing else can be colour. */
+void requireNoOthers(const fs::path& folder, const std::vector<ImageRef>& depth)
+{
+    if (const auto others = imagesBut(folder, depth); !others.empty())
+    {
+        throw InputError(
+            folder.string() + ": has depth, but its other images are not known as colour: " +
+            relativeTo(folder, others.front()) +
+            "; name their folder rgb and them by numbers, or move them away");
+    }
+}
+
+/** Colour and depth in two folders beside each other, or in one, told by a word in the names; or
+ * depth alone. */
 [[nodiscard]] std::optional<FolderLayout> oneOrTwoFolders(const fs::path& folder)
 {
     FolderLayout out;
@@ -90,11 +142,15 @@ const Words kWordsOfBoth{"image", "img", "frame"};  //!< in folders of one kind
         out.colour = imagesWithWord(folder, kColourWords);
         out.depth = imagesWithWord(folder, kDepthWords);
     }
-    if (out.colour.empty() || out.depth.empty())
+    if (out.depth.empty())
     {
         return {};
     }
-    const ImageRef& first = out.colour.front();
+    if (out.colour.empty())
+    {
+        requireNoOthers(folder, out.depth);
+    }
+    const ImageRef& first = out.colour.empty() ? out.depth.front() : out.colour.front();
     out.name = first.stamp ? "stamped images" : "numbered images";
     if (first.stamp && first.isNumbered)
     {
@@ -110,16 +166,9 @@ const Words kWordsOfBoth{"image", "img", "frame"};  //!< in folders of one kind
 /** What there is instead: the first image in the folder or in those in it. */
 [[nodiscard]] std::string imageInstead(const fs::path& folder)
 {
-    std::vector<std::string> images = imagesInFolder(folder);
-    std::error_code error;
-    for (const auto& entry : fs::directory_iterator(folder, error))
-    {
-        const auto inside = imagesInFolder(entry.path());
-        images.insert(images.end(), inside.begin(), inside.end());
-    }
-    const auto first = std::min_element(images.begin(), images.end());
-    return first == images.end() ? ". Here are no images"
-                                 : ". Here is " + fs::relative(*first, folder, error).string();
+    const auto images = imagesBut(folder, {});
+    return images.empty() ? ". Here are no images"
+                          : ". Here is " + relativeTo(folder, images.front());
 }
 }  // namespace
 
@@ -130,7 +179,8 @@ FolderLayout readFolderLayout(const std::string& folder)
     {
         if (auto layout = reader(folder))
         {
-            if (layout->depth.empty() || layout->colour.empty())
+            const bool mayBeAlone = reader == oneOrTwoFolders;
+            if (layout->depth.empty() || (layout->colour.empty() && !mayBeAlone))
             {
                 throw InputError(
                     folder + ": looks like " + layout->name + ", but has no " +
@@ -143,8 +193,8 @@ FolderLayout readFolderLayout(const std::string& folder)
         folder +
         ": not a known layout. Known are ScanNet, 7-Scenes, Redwood, Replica, Bonn, Record3D, "
         "StrayScanner; two folders, rgb (or color, colour, image, images) and depth (depths), with "
-        "images named by number or stamp, as 12.png, frame_12.png or 1500000000.25.png; and one "
-        "folder with these words in the names, as rgb_12.png and depth_12.png" +
+        "images named by number or stamp, as 12.png, frame_12.png or 1500000000.25.png; one "
+        "folder with these words in the names, as rgb_12.png and depth_12.png; depth alone" +
         imageInstead(folder));
 }
 }  // namespace pointplane

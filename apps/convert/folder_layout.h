@@ -16,11 +16,11 @@ namespace pointplane
 struct FolderLayout
 {
     std::string name;  //!< "ScanNet", "7-Scenes", ... or "numbered images", "stamped images"
-    std::vector<ImageRef> colour, depth;
-    std::string video;                //!< of colour, frame by frame; `colour` then has no paths
-    std::optional<TumCamera> camera;  //!< of colour, where the folder tells it
-    std::string calibration;          //!< file or folder that tells the cameras
-    bool cameraIsNominal{false};      //!< a data set's usual camera, not this one's calibration
+    std::vector<ImageRef> colour, depth;  //!< colour may be empty: depth alone
+    std::string video;                    //!< of colour, frame by frame; `colour` then has no paths
+    std::optional<TumCamera> camera;      //!< of colour, where the folder tells it
+    std::string calibration;              //!< file or folder that tells the cameras
+    bool cameraIsNominal{false};          //!< a data set's usual camera, not this one's calibration
     std::optional<PinholeCamera> depthCamera;                         //!< where it is another
     Eigen::Isometry3d T_depth_colour{Eigen::Isometry3d::Identity()};  //!< of depthCamera
     double unitsPerMetre{1000};
@@ -29,6 +29,7 @@ struct FolderLayout
     std::vector<std::string> otherSources;  //!< of images, that could have been meant, too
 };
 
-/** \throws InputError if there are no colour and depth images in a layout that is known */
+/** \throws InputError if there are no depth images in a layout that is known, or beside them images
+ * that are not known as colour */
 [[nodiscard]] FolderLayout readFolderLayout(const std::string& folder);
 }  // namespace pointplane

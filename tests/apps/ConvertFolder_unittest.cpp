@@ -476,6 +476,81 @@ TEST_F(ConvertFolder, longNumbersAreTimesSince1970)
     }
 }
 
+TEST_F(ConvertFolder, depthMayBeAlone)
+{
+    for (const char* name : {"in/depth/%d.png", "in/depth_%04d.png"})
+    {
+        std::filesystem::remove_all(in_);
+        write("in/camera.txt", kCamera);
+        for (int i = 0; i < 3; ++i)
+        {
+            writeImage(numbered(name, i), depthImage(i));
+        }
+        ASSERT_EQ(run({"folder", in_}), kExitOk) << text_;
+        EXPECT_THAT(
+            text_,
+            HasSubstr("\nno colour images: frames have depth alone, and only planes tell the "
+                      "motion\n"));
+        EXPECT_THAT(text_, Not(HasSubstr("left out")));
+        const auto found = frames();
+        ASSERT_EQ(found.size(), 3U);
+        EXPECT_NEAR(found[2].stamp - found[0].stamp, 2 / 30.0, 1e-6);
+        EXPECT_FLOAT_EQ(found[2].depth.at<float>(20, 30), 1.002F);
+        EXPECT_TRUE(found[2].gray.empty());
+        EXPECT_FALSE(scans()[0]->hasIntensityImage);
+    }
+}
+
+TEST_F(ConvertFolder, depthAloneMayBeStampedAndSmallerThanItsCalibration)
+{
+    write("in/camera.txt", kCamera);
+    for (int i = 0; i < 3; ++i)
+    {
+        const std::string stamp = std::to_string(1305031102 + i) + ".25";
+        writeImage("in/depth/" + stamp + ".png", depthImage(i, 32, 24));
+    }
+    for (const std::string option : {"--max-difference=0.02", "--even-stamps"})
+    {
+        ASSERT_EQ(run({"folder", in_, option}), kExitOk) << text_;
+        const auto found = frames();
+        ASSERT_EQ(found.size(), 3U);
+        EXPECT_NEAR(found[1].stamp, 1305031103.25, 1e-3);
+        EXPECT_DOUBLE_EQ(found[1].camera.fx, 30);
+    }
+    writeImage("in/depth/1305031105.25.png", depthImage(3, 32, 32));
+    EXPECT_EQ(run({"folder", in_}), kExitIncomplete);
+    EXPECT_THAT(text_, HasSubstr("1305031105.25.png: is 32x32, but the camera is for 64x48"));
+}
+
+/** Colour under a name that is not known must not be lost without a word. */
+TEST_F(ConvertFolder, depthBesideUnknownImagesIsNotTakenForDepthAlone)
+{
+    for (const char* other : {"in/left/%d.png", "in/rgb/photo %d.png", "in/photo %d.png"})
+    {
+        std::filesystem::remove_all(in_);
+        write("in/camera.txt", kCamera);
+        writeFrames(other, "in/depth/%d.png");
+        EXPECT_EQ(run({"folder", in_}), kExitBadInput);
+        EXPECT_THAT(
+            text_,
+            HasSubstr(
+                in_ + ": has depth, but its other images are not known as colour: " +
+                numbered(other, 0).substr(3) +
+                "; name their folder rgb and them by numbers, or move them away\n"));
+    }
+}
+
+/** By pointplane-convert tum. */
+TEST_F(ConvertFolder, aListOfDepthAloneIsNotIgnored)
+{
+    write("in/camera.txt", kCamera);
+    write("in/depth.txt", "1.5 depth/0.png\n");
+    writeImage("in/depth/0.png", depthImage(0));
+    EXPECT_EQ(run({"folder", in_}), kExitBadInput);
+    EXPECT_THAT(text_, HasSubstr(": depth.txt tells the stamps of its numbered images; convert"));
+    EXPECT_EQ(run({"folder", in_, "--fps", "30"}), kExitOk);
+}
+
 /** As KITTI's. */
 TEST_F(ConvertFolder, longNumbersWithZerosInFrontAreFrames)
 {
@@ -512,8 +587,8 @@ TEST_F(ConvertFolder, whichNamesOfFoldersAndImagesAreReadIsTold)
         text_,
         HasSubstr("two folders, rgb (or color, colour, image, images) and depth (depths), with "
                   "images named by number or stamp, as 12.png, frame_12.png or "
-                  "1500000000.25.png; and one folder with these words in the names, as rgb_12.png "
-                  "and depth_12.png. Here is depth/photo 0.png\n"));
+                  "1500000000.25.png; one folder with these words in the names, as rgb_12.png "
+                  "and depth_12.png; depth alone. Here is depth/photo 0.png\n"));
 }
 
 TEST_F(ConvertFolder, namesMayHaveAWordBesideTheNumber)

@@ -29,3 +29,15 @@ execute_process(COMMAND ${consumer} ${CONFIG} none.rawlog RESULT_VARIABLE code E
 if(NOT code EQUAL 2 OR NOT error MATCHES "consumer: .*none.rawlog[^\n]*\n$")
   message(FATAL_ERROR "without a rawlog, the consumer ends with ${code}: ${error}")
 endif()
+
+# The lines of README compile as they are written.
+file(READ ${SOURCE_DIR}/../../README.md readme)
+if(NOT readme MATCHES "```cpp\n(#include [^\n]*\n)([^`]*)```")
+  message(FATAL_ERROR "README.md has no C++")
+endif()
+file(COPY ${SOURCE_DIR}/CMakeLists.txt DESTINATION ${WORK_DIR}/readme)
+file(WRITE ${WORK_DIR}/readme/main.cpp "#include <iostream>\n${CMAKE_MATCH_1}"
+     "void use(const mrpt::obs::CObservation3DRangeScan& scan)\n{\n${CMAKE_MATCH_2}}\nint main() { use({}); }\n")
+run(${CMAKE_COMMAND} -S ${WORK_DIR}/readme -B ${WORK_DIR}/readme/build -G ${GENERATOR}
+    -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_PREFIX_PATH=${WORK_DIR}/installed)
+run(${CMAKE_COMMAND} --build ${WORK_DIR}/readme/build)

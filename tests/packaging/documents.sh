@@ -12,7 +12,7 @@ while read -r page; do
     while read -r link; do
         [[ -e $(dirname "$page")/${link%%#*} ]] ||
             { echo "${page#"$work"/}: link to $link, which is not installed"; failed=1; }
-    done < <(grep -oE '\]\([^)# ]+' "$page" | cut -c3- | grep -vE '^[a-z]+:')
+    done < <(grep -oE '(\]\(|(href|src)=")[^)"# ]+' "$page" | sed -E 's/^(\]\(|[a-z]+=")//' | grep -vE '^[a-z]+:')
 done < <(find "$work" -name '*.md')
 ((count >= 20)) || { echo "only $count documents found"; failed=1; }
 exit "$failed"

@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """The Python module, on a rawlog: test_pointplane.py RAWLOG"""
+import contextlib
 import gc
 import gzip
+import io
 import os
 import pathlib
 import pickle
@@ -135,6 +137,48 @@ class Odometry(unittest.TestCase):
         result = pointplane.VisualOdometry().process(view, colour, frame.camera, frame.stamp)
         self.assertEqual(result.status, "first")
 
+    def test_arrays_are_not_copied_where_their_type_fits(self):
+        """A copy would be in the program's memory: Linux tells the most that it had meanwhile."""
+
+        def most():
+            status = pathlib.Path("/proc/self/status").read_text()
+            return int(re.search(r"VmHWM:\s+(\d+) kB", status).group(1)) / 1024
+
+        def growth(depth, colour):
+            pathlib.Path("/proc/self/clear_refs").write_text("5")  # what it had before
+            before = most()
+            result = odometry.process(depth, colour, camera, 1.0)
+            self.assertIn("(8192x4096) does not fit the camera (640x480)", result.reason)
+            return most() - before
+
+        camera = pointplane.Camera(525, 525, 319.5, 239.5, 640, 480)
+        odometry = pointplane.VisualOdometry()
+        rows, columns = 4096, 8192  # 128 MB of depth; zeros take no memory until they are written
+        depth = np.zeros((rows, columns + 8), np.float32)[:, 4:-4]
+        gray = np.zeros((rows, columns), np.uint8)
+        self.assertLess(growth(depth, gray), 16)
+        # That a copy is seen: these are converted, as is documented.
+        self.assertGreater(growth(np.zeros((rows, columns), np.uint16), None), 100)
+
+    def test_arrays_belong_to_the_caller_before_and_after(self):
+        """They are not written to, and may be written to after the call."""
+        poses = []
+        for overwritten in (False, True):
+            odometry = pointplane.VisualOdometry()
+            for frame in pointplane.read_rawlog(RAWLOG):
+                depth, gray = frame.depth.copy(), frame.gray.copy()
+                for array in (depth, gray):
+                    array.flags.writeable = False
+                result = odometry.process(depth, gray, frame.camera, frame.stamp)
+                np.testing.assert_array_equal(depth, frame.depth)
+                np.testing.assert_array_equal(gray, frame.gray)
+                if overwritten:
+                    for array in (depth, gray):
+                        array.flags.writeable = True
+                        array[:] = 1
+            poses.append(result.pose)
+        np.testing.assert_array_equal(poses[0], poses[1])
+
     def test_what_cannot_be_used_is_lost_with_a_reason(self):
         frame = next(iter(pointplane.read_rawlog(RAWLOG)))
         small = np.ones((10, 10), np.float32)
@@ -186,10 +230,19 @@ class Odometry(unittest.TestCase):
     def test_wrong_types_and_shapes_are_refused(self):
         frame = next(iter(pointplane.read_rawlog(RAWLOG)))
         odometry = pointplane.VisualOdometry()
-        with self.assertRaises(TypeError):
-            odometry.process(frame.depth.astype(np.float64), None, frame.camera, 1.0)
-        with self.assertRaises(TypeError):
+        for kind in (np.float64, ">f4", np.int32, np.uint8):
+            with self.assertRaisesRegex(
+                TypeError, "^depth: expected float32 in metres, or uint16 in units of depth_unit$"
+            ):
+                odometry.process(np.zeros((48, 64), kind), None, frame.camera, 1.0)
+        with self.assertRaisesRegex(TypeError, "^colour: expected uint8, gray or RGB$"):
             odometry.process(frame.depth, frame.gray.astype(np.int32), frame.camera, 1.0)
+        rgb = np.zeros((*frame.gray.shape, 3), np.uint8)
+        for view in (frame.gray[:, ::2], frame.gray.T, rgb[:, :, ::-1], rgb[:, ::2]):
+            with self.assertRaisesRegex(
+                ValueError, r"^colour: rows are not contiguous; give numpy.ascontiguousarray\(colour\)$"
+            ):
+                odometry.process(frame.depth, view, frame.camera, 1.0)
         for view in (frame.depth[:, ::2], frame.depth[::-1], frame.depth.T):
             with self.assertRaisesRegex(
                 ValueError, r"^depth: rows are not contiguous; give numpy.ascontiguousarray\(depth\)$"
@@ -384,7 +437,8 @@ class Documents(unittest.TestCase):
             try:
                 exec(images, names)
                 self.assertEqual(names["result"].status, "first")
-                exec(rawlog, names)
+                with contextlib.redirect_stdout(io.StringIO()):
+                    exec(rawlog, names)
             finally:
                 os.chdir(before)
         self.assertEqual(names["result"].status, "tracked")
