@@ -4,6 +4,7 @@
 #include <pointplane/core/counted.h>
 #include <pointplane/core/number_text.h>
 #include <pointplane/core/quantile.h>
+#include <pointplane/core/read_errors.h>
 #include <pointplane/core/trimmed.h>
 #include <pointplane/evaluation/association.h>
 #include <pointplane/mrpt_io/mrpt_poses.h>
@@ -84,7 +85,9 @@ namespace fs = std::filesystem;
     {
         throw InputError("cannot read " + path + ": " + (in ? "not a file" : std::strerror(errno)));
     }
-    return std::string(std::istreambuf_iterator<char>(in), {});
+    const std::string text = readAll(in);
+    requireRead(in, path);
+    return text;
 }
 
 /** Whether there is more than comments. */

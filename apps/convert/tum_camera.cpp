@@ -3,6 +3,7 @@
 
 #include <pointplane/core/byte_order_mark.h>
 #include <pointplane/core/number_text.h>
+#include <pointplane/core/read_errors.h>
 #include <pointplane/mrpt_io/ScanWriter.h>
 #include <pointplane/mrpt_io/camera_ini.h>
 #include <pointplane/mrpt_io/errors.h>
@@ -78,6 +79,7 @@ const std::array<Preset, 3> kPresets{{
             numbers.push_back(*number);
         }
     }
+    requireRead(file, path);
     if (numbers.size() != 12)
     {
         return {};

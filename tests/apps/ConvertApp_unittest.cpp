@@ -457,6 +457,29 @@ TEST_F(ConvertApp, aListThatCannotBeReadIsNotTakenForNone)
     EXPECT_THAT(text_, HasSubstr("cannot open " + in_ + "/rgb.txt"));
 }
 
+/** Where a disk fails, a list does not end. */
+TEST_F(ConvertApp, aListThatCannotBeReadToItsEndIsTold)
+{
+    for (const std::string name : {"rgb.txt", "groundtruth.txt", "camera.txt"})
+    {
+        const std::string path = in_ + "/" + name, kept = dir_ / "kept";
+        const bool isThere = std::filesystem::exists(path);
+        if (isThere)
+        {
+            std::filesystem::rename(path, kept);
+        }
+        std::filesystem::create_symlink("/proc/self/mem", path);
+        EXPECT_EQ(run({in_, "-o", out_}), kExitBadInput);
+        EXPECT_THAT(text_, HasSubstr("cannot read " + path + ": input/output error"));
+        EXPECT_FALSE(std::filesystem::exists(out_));
+        std::filesystem::remove(path);
+        if (isThere)
+        {
+            std::filesystem::rename(kept, path);
+        }
+    }
+}
+
 TEST_F(ConvertApp, mistakesAreNamed)
 {
     const auto expect = [this](const std::string& text, std::vector<std::string> more = {})

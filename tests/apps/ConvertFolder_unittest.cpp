@@ -432,6 +432,14 @@ TEST_F(ConvertFolder, aBadImageIsNamedAndLeftOut)
     EXPECT_THAT(text_, HasSubstr("in/depth/1.png"));
     EXPECT_FALSE(std::filesystem::exists(out_));
 
+    // Where the disk fails.
+    std::filesystem::remove(dir_ / "in/depth/1.png");
+    std::filesystem::create_symlink("/proc/self/mem", dir_ / "in/depth/1.png");
+    EXPECT_EQ(run({"folder", in_}), kExitIncomplete);
+    EXPECT_THAT(text_, HasSubstr("cannot read " + in_ + "/depth/1.png: Input/output error"));
+    EXPECT_EQ(frames().size(), 2U);
+    std::filesystem::remove(dir_ / "in/depth/1.png");
+
     // Of another size, or not depth at all.
     writeImage("in/depth/1.png", depthImage(1, 64, 20));
     EXPECT_EQ(run({"folder", in_}), kExitIncomplete);
