@@ -226,7 +226,7 @@ std::vector<std::string> TumRecording::notes() const
         out.push_back(
             "camera: " + camera_.guessed + ", by the folder's name; --camera takes another");
     }
-    for (const std::string& note : {evening_, noTruth_})
+    for (const std::string& note : {camera_.unused, evening_, noTruth_})
     {
         if (!note.empty())
         {

@@ -47,6 +47,9 @@ const std::array<Preset, 3> kPresets{{
     {"fr3", "freiburg3", {{535.4, 539.2, 320.1, 247.6}}, {{0, 0, 0, 0, 0}}},
 }};
 
+/** Ending of MRPT's section of the colour camera. */
+const std::string kRight = "_RIGHT";
+
 [[nodiscard]] TumCamera fromPreset(const Preset& preset)
 {
     TumCamera out;
@@ -117,9 +120,8 @@ const std::array<Preset, 3> kPresets{{
         if (ini.keyExists(section, "fx"))
         {
             cameras.push_back(section);
-            const std::string suffix = "_RIGHT";
-            if (section.size() >= suffix.size() &&
-                section.compare(section.size() - suffix.size(), suffix.size(), suffix) == 0)
+            if (section.size() >= kRight.size() &&
+                section.compare(section.size() - kRight.size(), kRight.size(), kRight) == 0)
             {
                 right.push_back(section);
             }
@@ -144,8 +146,15 @@ const std::array<Preset, 3> kPresets{{
 {
     const auto file = openIniFile(path);
     const mrpt::config::CConfigFile& ini = *file;
+    const std::string section = cameraSection(ini, path);
     TumCamera out;
-    out.camera = fromMrpt(cameraInIni(ini, path, cameraSection(ini, path)));
+    out.camera = fromMrpt(cameraInIni(ini, path, section));
+    const std::string left = section.substr(0, section.rfind(kRight)) + "_LEFT";
+    if (ini.keyExists(left, "fx"))
+    {
+        out.unused = path + ": [" + left +
+                     "], the depth camera, was not used: depth is taken for registered to colour";
+    }
     return out;
 }
 

@@ -105,6 +105,37 @@ TEST_F(ConvertFolder, scanNetHasTwoCamerasInOnePlace)
     EXPECT_DOUBLE_EQ(scan->cameraParamsIntensity.fx(), 60);
 }
 
+/** A calibration is of colour: depth stays that of the layout's own camera. */
+TEST_F(ConvertFolder, scanNetKeepsItsDepthCameraBesideACalibration)
+{
+    writeFrames("in/color/%d.jpg", "in/depth/%d.png", 32);
+    write("in/intrinsic/intrinsic_color.txt", "60 0 31.5 0\n0 60 23.5 0\n0 0 1 0\n0 0 0 1\n");
+    write(  // with a byte order mark
+        "in/intrinsic/intrinsic_depth.txt",
+        "\xEF\xBB\xBF 29 0 15 0\n0 29 11 0\n0 0 1 0\n0 0 0 1\n");
+    write("in/intrinsic/extrinsic_color.txt", "1 0 0 0.03\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
+    write("calibration.txt", "61 61 31 23 0 0 0 0 0 64 48 1000\n");
+    ASSERT_EQ(run({"folder", in_, "--camera", dir_ / "calibration.txt"}), kExitOk) << text_;
+    const auto scan = scans()[0];
+    EXPECT_DOUBLE_EQ(scan->cameraParamsIntensity.fx(), 61);
+    EXPECT_DOUBLE_EQ(scan->cameraParams.fx(), 29);
+    EXPECT_NEAR(scan->relativePoseIntensityWRTDepth.norm(), 0.03, 1e-9);
+}
+
+/** Of the two cameras that kinect-stereo-calib writes, one is used. */
+TEST_F(ConvertFolder, aDepthCameraThatIsNotUsedIsTold)
+{
+    writeFrames("in/rgb/%d.jpg", "in/depth/%d.png");
+    const std::string camera = "resolution=[64 48]\ncx=31\ncy=23\nfy=60\ndist=[0 0 0 0 0]\nfx=";
+    write("pair.ini", "[K_LEFT]\n" + camera + "50\n[K_RIGHT]\n" + camera + "60\n");
+    ASSERT_EQ(run({"folder", in_, "--camera", dir_ / "pair.ini"}), kExitOk) << text_;
+    EXPECT_DOUBLE_EQ(scans()[0]->cameraParams.fx(), 60);
+    EXPECT_THAT(
+        text_,
+        HasSubstr("pair.ini: [K_LEFT], the depth camera, was not used: depth is taken for "
+                  "registered to colour\n"));
+}
+
 /** As they are before depth is moved to colour: both cameras' poses in a common base. */
 TEST_F(ConvertFolder, scanNetTellsWhereItsCamerasAre)
 {
