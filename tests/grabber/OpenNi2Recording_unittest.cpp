@@ -306,6 +306,21 @@ TEST_F(OpenNi2Recording, ctrlCAndTermEndCleanly)
     }
 }
 
+/** nohup(1) has it ignored, so that a recording outlives its terminal. */
+TEST_F(OpenNi2Recording, aHangupThatIsIgnoredEndsNothing)
+{
+    const auto virtualCamera = camera();
+    auto* const before = std::signal(SIGHUP, SIG_IGN);
+    const auto process =
+        start(virtualCamera, {"-o", out_, "--mode", "64x48@30", "--warm-up", "0.2"});
+    std::signal(SIGHUP, before);
+    waitForFrames(out_, 100'000);
+    process->signal(SIGHUP);
+    waitForFrames(out_, fs::file_size(out_) + 100'000);
+    process->signal(SIGTERM);
+    EXPECT_EQ(process->wait(seconds(10)), 0) << process->err();
+}
+
 TEST_F(OpenNi2Recording, killNineLosesAtMostTheLastSecond)
 {
     for (const char* images : {"embedded", "external"})
