@@ -285,6 +285,9 @@ TEST_F(OpenNi2Recording, badRequestsAreExplained)
             "", {"--frames", "3", "--images", "external", "--preview", dir_ / "out_Images/p.png"}),
         2);
     EXPECT_THAT(err_, HasSubstr("would write over what images of -o"));
+    writeBytes(dir_ / "out_007.rawlog", "precious");  // there it would end
+    EXPECT_EQ(record("", {"--frames", "3", "--split-minutes", "1"}), 2);
+    EXPECT_THAT(err_, HasSubstr("out_007.rawlog' exists already; recordings never overwrite"));
     writeBytes(out_, "precious");
     EXPECT_EQ(record("", {"--frames", "3"}), 2);
     EXPECT_EQ(readBytes(out_), "precious");
