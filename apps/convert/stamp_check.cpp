@@ -46,16 +46,17 @@ constexpr double kEpsilon = 1e-5;
     return out.str();
 }
 
-/** Frames 33 s apart are rather 33 ms apart. */
+/** Frames 33 s, or 33 microseconds, apart are rather 33 ms apart. */
 [[nodiscard]] std::string problemOfUnit(double median)
 {
-    constexpr double kLongest = 1;  // of recordings [s]; numbers of frames are as far apart
+    // Of recordings [s]; numbers of frames are as far apart.
+    constexpr double kShortest = 0.9e-3, kLongest = 1;
     std::ostringstream out;
-    if (median >= kLongest)
+    if (median >= kLongest || median < kShortest)
     {
         out << "a frame every " << std::setprecision(3) << median
-            << " s; are they in seconds? Else the odometry takes the camera for slow, and its "
-               "covariances are wrong";
+            << " s; are they in seconds? Else the odometry takes the camera for "
+            << (median >= kLongest ? "slow" : "fast") << ", and its covariances are wrong";
     }
     return out.str();
 }

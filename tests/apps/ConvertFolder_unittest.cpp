@@ -716,7 +716,7 @@ TEST(ProblemOfStamps, saysWhatIsWrong)
     EXPECT_THAT(problemOfStamps(repeated), HasSubstr("40 of them repeat the one before"));
     EXPECT_THAT(problemOfStamps(repeated), HasSubstr("--even-stamps"));
     EXPECT_EQ(problemOfStamps(back), "1 of them is before the one before");
-    for (const double unit : {1e3, 1e6, 1e9, 30.0})  // the last one: numbers of frames
+    for (const double unit : {1e3, 1e6, 1e9, 30.0, 1e-3})  // 30: numbers of frames
     {
         std::vector<double> stamps;
         for (std::size_t i = 0; i < 3; ++i)
@@ -724,6 +724,7 @@ TEST(ProblemOfStamps, saysWhatIsWrong)
             stamps.push_back(unit * (even[i] - even[0]));
         }
         EXPECT_THAT(problemOfStamps(stamps), HasSubstr(" s; are they in seconds?")) << unit;
+        EXPECT_THAT(problemOfStamps(stamps), HasSubstr(unit < 1 ? " for fast," : " for slow,"));
     }
 }
 
