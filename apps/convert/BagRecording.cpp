@@ -14,6 +14,7 @@
 #include "bag_topics.h"
 #include "frame_images.h"
 #include "ros_images.h"
+#include "stamp_check.h"
 
 namespace pointplane
 {
@@ -196,6 +197,8 @@ void BagRecording::pair()
         // Read again, the library may go on as if nothing were wrong.
         noteDamage(colour.size() + depth.size(), e);
     }
+    requireTimes(colour, options_.file + ": " + colour_.name);
+    requireTimes(depth, options_.file + ": " + depth_.name);
     for (const auto& [c, d] : pairsOf(colour, depth, options_.maxDifference))
     {
         partner_[{false, static_cast<std::uint32_t>(c)}] = static_cast<std::uint32_t>(d);

@@ -23,6 +23,7 @@
 #include "even_stamps.h"
 #include "frame_images.h"
 #include "layout_files.h"
+#include "stamp_check.h"
 
 namespace pointplane
 {
@@ -140,6 +141,8 @@ void TumRecording::readLists()
 
 void TumRecording::pairImages()
 {
+    requireTimes(secondsOf(colour_), options_.folder + "/rgb.txt");
+    requireTimes(secondsOf(depth_), options_.folder + "/depth.txt");
     if (colour_.empty())
     {
         for (std::size_t i = 0; i < depth_.size(); ++i)

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "stamp_check.h"
 
+#include <pointplane/core/number_text.h>
 #include <pointplane/core/quantile.h>
+#include <pointplane/mrpt_io/errors.h>
 
 #include <algorithm>
 #include <cmath>
@@ -122,5 +124,16 @@ std::string problemOfStamps(const std::vector<double>& stamps)
     }
     const std::string rounding = problemOfRounding(stamps, intervals, median);
     return rounding.empty() ? problemOfJitter(intervals, median) : rounding;
+}
+
+void requireTimes(const std::vector<double>& stamps, const std::string& name)
+{
+    const auto isFirst = [&](double stamp) { return stamp == stamps.front(); };
+    if (stamps.size() > 1 && std::all_of(stamps.begin(), stamps.end(), isFirst))
+    {
+        throw InputError(
+            name + ": all its images have the stamp " + numberText(stamps.front(), 3) +
+            " s; the program that recorded them must tell when they were taken");
+    }
 }
 }  // namespace pointplane

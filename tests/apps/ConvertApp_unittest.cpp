@@ -505,6 +505,8 @@ TEST_F(ConvertApp, mistakesAreNamed)
     expect("/depth.txt: No such file or directory; without lists, pointplane-convert folder takes");
     writeBytes(dir_ / "in/depth.txt", "# nothing\n");
     expect("depth.txt: lists no images");
+    writeBytes(dir_ / "in/depth.txt", "5 depth/0.png\n5.0 depth/1.png\n");
+    expect("in/depth.txt: all its images have the stamp 5.000 s; the program that recorded them");
     writeBytes(dir_ / "in/depth.txt", "5.0 depth/0.png\n");
     expect(
         "no colour and depth stamps within 0.02 s of each other: colour from 1305031102.175 to "

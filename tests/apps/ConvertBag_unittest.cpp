@@ -393,6 +393,23 @@ TEST_F(ConvertBag, stampsMayGoBack)
     }
 }
 
+/** As of a driver that does not set them. */
+TEST_F(ConvertBag, headersWithoutStampsAreRefused)
+{
+    writeInfos();
+    for (int i = 0; i < 3; ++i)
+    {
+        bag_.write(
+            "/camera/rgb/image_color",
+            timeOf(i),
+            imageOf(test::colourImage(i), "bgr8", "optical", ros::Time()));
+        writeDepth(i);
+    }
+    EXPECT_EQ(convert(), kExitBadInput);
+    EXPECT_THAT(
+        text_, HasSubstr("in.bag: /camera/rgb/image_color: all its images have the stamp 0.000 s"));
+}
+
 TEST_F(ConvertBag, severalTopicsAreNamed)
 {
     writeInfos();
