@@ -200,7 +200,7 @@ class RawlogFrames
                 if (const auto* comment =
                         dynamic_cast<const mrpt::obs::CObservationComment*>(observation.get()))
                 {
-                    converter_.readComment(*comment);
+                    readComment(*comment);
                 }
                 const auto* scan =
                     dynamic_cast<const mrpt::obs::CObservation3DRangeScan*>(observation.get());
@@ -237,6 +237,19 @@ class RawlogFrames
     }
 
  private:
+    /** \throws InputError naming the file */
+    void readComment(const mrpt::obs::CObservationComment& comment)
+    {
+        try
+        {
+            converter_.readComment(comment);
+        }
+        catch (const InputError& e)
+        {
+            throw InputError(reader_.path() + ": " + e.what());
+        }
+    }
+
     /** A label that no camera has is a mistake, not a camera without frames. */
     void requireFrames() const
     {
@@ -376,13 +389,25 @@ namespace pointplane
 {
 namespace
 {
-/** \param given numbers, or an array of any shape: OpenCV's is 1x5
+/** \param given numbers, an array of any shape (OpenCV's is 1x5), or None for no distortion
  * \throws value_error for more than is known here */
 std::array<double, 5> distortionOf(const py::object& given)
 {
-    const auto values =
-        (py::hasattr(given, "ravel") ? given.attr("ravel")() : given).cast<std::vector<double>>();
     std::array<double, 5> out{};
+    if (given.is_none())
+    {
+        return out;
+    }
+    std::vector<double> values;
+    try
+    {
+        values = (py::hasattr(given, "ravel") ? given.attr("ravel")() : given)
+                     .cast<std::vector<double>>();
+    }
+    catch (const py::cast_error&)
+    {
+        throw py::type_error("distortion: expected numbers k1 k2 p1 p2 k3, as OpenCV, or None");
+    }
     const auto known = values.begin() + static_cast<long>(std::min(values.size(), out.size()));
     if (std::any_of(known, values.end(), [](double value) { return value != 0; }))
     {

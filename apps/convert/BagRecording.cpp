@@ -8,11 +8,13 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <numeric>
 
 #include "bag_cameras.h"
 #include "bag_topics.h"
 #include "frame_images.h"
 #include "ros_images.h"
+#include "stamp_check.h"
 
 namespace pointplane
 {
@@ -55,6 +57,41 @@ template <class Read>
         [](const auto& image) {
             return Picture{image.header.stamp.toSec(), toMat(image)};
         });
+}
+
+using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
+
+/** Numbers of messages by stamp: a bag has them in the order in which they arrived. */
+[[nodiscard]] std::vector<std::size_t> orderOf(const std::vector<double>& stamps)
+{
+    std::vector<std::size_t> out(stamps.size());
+    std::iota(out.begin(), out.end(), std::size_t{0});
+    std::stable_sort(
+        out.begin(),
+        out.end(),
+        [&](std::size_t a, std::size_t b) { return stamps[a] < stamps[b]; });
+    return out;
+}
+
+/** associate() of stamps in any order. */
+[[nodiscard]] Pairs pairsOf(std::vector<double> colour, std::vector<double> depth, double longest)
+{
+    const std::vector<std::size_t> colourOrder = orderOf(colour), depthOrder = orderOf(depth);
+    std::sort(colour.begin(), colour.end());
+    std::sort(depth.begin(), depth.end());
+    Pairs out = associate(colour, depth, 0.0, longest);
+    for (auto& [c, d] : out)
+    {
+        c = colourOrder[c];
+        d = depthOrder[d];
+    }
+    return out;
+}
+
+/** "320x240 of 8 bit and 3 channels" */
+[[nodiscard]] std::string describe(const cv::Mat& image)
+{
+    return sizeText(image.size()) + " of " + typeText(image);
 }
 
 class BagRecording : public Recording
@@ -160,7 +197,9 @@ void BagRecording::pair()
         // Read again, the library may go on as if nothing were wrong.
         noteDamage(colour.size() + depth.size(), e);
     }
-    for (const auto& [c, d] : associate(colour, depth, 0.0, options_.maxDifference))
+    requireTimes(colour, options_.file + ": " + colour_.name);
+    requireTimes(depth, options_.file + ": " + depth_.name);
+    for (const auto& [c, d] : pairsOf(colour, depth, options_.maxDifference))
     {
         partner_[{false, static_cast<std::uint32_t>(c)}] = static_cast<std::uint32_t>(d);
         partner_[{true, static_cast<std::uint32_t>(d)}] = static_cast<std::uint32_t>(c);
@@ -205,7 +244,11 @@ RecordedFrame BagRecording::frame(const Picture& colour, const Picture& depth) c
         scan.depth.size() != cv::Size(ofDepth.width, ofDepth.height) ||
         scan.depth.type() != CV_16UC1 || scan.colour.depth() != CV_8U)
     {
-        throw BadFrame("images are not of the size or kind that camera_info says");
+        throw BadFrame(
+            "colour is " + describe(scan.colour) + ", depth " + describe(scan.depth) +
+            "; expected are colour of 8 bit and " +
+            sizeText({scan.camera.width, scan.camera.height}) + ", depth of 16 bit and " +
+            sizeText({ofDepth.width, ofDepth.height}) + ", as the calibration says");
     }
     if (const std::string problem = ofDepth.problem(); !problem.empty())
     {

@@ -46,7 +46,6 @@ void FolderRecording::chooseCamera(const FolderOptions& options)
         layout_.calibration = options.camera.empty() ? local : options.camera;
         layout_.camera = loadCameraFile(layout_.calibration);
         layout_.cameraIsNominal = false;
-        layout_.depthCamera.reset();
         if (layout_.camera->tellsUnits)
         {
             unitsPerMetre_ = layout_.camera->unitsPerMetre;
@@ -134,6 +133,10 @@ std::vector<std::string> FolderRecording::notes() const
     if (layout_.cameraIsNominal)
     {
         out.emplace_back("camera: nominal, that of the data set; --camera takes a calibration");
+    }
+    if (layout_.camera && !layout_.camera->unused.empty() && !layout_.depthCamera)
+    {
+        out.push_back(layout_.camera->unused);
     }
     const std::vector<std::string> ofFrames = frames_.notes();
     out.insert(out.end(), ofFrames.begin(), ofFrames.end());

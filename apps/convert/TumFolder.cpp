@@ -2,6 +2,7 @@
 #include "TumFolder.h"
 
 #include <pointplane/core/byte_order_mark.h>
+#include <pointplane/core/read_errors.h>
 #include <pointplane/core/trimmed.h>
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/mrpt_poses.h>
@@ -87,6 +88,7 @@ std::vector<TumImage> readTumListing(const std::string& folder, const std::strin
             images.push_back(*image);
         }
     }
+    requireRead(file, path);
     if (images.empty())
     {
         throw InputError(path + ": lists no images");

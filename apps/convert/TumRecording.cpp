@@ -4,6 +4,7 @@
 #include <pointplane/core/counted.h>
 #include <pointplane/core/number_text.h>
 #include <pointplane/core/quantile.h>
+#include <pointplane/core/read_errors.h>
 #include <pointplane/core/trimmed.h>
 #include <pointplane/evaluation/association.h>
 #include <pointplane/mrpt_io/mrpt_poses.h>
@@ -22,6 +23,7 @@
 #include "even_stamps.h"
 #include "frame_images.h"
 #include "layout_files.h"
+#include "stamp_check.h"
 
 namespace pointplane
 {
@@ -84,7 +86,9 @@ namespace fs = std::filesystem;
     {
         throw InputError("cannot read " + path + ": " + (in ? "not a file" : std::strerror(errno)));
     }
-    return std::string(std::istreambuf_iterator<char>(in), {});
+    const std::string text = readAll(in);
+    requireRead(in, path);
+    return text;
 }
 
 /** Whether there is more than comments. */
@@ -137,6 +141,8 @@ void TumRecording::readLists()
 
 void TumRecording::pairImages()
 {
+    requireTimes(secondsOf(colour_), options_.folder + "/rgb.txt");
+    requireTimes(secondsOf(depth_), options_.folder + "/depth.txt");
     if (colour_.empty())
     {
         for (std::size_t i = 0; i < depth_.size(); ++i)
@@ -223,7 +229,7 @@ std::vector<std::string> TumRecording::notes() const
         out.push_back(
             "camera: " + camera_.guessed + ", by the folder's name; --camera takes another");
     }
-    for (const std::string& note : {evening_, noTruth_})
+    for (const std::string& note : {camera_.unused, evening_, noTruth_})
     {
         if (!note.empty())
         {

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "layout_files.h"
 
+#include <pointplane/core/byte_order_mark.h>
 #include <pointplane/core/number_text.h>
+#include <pointplane/core/read_errors.h>
 #include <pointplane/mrpt_io/errors.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <iterator>
 #include <sstream>
 #include <string>
 
@@ -31,7 +32,9 @@ std::vector<double> numbersInFile(const fs::path& path)
     {
         throw InputError("cannot open " + path.string() + ": " + whyNoFile(path.string()));
     }
-    std::string text((std::istreambuf_iterator<char>(file)), {});
+    skipByteOrderMark(file);
+    std::string text = readAll(file);
+    requireRead(file, path.string());
     std::replace(text.begin(), text.end(), ',', ' ');
     std::istringstream words(text);
     std::vector<double> out;
@@ -118,7 +121,8 @@ std::optional<nlohmann::json> jsonObjectIn(const fs::path& path)
     {
         return {};
     }
-    nlohmann::json out = nlohmann::json::parse(file, nullptr, false);
+    nlohmann::json out = nlohmann::json::parse(readAll(file), nullptr, false);
+    requireRead(file, path.string());
     if (!out.is_object())
     {
         throw InputError(path.string() + ": is not a JSON object");

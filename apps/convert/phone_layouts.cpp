@@ -2,6 +2,7 @@
 #include "phone_layouts.h"
 
 #include <pointplane/core/number_text.h>
+#include <pointplane/core/read_errors.h>
 #include <pointplane/mrpt_io/errors.h>
 
 #include <algorithm>
@@ -55,6 +56,7 @@ void setStamps(FolderLayout& out, const fs::path& list, const StampOf& stampOf)
             out[std::lround(*frame)] = *stamp;
         }
     }
+    requireRead(file, odometry.string());
     return out;
 }
 

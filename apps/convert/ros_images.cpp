@@ -143,6 +143,12 @@ cv::Mat toMat(const sensor_msgs::CompressedImage& image)
         }
         return out;
     }
+    if (image.format.find("rvl") != std::string::npos)
+    {
+        throw BadFrame(
+            "depth compressed as RVL is not supported; image_transport's republish makes raw "
+            "images of it");
+    }
     CompressedDepthHeader header{};
     if (image.data.size() <= sizeof(header))
     {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "stamp_check.h"
 
+#include <pointplane/core/number_text.h>
 #include <pointplane/core/quantile.h>
+#include <pointplane/mrpt_io/errors.h>
 
 #include <algorithm>
 #include <cmath>
@@ -46,16 +48,17 @@ constexpr double kEpsilon = 1e-5;
     return out.str();
 }
 
-/** Frames 33 s apart are rather 33 ms apart. */
+/** Frames 33 s, or 33 microseconds, apart are rather 33 ms apart. */
 [[nodiscard]] std::string problemOfUnit(double median)
 {
-    constexpr double kLongest = 1;  // of recordings [s]; numbers of frames are as far apart
+    // Of recordings [s]; numbers of frames are as far apart.
+    constexpr double kShortest = 0.9e-3, kLongest = 1;
     std::ostringstream out;
-    if (median >= kLongest)
+    if (median >= kLongest || median < kShortest)
     {
         out << "a frame every " << std::setprecision(3) << median
-            << " s; are they in seconds? Else the odometry takes the camera for slow, and its "
-               "covariances are wrong";
+            << " s; are they in seconds? Else the odometry takes the camera for "
+            << (median >= kLongest ? "slow" : "fast") << ", and its covariances are wrong";
     }
     return out.str();
 }
@@ -121,5 +124,16 @@ std::string problemOfStamps(const std::vector<double>& stamps)
     }
     const std::string rounding = problemOfRounding(stamps, intervals, median);
     return rounding.empty() ? problemOfJitter(intervals, median) : rounding;
+}
+
+void requireTimes(const std::vector<double>& stamps, const std::string& name)
+{
+    const auto isFirst = [&](double stamp) { return stamp == stamps.front(); };
+    if (stamps.size() > 1 && std::all_of(stamps.begin(), stamps.end(), isFirst))
+    {
+        throw InputError(
+            name + ": all its images have the stamp " + numberText(stamps.front(), 3) +
+            " s; the program that recorded them must tell when they were taken");
+    }
 }
 }  // namespace pointplane

@@ -3,6 +3,7 @@
 
 #include <pointplane/core/byte_order_mark.h>
 #include <pointplane/core/number_text.h>
+#include <pointplane/core/read_errors.h>
 #include <pointplane/mrpt_io/ScanWriter.h>
 #include <pointplane/mrpt_io/camera_ini.h>
 #include <pointplane/mrpt_io/errors.h>
@@ -46,6 +47,9 @@ const std::array<Preset, 3> kPresets{{
     {"fr3", "freiburg3", {{535.4, 539.2, 320.1, 247.6}}, {{0, 0, 0, 0, 0}}},
 }};
 
+/** Ending of MRPT's section of the colour camera. */
+const std::string kRight = "_RIGHT";
+
 [[nodiscard]] TumCamera fromPreset(const Preset& preset)
 {
     TumCamera out;
@@ -78,6 +82,7 @@ const std::array<Preset, 3> kPresets{{
             numbers.push_back(*number);
         }
     }
+    requireRead(file, path);
     if (numbers.size() != 12)
     {
         return {};
@@ -115,9 +120,8 @@ const std::array<Preset, 3> kPresets{{
         if (ini.keyExists(section, "fx"))
         {
             cameras.push_back(section);
-            const std::string suffix = "_RIGHT";
-            if (section.size() >= suffix.size() &&
-                section.compare(section.size() - suffix.size(), suffix.size(), suffix) == 0)
+            if (section.size() >= kRight.size() &&
+                section.compare(section.size() - kRight.size(), kRight.size(), kRight) == 0)
             {
                 right.push_back(section);
             }
@@ -142,8 +146,15 @@ const std::array<Preset, 3> kPresets{{
 {
     const auto file = openIniFile(path);
     const mrpt::config::CConfigFile& ini = *file;
+    const std::string section = cameraSection(ini, path);
     TumCamera out;
-    out.camera = fromMrpt(cameraInIni(ini, path, cameraSection(ini, path)));
+    out.camera = fromMrpt(cameraInIni(ini, path, section));
+    const std::string left = section.substr(0, section.rfind(kRight)) + "_LEFT";
+    if (ini.keyExists(left, "fx"))
+    {
+        out.unused = path + ": [" + left +
+                     "], the depth camera, was not used: depth is taken for registered to colour";
+    }
     return out;
 }
 

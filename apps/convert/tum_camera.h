@@ -14,6 +14,7 @@ struct TumCamera
     double unitsPerMetre{5000};  //!< of depth images
     bool tellsUnits{false};      //!< not the usual ones
     std::string guessed{};       //!< name of the preset, if the folder's name told it
+    std::string unused{};        //!< what of the file is not used, for people, or empty
 };
 
 /** \param camera "fr1", "fr2", "fr3", a file, or empty: camera.txt in the folder, else a preset by

@@ -2,9 +2,11 @@
 #include <pointplane/evaluation/consistency.h>
 #include <pointplane/evaluation/nees.h>
 
+#include <algorithm>
 #include <ostream>
-#include <set>
+#include <vector>
 
+#include "FileIdentity.h"
 #include "OutputGuard.h"
 #include "command.h"
 #include "coverage_limit.h"
@@ -113,14 +115,19 @@ void NeesCommand::checkFiles() const
         throw std::invalid_argument(
             "nees needs a ground truth for each estimate: GT EST [GT EST]...");
     }
-    std::set<std::string> estimates;
+    std::vector<FileIdentity> estimates;
     for (std::size_t k = 1; k < files.size(); k += 2)
     {
-        if (!estimates.insert(files[k]).second)
+        const FileIdentity file(files[k]);
+        if (std::any_of(
+                estimates.begin(),
+                estimates.end(),
+                [&](const FileIdentity& other) { return other.isSame(file); }))
         {
             throw std::invalid_argument(
                 "'" + files[k] + "' is given more than once: its increments would count twice");
         }
+        estimates.push_back(file);
     }
     if (!html.directory.empty() && files.size() > 2)
     {

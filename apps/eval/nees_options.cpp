@@ -49,8 +49,15 @@ void NeesCommandOptions::addTo(CLI::App& command)
 
 void NeesCommandOptions::addProtocolTo(CLI::App& command)
 {
-    command.add_option("--interval", intervals, "Lengths of the increments: frames or seconds")
+    command
+        .add_option(
+            "--interval",
+            intervals,
+            "Lengths of the increments: frames (10f), seconds (1s), or start (since the first "
+            "pose)")
+        ->type_name("LENGTH,...")
         ->delimiter(',')
+        ->allow_extra_args(false)
         ->capture_default_str()
         ->each([this](const std::string&) { areChosen = true; })
         ->group("Protocol");

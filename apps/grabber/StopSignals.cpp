@@ -21,9 +21,17 @@ void installStopSignals()
     };
     action.sa_handler = onSignal;
     action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
-    for (const int number : {SIGINT, SIGTERM, SIGHUP})
+    for (const int number : {SIGINT, SIGTERM})
     {
         sigaction(number, &action, nullptr);
+    }
+    struct sigaction before
+    {
+    };
+    sigaction(SIGHUP, nullptr, &before);
+    if (before.sa_handler != SIG_IGN)
+    {
+        sigaction(SIGHUP, &action, nullptr);
     }
 }
 

@@ -4,8 +4,8 @@
 namespace pointplane
 {
 /** Makes Ctrl-C, SIGTERM and SIGHUP ask for a clean end; the second signal ends the process at once
- * (what is on the disk stays readable). Closed pipes and full file systems become errors of the
- * write instead of killing the process. */
+ * (what is on the disk stays readable). A SIGHUP that is ignored, as by nohup, stays so. Closed
+ * pipes and full file systems become errors of the write instead of killing the process. */
 void installStopSignals();
 
 [[nodiscard]] bool stopRequested();

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include "OutputGuard.h"
 
@@ -18,9 +19,20 @@ namespace
 {
 namespace fs = std::filesystem;
 
-bool splits(const GrabberOptions& options)
+/** Of a recording, its first parts if it is split. */
+std::vector<std::string> recordingsOf(const GrabberOptions& options)
 {
-    return options.recordsRawlog() && options.recording.splitAfter > 0.0;
+    constexpr int kParts = 1000;
+    if (!options.recordsRawlog() || options.recording.splitAfter <= 0.0)
+    {
+        return {options.output};
+    }
+    std::vector<std::string> out;
+    for (int i = 0; i < kParts; ++i)
+    {
+        out.push_back(segmentPath(options.output, i));
+    }
+    return out;
 }
 
 void keepFilesApart(const GrabberOptions& options)
@@ -34,10 +46,8 @@ void keepFilesApart(const GrabberOptions& options)
     guard.addInput(options.calibration);
     guard.addInput(options.liveOdometry.config);
     guard.addInput(options.liveOdometry.mask);
-    constexpr int kSegments = 1000;
-    for (int i = 0; i < (splits(options) ? kSegments : 1); ++i)
+    for (const std::string& path : recordingsOf(options))
     {
-        const std::string path = splits(options) ? segmentPath(options.output, i) : options.output;
         guard.addOutput("-o", path);
         if (options.recordsRawlog() && options.recording.encoding.storage == ImageStorage::External)
         {
@@ -69,10 +79,12 @@ void checkFilesOf(const GrabberOptions& options)
     {
         return;
     }
-    const std::string first = splits(options) ? segmentPath(options.output, 0) : options.output;
-    if (fs::exists(first, error))
+    for (const std::string& path : recordingsOf(options))
     {
-        throw InputError("'" + first + "' exists already; recordings never overwrite");
+        if (fs::exists(path, error))
+        {
+            throw InputError("'" + path + "' exists already; recordings never overwrite");
+        }
     }
 }
 }  // namespace pointplane

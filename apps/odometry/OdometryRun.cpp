@@ -30,10 +30,10 @@ class Run
         : options_(options),
           guard_(guardOf(options)),
           source_(options, guard_),
+          mask_(options.mask),
           sinks_(openSinks(options)),
           keepFeatures_(std::any_of(
               sinks_.begin(), sinks_.end(), [](const auto& s) { return s->needsFeatures(); })),
-          mask_(options.mask),
           odometry_(params)
     {
         if (!options.mask.empty())
@@ -150,9 +150,9 @@ class Run
     const OdometryOptions& options_;
     OutputGuard guard_;
     FrameSource source_;
-    Sinks sinks_;
-    bool keepFeatures_;
     RobotMask mask_;
+    Sinks sinks_;  // after all inputs: what is wrong with those leaves no file behind
+    bool keepFeatures_;
     VisualOdometry odometry_;
     std::optional<ProgressBar> bar_;
     RunSummary summary_;

@@ -48,9 +48,11 @@ namespace
     auto out = mrpt::obs::CObservationComment::Create();
     out->timestamp = item.source.observation->timestamp;
     const RobotMotion& motion = item.frame->motion;
-    out->text = statusCommentOf(item.source.observation->sensorLabel) +
-                std::to_string(item.source.frameIndex) + " " + toString(motion.status) +
-                (motion.reason.empty() ? "" : ": " + motion.reason);
+    out->text = statusCommentOf(
+        item.source.observation->sensorLabel,
+        item.source.frameIndex,
+        toString(motion.status),
+        motion.reason);
     return out;
 }
 }  // namespace

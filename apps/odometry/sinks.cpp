@@ -3,6 +3,8 @@
 
 #include <pointplane/mrpt_io/errors.h>
 
+#include <algorithm>
+
 #include "OverlaySink.h"
 #include "RawlogSink.h"
 #include "map_sinks.h"
@@ -24,11 +26,8 @@ void addSink(Sinks& sinks, const std::string& option, const Args&... args)
         throw EnvironmentError(option + ": " + e.what());
     }
 }
-}  // namespace
-
-Sinks openSinks(const OdometryOptions& options)
+void addSinks(Sinks& sinks, const OdometryOptions& options)
 {
-    Sinks sinks;
     if (!options.output.empty())
     {
         addSink<RawlogSink>(sinks, "-o", options);
@@ -58,6 +57,21 @@ Sinks openSinks(const OdometryOptions& options)
     if (!options.overlay.empty())
     {
         addSink<OverlaySink>(sinks, "--overlay", options.overlay, options.overlayEvery);
+    }
+}
+}  // namespace
+
+Sinks openSinks(const OdometryOptions& options)
+{
+    Sinks sinks;
+    try
+    {
+        addSinks(sinks, options);
+    }
+    catch (...)
+    {
+        std::for_each(sinks.begin(), sinks.end(), [](const auto& sink) { sink->discard(); });
+        throw;
     }
     return sinks;
 }

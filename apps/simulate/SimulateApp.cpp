@@ -77,8 +77,8 @@ void addOptions(CLI::App& app, Arguments& args)
            args.settings,
            "Set a property of the camera, key=value; once for each key (--list-settings)")
         ->type_name("KEY=VALUE")
-        ->expected(1)
-        ->take_all();
+        ->type_size(1)
+        ->allow_extra_args(false);
     app.add_option("--label", args.output.label, "Label of the camera in the rawlog")
         ->type_name("LABEL")
         ->check(isLabel())

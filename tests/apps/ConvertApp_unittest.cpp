@@ -457,6 +457,29 @@ TEST_F(ConvertApp, aListThatCannotBeReadIsNotTakenForNone)
     EXPECT_THAT(text_, HasSubstr("cannot open " + in_ + "/rgb.txt"));
 }
 
+/** Where a disk fails, a list does not end. */
+TEST_F(ConvertApp, aListThatCannotBeReadToItsEndIsTold)
+{
+    for (const std::string name : {"rgb.txt", "groundtruth.txt", "camera.txt"})
+    {
+        const std::string path = in_ + "/" + name, kept = dir_ / "kept";
+        const bool isThere = std::filesystem::exists(path);
+        if (isThere)
+        {
+            std::filesystem::rename(path, kept);
+        }
+        std::filesystem::create_symlink("/proc/self/mem", path);
+        EXPECT_EQ(run({in_, "-o", out_}), kExitBadInput);
+        EXPECT_THAT(text_, HasSubstr("cannot read " + path + ": input/output error"));
+        EXPECT_FALSE(std::filesystem::exists(out_));
+        std::filesystem::remove(path);
+        if (isThere)
+        {
+            std::filesystem::rename(kept, path);
+        }
+    }
+}
+
 TEST_F(ConvertApp, mistakesAreNamed)
 {
     const auto expect = [this](const std::string& text, std::vector<std::string> more = {})
@@ -482,6 +505,8 @@ TEST_F(ConvertApp, mistakesAreNamed)
     expect("/depth.txt: No such file or directory; without lists, pointplane-convert folder takes");
     writeBytes(dir_ / "in/depth.txt", "# nothing\n");
     expect("depth.txt: lists no images");
+    writeBytes(dir_ / "in/depth.txt", "5 depth/0.png\n5.0 depth/1.png\n");
+    expect("in/depth.txt: all its images have the stamp 5.000 s; the program that recorded them");
     writeBytes(dir_ / "in/depth.txt", "5.0 depth/0.png\n");
     expect(
         "no colour and depth stamps within 0.02 s of each other: colour from 1305031102.175 to "

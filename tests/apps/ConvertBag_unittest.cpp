@@ -276,6 +276,32 @@ TEST_F(ConvertBag, compressedImages)
     }
 }
 
+/** The transport's other coder; its bytes are whole. */
+TEST_F(ConvertBag, depthByRvlIsNotSupportedAndNotDamaged)
+{
+    writeInfos();
+    writeColour(0);
+    CompressedImage depth = compressedDepth(test::depthImage(0), "16UC1", timeOf(0));
+    depth.format = "16UC1; compressedDepth rvl";
+    bag_.write("/camera/depth/image_raw/compressedDepth", timeOf(0), depth);
+    EXPECT_EQ(convert(), kExitBadInput);
+    EXPECT_THAT(text_, HasSubstr("compressedDepth, message 0: depth compressed as RVL is not sup"));
+}
+
+TEST_F(ConvertBag, imagesOfAnotherSizeThanTheirCalibrationAreToldWithBoth)
+{
+    writeInfos();
+    const cv::Mat half(24, 32, CV_8UC3, cv::Scalar(1, 2, 3));
+    bag_.write("/camera/rgb/image_color", timeOf(0), imageOf(half, "bgr8", "optical", timeOf(0)));
+    writeDepth(0);
+    EXPECT_EQ(convert(), kExitBadInput);
+    EXPECT_THAT(
+        text_,
+        HasSubstr("colour is 32x24 of 8 bit and 3 channels, depth 64x48 of 16 bit and 1 channel; "
+                  "expected are colour of 8 bit and 64x48, depth of 16 bit and 64x48, as the "
+                  "calibration says"));
+}
+
 TEST_F(ConvertBag, depthOfAnotherCameraIsPlacedByTf)
 {
     bag_.write("/camera/rgb/camera_info", timeOf(0), cameraInfo("rgb_optical"));
@@ -336,6 +362,52 @@ TEST_F(ConvertBag, ofRealSensesRecorder)
     EXPECT_NEAR(scan->rangeUnits, 0.0005, 1e-9);
     EXPECT_NEAR(scan->relativePoseIntensityWRTDepth.y(), 0.015, 1e-9);
     EXPECT_EQ(scan->rangeImage(20, 30), 2000);
+}
+
+/** Frames that arrive out of order, and one whose clock was wrong, have their partners, too. */
+TEST_F(ConvertBag, stampsMayGoBack)
+{
+    writeInfos();
+    int arrived = 0;
+    for (const int i : {900, 0, 2, 1, 3})
+    {
+        const ros::Time time = timeOf(++arrived);
+        bag_.write(
+            "/camera/rgb/image_color",
+            time,
+            imageOf(test::colourImage(i), "bgr8", "optical", timeOf(i)));
+        bag_.write(
+            "/camera/depth/image",
+            time,
+            imageOf(test::depthImage(i), "16UC1", "optical", timeOf(i, 0.005)));
+    }
+    ASSERT_EQ(convert(), kExitOk) << text_;
+    EXPECT_THAT(text_, testing::Not(HasSubstr("left out")));
+    EXPECT_THAT(text_, HasSubstr("stamps: 2 of them are before the one before"));
+    const auto found = frames();
+    ASSERT_EQ(found.size(), 5U);
+    for (const RgbdFrame& frame : found)
+    {
+        const double number = 30 * (frame.stamp - kStart);
+        EXPECT_NEAR(frame.depth.at<float>(20, 30), 1 + 1e-3 * number, 1e-5);
+    }
+}
+
+/** As of a driver that does not set them. */
+TEST_F(ConvertBag, headersWithoutStampsAreRefused)
+{
+    writeInfos();
+    for (int i = 0; i < 3; ++i)
+    {
+        bag_.write(
+            "/camera/rgb/image_color",
+            timeOf(i),
+            imageOf(test::colourImage(i), "bgr8", "optical", ros::Time()));
+        writeDepth(i);
+    }
+    EXPECT_EQ(convert(), kExitBadInput);
+    EXPECT_THAT(
+        text_, HasSubstr("in.bag: /camera/rgb/image_color: all its images have the stamp 0.000 s"));
 }
 
 TEST_F(ConvertBag, severalTopicsAreNamed)

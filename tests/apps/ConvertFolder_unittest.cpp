@@ -105,6 +105,37 @@ TEST_F(ConvertFolder, scanNetHasTwoCamerasInOnePlace)
     EXPECT_DOUBLE_EQ(scan->cameraParamsIntensity.fx(), 60);
 }
 
+/** A calibration is of colour: depth stays that of the layout's own camera. */
+TEST_F(ConvertFolder, scanNetKeepsItsDepthCameraBesideACalibration)
+{
+    writeFrames("in/color/%d.jpg", "in/depth/%d.png", 32);
+    write("in/intrinsic/intrinsic_color.txt", "60 0 31.5 0\n0 60 23.5 0\n0 0 1 0\n0 0 0 1\n");
+    write(  // with a byte order mark
+        "in/intrinsic/intrinsic_depth.txt",
+        "\xEF\xBB\xBF 29 0 15 0\n0 29 11 0\n0 0 1 0\n0 0 0 1\n");
+    write("in/intrinsic/extrinsic_color.txt", "1 0 0 0.03\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
+    write("calibration.txt", "61 61 31 23 0 0 0 0 0 64 48 1000\n");
+    ASSERT_EQ(run({"folder", in_, "--camera", dir_ / "calibration.txt"}), kExitOk) << text_;
+    const auto scan = scans()[0];
+    EXPECT_DOUBLE_EQ(scan->cameraParamsIntensity.fx(), 61);
+    EXPECT_DOUBLE_EQ(scan->cameraParams.fx(), 29);
+    EXPECT_NEAR(scan->relativePoseIntensityWRTDepth.norm(), 0.03, 1e-9);
+}
+
+/** Of the two cameras that kinect-stereo-calib writes, one is used. */
+TEST_F(ConvertFolder, aDepthCameraThatIsNotUsedIsTold)
+{
+    writeFrames("in/rgb/%d.jpg", "in/depth/%d.png");
+    const std::string camera = "resolution=[64 48]\ncx=31\ncy=23\nfy=60\ndist=[0 0 0 0 0]\nfx=";
+    write("pair.ini", "[K_LEFT]\n" + camera + "50\n[K_RIGHT]\n" + camera + "60\n");
+    ASSERT_EQ(run({"folder", in_, "--camera", dir_ / "pair.ini"}), kExitOk) << text_;
+    EXPECT_DOUBLE_EQ(scans()[0]->cameraParams.fx(), 60);
+    EXPECT_THAT(
+        text_,
+        HasSubstr("pair.ini: [K_LEFT], the depth camera, was not used: depth is taken for "
+                  "registered to colour\n"));
+}
+
 /** As they are before depth is moved to colour: both cameras' poses in a common base. */
 TEST_F(ConvertFolder, scanNetTellsWhereItsCamerasAre)
 {
@@ -432,6 +463,14 @@ TEST_F(ConvertFolder, aBadImageIsNamedAndLeftOut)
     EXPECT_THAT(text_, HasSubstr("in/depth/1.png"));
     EXPECT_FALSE(std::filesystem::exists(out_));
 
+    // Where the disk fails.
+    std::filesystem::remove(dir_ / "in/depth/1.png");
+    std::filesystem::create_symlink("/proc/self/mem", dir_ / "in/depth/1.png");
+    EXPECT_EQ(run({"folder", in_}), kExitIncomplete);
+    EXPECT_THAT(text_, HasSubstr("cannot read " + in_ + "/depth/1.png: Input/output error"));
+    EXPECT_EQ(frames().size(), 2U);
+    std::filesystem::remove(dir_ / "in/depth/1.png");
+
     // Of another size, or not depth at all.
     writeImage("in/depth/1.png", depthImage(1, 64, 20));
     EXPECT_EQ(run({"folder", in_}), kExitIncomplete);
@@ -752,7 +791,7 @@ TEST(ProblemOfStamps, saysWhatIsWrong)
     EXPECT_THAT(problemOfStamps(repeated), HasSubstr("40 of them repeat the one before"));
     EXPECT_THAT(problemOfStamps(repeated), HasSubstr("--even-stamps"));
     EXPECT_EQ(problemOfStamps(back), "1 of them is before the one before");
-    for (const double unit : {1e3, 1e6, 1e9, 30.0})  // the last one: numbers of frames
+    for (const double unit : {1e3, 1e6, 1e9, 30.0, 1e-3})  // 30: numbers of frames
     {
         std::vector<double> stamps;
         for (std::size_t i = 0; i < 3; ++i)
@@ -760,6 +799,7 @@ TEST(ProblemOfStamps, saysWhatIsWrong)
             stamps.push_back(unit * (even[i] - even[0]));
         }
         EXPECT_THAT(problemOfStamps(stamps), HasSubstr(" s; are they in seconds?")) << unit;
+        EXPECT_THAT(problemOfStamps(stamps), HasSubstr(unit < 1 ? " for fast," : " for slow,"));
     }
 }
 

@@ -410,6 +410,21 @@ TEST_F(Outputs, twoProgramsDoNotWriteOneFile)
     EXPECT_NE(readBytes(out_), "first");
 }
 
+/** What is refused before the first frame has not begun to write. */
+TEST_F(Outputs, aRefusedRunLeavesNoPartialFiles)
+{
+    for (const std::string& option : kOptions)
+    {
+        expectRefused({in_, option, out_, "--mask", dir_ / "none.png"}, "none.png: no such file");
+    }
+    const OutputFile first(out_);
+    const auto before = files();
+    const AppRun outcome = run({in_, "-o", dir_ / "b.rawlog", "--diagnostics", out_});
+    EXPECT_EQ(outcome.code, kExitEnvironment);
+    EXPECT_THAT(outcome.err, HasSubstr("another program is writing it"));
+    EXPECT_EQ(files(), before);
+}
+
 /** Nobody named the files in it. */
 TEST_F(Outputs, linksInAFolderAreReplacedAndNotFollowed)
 {

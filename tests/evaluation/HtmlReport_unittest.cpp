@@ -81,6 +81,19 @@ TEST(FrameTable, readsNumbersStatusAndQuotes)
     EXPECT_EQ(charts[1].series[0].x, (std::vector<double>{2.5, 3.5}));
 }
 
+/** As a spreadsheet saves it. */
+TEST(FrameTable, readsBehindAByteOrderMarkAndLinesWithoutFields)
+{
+    test::TempDir dir;
+    const FrameTable table = FrameTable::read(writeFile(
+        dir,
+        "f.csv",
+        "\xEF\xBB\xBF"
+        "frame,stamp\r\n7,10.5\r\n\r\n"));
+    ASSERT_EQ(table.size(), 1u);
+    EXPECT_EQ(table.column("frame"), std::vector<double>{7});
+}
+
 /** Of two frames lost for a late stamp, one has that of a pose. */
 TEST(FrameTable, rowsAreFoundByStampsAndOnlyTheirOwn)
 {

@@ -747,6 +747,16 @@ TEST(MrptTrajectories, framesOfACameraWithoutALabelAreMarkedToo)
     EXPECT_EQ(evaluate({"ate", writeTruth(dir), dir / "a.rawlog", "--max-rmse", "1"}).code, 1);
 }
 
+TEST(MrptTrajectories, intervalsMayStandBeforeTheFiles)
+{
+    test::TempDir dir;
+    writeOdometry(dir / "a.rawlog", true, Eigen::Isometry3d::Identity());
+    const test::AppRun r =
+        evaluate({"nees", "--interval", "1f,5f", writeTruth(dir), dir / "a.rawlog"});
+    EXPECT_EQ(r.code, 0) << r.err;
+    EXPECT_THAT(r.out, HasSubstr("increments of 5f"));
+}
+
 TEST(MrptTrajectories, nothingIsTestedTwice)
 {
     test::TempDir dir;
@@ -761,6 +771,12 @@ TEST(MrptTrajectories, nothingIsTestedTwice)
     const test::AppRun twice = evaluate({"nees", truthFile, run, truthFile, run});
     EXPECT_EQ(twice.code, 2);
     EXPECT_THAT(twice.err, HasSubstr("a.rawlog' is given more than once"));
+    const std::string link = dir / "link.rawlog";
+    std::filesystem::create_symlink("a.rawlog", link);
+    for (const std::string& name : {dir / "./a.rawlog", link})
+    {
+        EXPECT_EQ(evaluate({"nees", truthFile, run, truthFile, name}).code, 2) << name;
+    }
 }
 
 /** They would be a metre apart for another reason than their errors. */

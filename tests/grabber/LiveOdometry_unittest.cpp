@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/grabber/LiveOdometry.h>
+#include <pointplane/mrpt_io/RawlogReader.h>
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/image_file.h>
 
+#include <mrpt/obs/CObservationComment.h>
+
+#include <memory>
 #include <new>
 #include <ostream>
 #include <sstream>
 #include <streambuf>
 #include <string>
+#include <vector>
 
 #include "TempDir.h"
 #include <gtest/gtest.h>
@@ -74,6 +79,35 @@ TEST(LiveOdometry, anErrorEndsItAndNothingElse)
 
     EXPECT_EQ(live.stats().problem, "out of memory; --live ends there, the rest went on");
     EXPECT_EQ(live.stats().processed, 2U);
+}
+
+/** As in the rawlog of pointplane-odometry: else a prediction counts as measured. */
+TEST(LiveOdometry, framesThatWereNotTrackedAreMarkedInTheRawlog)
+{
+    const test::TempDir dir;
+    const ObservationBuilder builder(calibration());
+    std::ostringstream out;
+    LiveOptions options;
+    options.waits = true;
+    options.poseRawlog = dir / "poses.rawlog";
+    LiveOdometry live(options, builder, out);
+    for (int k = 0; k < 2; ++k)  // the same image twice
+    {
+        live.add(grey(1 + k / 30.0));
+    }
+    live.finish();
+    std::vector<std::string> comments;
+    RawlogReader reader(options.poseRawlog);
+    while (const auto object = reader.next())
+    {
+        const auto comment = std::dynamic_pointer_cast<mrpt::obs::CObservationComment>(object);
+        if (comment)
+        {
+            comments.push_back(comment->text);
+        }
+    }
+    ASSERT_EQ(comments.size(), 1U);
+    EXPECT_EQ(comments[0].rfind("pointplane-status label=OPENNI2 frame=1 predicted: ", 0), 0U);
 }
 
 TEST(LiveOdometry, aMaskOfAnotherSizeIsRefusedBeforeTheFirstFrame)

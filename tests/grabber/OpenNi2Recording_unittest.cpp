@@ -285,6 +285,9 @@ TEST_F(OpenNi2Recording, badRequestsAreExplained)
             "", {"--frames", "3", "--images", "external", "--preview", dir_ / "out_Images/p.png"}),
         2);
     EXPECT_THAT(err_, HasSubstr("would write over what images of -o"));
+    writeBytes(dir_ / "out_007.rawlog", "precious");  // there it would end
+    EXPECT_EQ(record("", {"--frames", "3", "--split-minutes", "1"}), 2);
+    EXPECT_THAT(err_, HasSubstr("out_007.rawlog' exists already; recordings never overwrite"));
     writeBytes(out_, "precious");
     EXPECT_EQ(record("", {"--frames", "3"}), 2);
     EXPECT_EQ(readBytes(out_), "precious");
@@ -304,6 +307,21 @@ TEST_F(OpenNi2Recording, ctrlCAndTermEndCleanly)
         EXPECT_GE(scansOf(out_).size(), 10U);
         fs::remove(out_);
     }
+}
+
+/** nohup(1) has it ignored, so that a recording outlives its terminal. */
+TEST_F(OpenNi2Recording, aHangupThatIsIgnoredEndsNothing)
+{
+    const auto virtualCamera = camera();
+    auto* const before = std::signal(SIGHUP, SIG_IGN);
+    const auto process =
+        start(virtualCamera, {"-o", out_, "--mode", "64x48@30", "--warm-up", "0.2"});
+    std::signal(SIGHUP, before);
+    waitForFrames(out_, 100'000);
+    process->signal(SIGHUP);
+    waitForFrames(out_, fs::file_size(out_) + 100'000);
+    process->signal(SIGTERM);
+    EXPECT_EQ(process->wait(seconds(10)), 0) << process->err();
 }
 
 TEST_F(OpenNi2Recording, killNineLosesAtMostTheLastSecond)

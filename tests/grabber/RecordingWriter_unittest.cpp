@@ -11,6 +11,7 @@
 
 #include "grabber_testing.h"
 #include "rawlog_samples.h"
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
@@ -219,6 +220,7 @@ TEST_F(Recording, aCutBetweenTwoFramesIsTold)
                 test::writeBytes(dir_ / "cut.rawlog", bytes.substr(0, at));
                 const test::RawlogContents cut = test::readAll(dir_ / "cut.rawlog");
                 EXPECT_EQ(cut.ending.kind, RawlogEnd::Truncated);
+                EXPECT_THAT(cut.ending.message, testing::HasSubstr("its program still records or"));
                 ++numCuts;
             }
             EXPECT_GE(numCuts, whole.objects.size() - 2);

@@ -120,8 +120,31 @@ TEST_F(ImageFile, aMissingFolderIsNamedNotTheFile)
     {
         EXPECT_EQ(message(name), "cannot open " + name + ": Too many levels of symbolic links");
     }
+    // A disk that fails.
+    EXPECT_EQ(message("/proc/self/mem"), "cannot read /proc/self/mem: Input/output error");
     EXPECT_EQ(problem(""), (dir_ / "image") + ": is empty");
     EXPECT_EQ(problem("text"), (dir_ / "image") + ": is not an image, or damaged");
+}
+
+/** Depth and calibration are not turned either. */
+TEST_F(ImageFile, anOrientationDoesNotTurnThePicture)
+{
+    cv::Mat picture(48, 64, CV_8UC3, cv::Scalar(0, 0, 0));
+    picture.colRange(0, 32).setTo(200);
+    writeJpegFile(dir_ / "a.jpg", picture, 95);
+    const std::string plain = test::readBytes(dir_ / "a.jpg");
+    for (const char orientation : {'\3', '\6'})  // by 180 and 90 degrees
+    {
+        std::string exif(
+            "\xFF\xE1\0\x22"
+            "Exif\0\0II*\0\x08\0\0\0\1\0",
+            20);
+        exif += std::string("\x12\1\3\0\1\0\0\0", 8) + orientation + std::string(7, '\0');
+        test::writeBytes(dir_ / "turned.jpg", plain.substr(0, 2) + exif + plain.substr(2));
+        const cv::Mat read = readImageFile(dir_ / "turned.jpg", cv::IMREAD_COLOR);
+        ASSERT_EQ(read.size(), picture.size());
+        EXPECT_LT(cv::norm(read, picture, cv::NORM_INF), 12);
+    }
 }
 
 TEST_F(ImageFile, aJpegIsThePicture)

@@ -215,6 +215,22 @@ TEST(ParamsIni, anotherFileIsNotQuoted)
     }
 }
 
+/** Nor read to the end of a large one; and a disk that fails is told with the file. */
+TEST(ParamsIni, aFileThatIsTooLargeOrCannotBeReadIsNamed)
+{
+    const test::TempDir dir;
+    const std::string large = dir / "large.txt";
+    test::writeBytes(large, "[Lens]\n" + std::string(2U << 20U, '#'));
+    EXPECT_THAT(
+        [&] { (void)loadOdometryParams(large); },
+        testing::ThrowsMessage<InputError>(
+            large + ": is longer than 1 MiB, as no configuration is"));
+    EXPECT_THAT(
+        [&] { (void)loadOdometryParams("/proc/self/mem"); },
+        testing::ThrowsMessage<InputError>(
+            HasSubstr("cannot read configuration /proc/self/mem: ")));
+}
+
 TEST(ParamsIni, odometryParametersRoundTripAndAreChecked)
 {
     OdometryParams params = loadOdometryParams("");

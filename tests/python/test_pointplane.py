@@ -22,6 +22,14 @@ import pointplane
 RAWLOG = os.path.abspath(sys.argv.pop())
 
 
+def write_comment(path, text):
+    """A rawlog of one CObservationComment: class and its version, text, stamp, end mark."""
+    name = b"CObservationComment"
+    with gzip.open(path, "wb") as file:
+        file.write(struct.pack("<B", 0x80 | len(name)) + name + b"\0")
+        file.write(struct.pack("<I", len(text)) + text + struct.pack("<Q", 0) + b"\x88")
+
+
 class Rawlogs(unittest.TestCase):
     def test_frames_are_arrays_in_metres(self):
         frames = list(pointplane.read_rawlog(RAWLOG))
@@ -75,17 +83,19 @@ class Rawlogs(unittest.TestCase):
     def test_a_rawlog_without_a_camera_is_no_recording_of_zero_frames(self):
         with tempfile.TemporaryDirectory() as folder:
             path = folder + "/comment.rawlog"
-            text = b"nothing else is in this recording"
-            name = b"CObservationComment"
-            with gzip.open(path, "wb") as file:
-                # Class and its version, text, stamp, end mark.
-                file.write(struct.pack("<B", 0x80 | len(name)) + name + b"\0")
-                file.write(struct.pack("<I", len(text)) + text + struct.pack("<Q", 0) + b"\x88")
+            write_comment(path, b"nothing else is in this recording")
             for label in ("", "RGBD"):
                 with self.assertRaisesRegex(
                     pointplane.InputError, "comment.rawlog: no CObservation3DRangeScan in it"
                 ):
                     list(pointplane.read_rawlog(path, label))
+
+    def test_a_comment_that_cannot_be_understood_is_told_with_its_file(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = folder + "/comment.rawlog"
+            write_comment(path, b"pointplane-camera label=RGBD delay=1")
+            with self.assertRaisesRegex(pointplane.InputError, "comment.rawlog: .*key 'delay'"):
+                list(pointplane.read_rawlog(path))
 
     def test_help_names_types_as_python_does(self):
         for thing in vars(pointplane).values():
@@ -276,6 +286,10 @@ class Odometry(unittest.TestCase):
             self.assertEqual(distortion(given), five)
         self.assertEqual(distortion(five[:4]), five[:4] + [0])
         self.assertEqual(distortion([]), 5 * [0])
+        self.assertEqual(distortion(None), 5 * [0])
+        for wrong in ("0.1", ["k1"], 0.1):
+            with self.assertRaisesRegex(TypeError, "^distortion: expected numbers k1 k2 p1 p2 k3"):
+                distortion(wrong)
         self.assertEqual(distortion(five + [0, 0, 0]), five)
         with self.assertRaisesRegex(ValueError, "^distortion has 8 values, but only k1 k2 p1 p2 k3"):
             distortion(five + [0, 0, 1e-3])

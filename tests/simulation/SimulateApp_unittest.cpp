@@ -274,6 +274,15 @@ TEST(SimulateApp, idealAndSettingsReachTheCamera)
     EXPECT_EQ(cv::countNonZero(frames[0].frame.depth > 0), 320 * 240);
 }
 
+TEST(SimulateApp, settingsMayStandBeforeTheScene)
+{
+    const test::TempDir dir;
+    std::vector<std::string> args = smallRun(dir / "a.rawlog");
+    args.insert(args.begin(), {"--set", "readoutDepth=0.02"});
+    ASSERT_EQ(run(args).code, 0);
+    EXPECT_EQ(convertedFrames(dir / "a.rawlog").at(0).frame.shutter.readoutDepth, 0.02);
+}
+
 TEST(SimulateApp, badUsageIsNamedAndLeavesNoFile)
 {
     const test::TempDir dir;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/byte_order_mark.h>
+#include <pointplane/core/counted.h>
 #include <pointplane/core/number_text.h>
 #include <pointplane/core/read_errors.h>
+#include <pointplane/core/trimmed.h>
 #include <pointplane/evaluation/FrameTable.h>
 #include <pointplane/evaluation/association.h>
 #include <pointplane/evaluation/stamp_intervals.h>
@@ -67,7 +70,7 @@ void FrameTable::addRow(const std::string& line)
     if (fields.size() != names_.size())
     {
         throw std::runtime_error(
-            std::to_string(fields.size()) + " fields, " + std::to_string(names_.size()) +
+            counted(fields.size(), "field") + ", " + std::to_string(names_.size()) +
             " in the header");
     }
     for (std::size_t k = 0; k < fields.size(); ++k)
@@ -93,6 +96,7 @@ FrameTable FrameTable::read(const std::string& path)
         throw std::runtime_error(
             "cannot open " + path + ": " + (file ? "is a directory" : std::strerror(errno)));
     }
+    skipByteOrderMark(file);
     std::string line;
     const bool hasHeader = static_cast<bool>(std::getline(file, line));
     requireRead(file, path);
@@ -107,7 +111,7 @@ FrameTable FrameTable::read(const std::string& path)
         table.setHeader(line);
         for (++number; std::getline(file, line); ++number)
         {
-            if (!line.empty())
+            if (!trimmed(line).empty())
             {
                 table.addRow(line);
             }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/read_errors.h>
 #include <pointplane/evaluation/HtmlReport.h>
 #include <pointplane/evaluation/svg_chart.h>
 
 #include <cstdint>
 #include <fstream>
-#include <iterator>
 #include <stdexcept>
 
 #include "report_page.h"
@@ -87,8 +87,8 @@ void HtmlReport::addChart(const Chart& chart)
 void HtmlReport::addPicture(const std::string& caption, const std::string& path)
 {
     std::ifstream file(path, std::ios::binary);
-    const std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-    if (!file || bytes.empty())
+    const std::string bytes = readAll(file);
+    if (file.bad() || bytes.empty())
     {
         throw std::runtime_error("cannot read picture '" + path + "'");
     }

@@ -2,7 +2,9 @@
 #include <pointplane/grabber/LiveOdometry.h>
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/image_file.h>
+#include <pointplane/mrpt_io/output_labels.h>
 
+#include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CObservationRobotPose.h>
 
 #include <cstdio>
@@ -113,11 +115,9 @@ void LiveOdometry::process(const ImagePair& pair)
     out_ << lineOf(motion, pair.stamp) << std::endl;
     write(motion, observation.timestamp);
 
-    const bool tracked =
-        motion.status == TrackingStatus::First || motion.status == TrackingStatus::Tracked;
     const std::lock_guard<std::mutex> lock(mutex_);
     ++stats_.processed;
-    stats_.notTracked += tracked ? 0 : 1;
+    stats_.notTracked += isMeasured(motion.status) ? 0 : 1;
 }
 
 void LiveOdometry::write(const RobotMotion& motion, mrpt::Clock::time_point stamp)
@@ -127,12 +127,21 @@ void LiveOdometry::write(const RobotMotion& motion, mrpt::Clock::time_point stam
         return;
     }
     mrpt::obs::CObservationRobotPose pose;
-    pose.sensorLabel = builder_.calibration().sensorLabel + "_pose";
+    const std::string& camera = builder_.calibration().sensorLabel;
+    pose.sensorLabel = poseLabelOf(camera);
     pose.timestamp = stamp;
     pose.pose = motion.pose;
     try
     {
         rawlog_->write(pose);
+        if (!isMeasured(motion.status))
+        {
+            mrpt::obs::CObservationComment comment;
+            comment.timestamp = stamp;
+            comment.text =
+                statusCommentOf(camera, stats().processed, toString(motion.status), motion.reason);
+            rawlog_->write(comment);
+        }
     }
     catch (const EnvironmentError& e)
     {

@@ -156,8 +156,8 @@ void RawlogReader::Impl::scanOrAskMrpt()
         {
             endHere(
                 isRecording ? RawlogEnd::Truncated : RawlogEnd::Clean,
-                "the end mark of the recording is missing: it was cut between two frames, or the "
-                "recording program was killed");
+                "the end mark of the recording is missing: its program still records or was "
+                "killed, or the file was cut between two frames");
             return;
         }
         member = in.endMember();

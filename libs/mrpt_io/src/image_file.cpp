@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/read_errors.h>
 #include <pointplane/mrpt_io/OutputFile.h>
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/image_file.h>
@@ -10,7 +11,6 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <memory>
 #include <new>
 #include <stdexcept>
@@ -111,8 +111,8 @@ constexpr const char* kCut = "stops before the end of the image";
         throw InputError("cannot open " + path + ": " + whyNoFile(path));
     }
     std::ifstream file(path, std::ios::binary);
-    Bytes bytes(std::istreambuf_iterator<char>(file), {});
-    if (!file)
+    Bytes bytes = readAll<Bytes>(file);
+    if (!file.is_open() || file.bad())
     {
         throw InputError("cannot read " + path + ": " + std::strerror(errno));
     }
@@ -156,7 +156,7 @@ cv::Mat readImageFile(const std::string& path, int flags)
     cv::Mat image;
     try
     {
-        image = cv::imdecode(bytes, flags);
+        image = cv::imdecode(bytes, flags | cv::IMREAD_IGNORE_ORIENTATION);
     }
     catch (const cv::Exception& e)
     {

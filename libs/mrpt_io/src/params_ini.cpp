@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/core/byte_order_mark.h>
+#include <pointplane/core/read_errors.h>
 #include <pointplane/core/trimmed.h>
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/params_ini.h>
@@ -8,7 +9,6 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <map>
 #include <sstream>
 #include <stdexcept>
@@ -123,10 +123,19 @@ Places parse(const std::string& text, const std::string& name, const ParameterTa
             "cannot open configuration " + path + ": " +
             (error || !file ? std::strerror(errno) : "is a directory"));
     }
-    std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    constexpr std::size_t kLongest = 1U << 20U;
+    const std::string text = readAll(file, kLongest + 1);
+    if (file.bad())
+    {
+        throw InputError("cannot read configuration " + path + ": " + std::strerror(errno));
+    }
     if (text.find('\0') != std::string::npos || text.compare(0, 2, "\x1f\x8b") == 0)
     {
         throw InputError(path + ": is not a text, as a configuration is");
+    }
+    if (text.size() > kLongest)
+    {
+        throw InputError(path + ": is longer than 1 MiB, as no configuration is");
     }
     return text;
 }

@@ -9,7 +9,9 @@
 namespace pointplane
 {
 /** Reads an image file. A PNG's checksums and the end of a JPEG are verified first, because
- * decoders fill what is missing with grey, or complain on the terminal. \param flags of cv::imread
+ * decoders fill what is missing with grey, or complain on the terminal. Pixels stay where they are
+ * stored: an orientation in EXIF data does not turn the image, as it does not turn depth and
+ * calibration. \param flags of cv::imread
  * \throws InputError naming the file, or the folder that is missing */
 [[nodiscard]] cv::Mat readImageFile(const std::string& path, int flags);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 namespace pointplane
@@ -26,6 +27,16 @@ inline const std::string kStatusFrame = " frame=";  //!< behind the label; numbe
 [[nodiscard]] inline std::string statusCommentOf(const std::string& camera)
 {
     return kStatusBegins + camera + kStatusFrame;
+}
+/** The whole text. \param frame its number, from 0 \param status "predicted" or "lost" */
+[[nodiscard]] inline std::string statusCommentOf(
+    const std::string& camera,
+    std::size_t frame,
+    const std::string& status,
+    const std::string& reason)
+{
+    return statusCommentOf(camera) + std::to_string(frame) + " " + status +
+           (reason.empty() ? "" : ": " + reason);
 }
 /** @} */
 }  // namespace pointplane
