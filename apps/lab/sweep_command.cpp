@@ -59,10 +59,12 @@ void SweepCommand::addTo(CLI::App& command)
     command.add_option("--values", values, "Values to try, e.g. 0,1,10 or surf,orb")
         ->type_name("VALUE")
         ->delimiter(',')
+        ->allow_extra_args(false)
         ->group("Runs");
-    command.add_option("--range", range, "From, to and how many values, instead of --values")
-        ->expected(3)
+    command.add_option("--range", range, "From,to,how many values: instead of --values")
+        ->type_name("NUMBERS")
         ->delimiter(',')
+        ->allow_extra_args(false)
         ->group("Runs");
     command.add_flag("--log", logarithmic, "Space the values of --range logarithmically")
         ->group("Runs");
@@ -73,6 +75,7 @@ void SweepCommand::addTo(CLI::App& command)
             "Ground truth of each rawlog (default: NAME.groundtruth.txt beside it)")
         ->type_name("FILE")
         ->delimiter(',')
+        ->allow_extra_args(false)
         ->group("Runs");
     command.add_option("-c,--config", config, "Configuration of all runs")
         ->type_name("FILE")
@@ -99,16 +102,17 @@ std::vector<std::string> SweepCommand::valuesToTry() const
     {
         return values;
     }
-    const double from = range[0];
-    const double to = range[1];
     constexpr double kMostValues = 1000;
-    if (!(range[2] >= 2 && range[2] <= kMostValues) || std::floor(range[2]) != range[2] ||
-        !std::isfinite(from) || !std::isfinite(to) || (logarithmic && (from <= 0 || to <= 0)))
+    if (range.size() != 3 || !(range[2] >= 2 && range[2] <= kMostValues) ||
+        std::floor(range[2]) != range[2] || !std::isfinite(range[0]) || !std::isfinite(range[1]) ||
+        (logarithmic && (range[0] <= 0 || range[1] <= 0)))
     {
         throw std::invalid_argument(
             "--range takes from, to and a whole number of values, 2 to 1000; with --log both ends "
             "are positive");
     }
+    const double from = range[0];
+    const double to = range[1];
     const auto steps = static_cast<int>(range[2]);
     std::vector<std::string> out;
     for (int k = 0; k < steps; ++k)

@@ -108,6 +108,26 @@ TEST_F(FakePrograms, sweepScoresEveryValue)
     EXPECT_THAT(test::readBytes(dir / "report/index.html"), HasSubstr("Sweep of PoseSolver.alpha"));
 }
 
+/** Lists end at their value: what stands behind them is the key and the rawlogs. */
+TEST_F(FakePrograms, optionsOfASweepMayStandBeforeItsRawlogs)
+{
+    const std::string truth = dir / "a.groundtruth.txt", both = truth + "," + truth;
+    ASSERT_EQ(std::system((straightLine("1") + " > " + truth).c_str()), 0);
+    for (const std::vector<std::string>& option :
+         {std::vector<std::string>{"--gt", both, "--values", "1.1,1.2"},
+          {"--values=1.1", "--gt", both},
+          {"--gt", both, "--range", "1,2,3"}})
+    {
+        std::vector<std::string> args{"sweep", "--odometry", odometry};
+        args.insert(args.end(), option.begin(), option.end());
+        args.insert(
+            args.end(),
+            {"PoseSolver.alpha", writeFile(dir, "a.rawlog", ""), writeFile(dir, "b.rawlog", "")});
+        const test::AppRun r = run(args);
+        EXPECT_EQ(r.code, 0) << option.front() << ": " << r.err;
+    }
+}
+
 TEST_F(FakePrograms, linksInTheFoldersOfASweepAreNotFollowed)
 {
     const std::string rawlog = writeFile(dir, "a.rawlog", "");
@@ -199,6 +219,7 @@ TEST_F(FakePrograms, aFailedRunIsSaidAndTheOthersAreKept)
     EXPECT_EQ(run({"sweep", "a.b", dir / "none.rawlog", "--values", "1"}).code, 2);
     EXPECT_EQ(run({"sweep", "a.b", rawlog}).code, 2);  // nothing to try
     EXPECT_EQ(run({"sweep", "a.b", rawlog, "--range", "0,1,3", "--log"}).code, 2);
+    EXPECT_EQ(run({"sweep", "a.b", rawlog, "--range", "0,1"}).code, 2);
 }
 
 TEST(ReproducePlan, namesOfSequences)
