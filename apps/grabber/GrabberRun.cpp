@@ -39,7 +39,8 @@ int GrabberRun::run()
     drivers_ = makeCameraDrivers(options_.driver);
     if (!openCameraOrWait())
     {
-        return kExitOk;
+        fail("stopped before a camera appeared: nothing was recorded");
+        return exitCode_;
     }
     calibrate();
     if (options_.recordsOni())

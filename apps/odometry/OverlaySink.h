@@ -21,7 +21,7 @@ class OverlaySink : public Sink
 
     void add(const OutputItem& item) override;
     void close() override {}
-    void discard() noexcept override {}  // each picture is complete
+    void discard() noexcept override { folder_.removeIfNew(); }  // each picture is complete
     [[nodiscard]] std::string description() const override;
     [[nodiscard]] bool needsFeatures() const override { return true; }
 

@@ -417,6 +417,11 @@ TEST_F(Outputs, aRefusedRunLeavesNoPartialFiles)
     {
         expectRefused({in_, option, out_, "--mask", dir_ / "none.png"}, "none.png: no such file");
     }
+    // The size of the images is known when the first one is read.
+    writeBytes(dir_ / "mask.pgm", "P2 2 1 255\n0 255\n");
+    expectRefused(
+        {in_, "--overlay", dir_ / "pictures", "--mask", dir_ / "mask.pgm"}, "is 2x1, but images");
+    EXPECT_FALSE(fs::exists(dir_ / "pictures"));
     const OutputFile first(out_);
     const auto before = files();
     const AppRun outcome = run({in_, "-o", dir_ / "b.rawlog", "--diagnostics", out_});

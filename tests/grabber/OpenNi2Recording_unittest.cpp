@@ -309,6 +309,19 @@ TEST_F(OpenNi2Recording, ctrlCAndTermEndCleanly)
     }
 }
 
+/** What comes next in a script needs the recording. */
+TEST_F(OpenNi2Recording, toBeStoppedBeforeACameraAppearsIsNoSuccess)
+{
+    const auto virtualCamera = camera("noDevice 1");
+    const auto process = start(virtualCamera, {"-o", out_, "--wait"});
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+    process->signal(SIGINT);
+    EXPECT_EQ(process->wait(seconds(10)), 3);
+    EXPECT_THAT(
+        process->err(), HasSubstr("stopped before a camera appeared: nothing was recorded"));
+    EXPECT_FALSE(fs::exists(out_));
+}
+
 /** nohup(1) has it ignored, so that a recording outlives its terminal. */
 TEST_F(OpenNi2Recording, aHangupThatIsIgnoredEndsNothing)
 {

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 OutputFolder::OutputFolder(const std::string& path) : path_(path)
 {
     std::error_code error;
-    fs::create_directories(path, error);
+    isNew_ = fs::create_directories(path, error);
     if (error)
     {
         throw EnvironmentError("cannot create " + path + ": " + error.message());
@@ -35,6 +35,14 @@ OutputFolder::~OutputFolder()
     if (fd_ >= 0)
     {
         ::close(fd_);
+    }
+}
+
+void OutputFolder::removeIfNew() noexcept
+{
+    if (isNew_)
+    {
+        ::rmdir(path_.c_str());  // does nothing to one that holds anything
     }
 }
 

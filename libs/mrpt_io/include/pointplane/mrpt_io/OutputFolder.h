@@ -20,10 +20,14 @@ class OutputFolder
      * name makes way: what it leads to is not ours to write to. */
     [[nodiscard]] std::string fileAt(const std::string& name) const;
 
+    /** Removes it if it was not there before and holds nothing, after a run that failed. */
+    void removeIfNew() noexcept;
+
     [[nodiscard]] const std::string& path() const { return path_; }
 
  private:
     std::string path_;
     int fd_{-1};  //!< holds the lock
+    bool isNew_{false};
 };
 }  // namespace pointplane
