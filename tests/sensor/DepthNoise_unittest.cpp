@@ -49,14 +49,17 @@ TEST(DepthNoise, ofOtherKindsByHand)
     noise.kind = "timeOfFlight";
     EXPECT_EQ(
         describe(noise),
-        "timeOfFlight, 2.2 mm at 1 m, 9.2 mm at 3 m; surfaces bent by 0.3 % of their depth");
+        "timeOfFlight, 2.2 mm at 1 m, 9.2 mm at 3 m; surfaces count as bent by 0.3 % of their "
+        "depth");
     noise.learntFrom = 0.2;
     noise.learntTo = 2;
     EXPECT_EQ(
-        describe(noise), "timeOfFlight, 2.2 mm at 1 m; surfaces bent by 0.3 % of their depth");
+        describe(noise),
+        "timeOfFlight, 2.2 mm at 1 m; surfaces count as bent by 0.3 % of their depth");
     noise.learntTo = 0.8;
     EXPECT_EQ(
-        describe(noise), "timeOfFlight, 2 mm at 0.4 m; surfaces bent by 0.3 % of their depth");
+        describe(noise),
+        "timeOfFlight, 2 mm at 0.4 m; surfaces count as bent by 0.3 % of their depth");
     EXPECT_EQ(DepthNoise{}.weight(0.5), 1);
     EXPECT_EQ(describe(DepthNoise{}), "assumed (nothing told it), 1.4 mm at 1 m, 13 mm at 3 m");
 }

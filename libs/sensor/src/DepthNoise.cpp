@@ -50,7 +50,7 @@ std::string describe(const DepthNoise& noise)
     }
     if (noise.sigmaRelative > 0)
     {
-        out << "; surfaces bent by " << 100 * noise.sigmaRelative << " % of their depth";
+        out << "; surfaces count as bent by " << 100 * noise.sigmaRelative << " % of their depth";
     }
     return out.str();
 }
