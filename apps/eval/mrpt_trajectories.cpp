@@ -16,6 +16,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string_view>
 
 namespace pointplane
@@ -137,6 +138,10 @@ class PoseCollector
             {
                 addMark(*mark);
             }
+            if (text->text.compare(0, kSkippedBegins.size(), kSkippedBegins) == 0)
+            {
+                skipping_.insert(poseLabelOf(text->text.substr(kSkippedBegins.size())));
+            }
         }
         if (const auto* pose = dynamic_cast<const mrpt::obs::CObservationRobotPose*>(&observation))
         {
@@ -196,6 +201,7 @@ class PoseCollector
     }
 
     std::map<std::string, std::vector<StampedPose>> byLabel_;
+    std::set<std::string> skipping_;     //!< labels of poses that frames are missing of
     std::vector<StampedPose> composed_;  //!< format 1's movements
     PoseGaussian accumulated_;
     bool hasMovement_{false};
@@ -231,7 +237,7 @@ Trajectory PoseCollector::result(const std::string& path, const std::string& lab
             "'" + path + "' holds no poses with sensor label '" + label + "', only " + labels);
     }
     Trajectory trajectory = ofRobot(path, found->second);
-    trajectory.marksFrames = isOfOdometry(found->first);
+    trajectory.marksFrames = isOfOdometry(found->first) && skipping_.count(found->first) == 0;
     return trajectory;
 }
 }  // namespace

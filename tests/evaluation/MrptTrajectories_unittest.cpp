@@ -734,6 +734,28 @@ TEST(MrptTrajectories, marksOfLostFramesInARawlogAreReadAndSaid)
     }
 }
 
+/** As of pointplane-grabber's --live-output. */
+TEST(MrptTrajectories, whereFramesWereSkippedCoverageIsNotOfTheRecording)
+{
+    test::TempDir dir;
+    {
+        RawlogWriter writer(dir / "a.rawlog");
+        mrpt::obs::CObservationRobotPose pose;
+        pose.sensorLabel = "RGBD_pose";
+        pose.pose.cov.setIdentity();
+        for (int k = 0; k < 40; ++k)
+        {
+            pose.timestamp = mrpt::Clock::fromDouble(1000 + 0.1 * k);
+            writer.write(pose);
+        }
+        mrpt::obs::CObservationComment comment;
+        comment.text = "pointplane-skipped label=RGBD";
+        writer.write(comment);
+        writer.close();
+    }
+    EXPECT_FALSE(readRawlogTrajectory(dir / "a.rawlog", "").marksFrames);
+}
+
 /** MRPT's default label is empty. */
 TEST(MrptTrajectories, framesOfACameraWithoutALabelAreMarkedToo)
 {

@@ -110,6 +110,35 @@ TEST(LiveOdometry, framesThatWereNotTrackedAreMarkedInTheRawlog)
     EXPECT_EQ(comments[0].rfind("pointplane-status label=OPENNI2 frame=1 predicted: ", 0), 0U);
 }
 
+/** Else a coverage of the recording would be that of the other frames. */
+TEST(LiveOdometry, theRawlogTellsThatFramesWereSkipped)
+{
+    const test::TempDir dir;
+    const ObservationBuilder builder(calibration());
+    for (const bool waits : {true, false})
+    {
+        std::ostringstream out;
+        LiveOptions options;
+        options.waits = waits;
+        options.poseRawlog = dir / "poses.rawlog";
+        LiveOdometry live(options, builder, out);
+        for (int k = 0; k < 20; ++k)
+        {
+            live.add(grey(1 + k / 30.0));
+        }
+        live.finish();
+        ASSERT_EQ(live.stats().skipped == 0, waits);
+        int told = 0;
+        RawlogReader reader(options.poseRawlog);
+        while (const auto object = reader.next())
+        {
+            const auto comment = std::dynamic_pointer_cast<mrpt::obs::CObservationComment>(object);
+            told += comment && comment->text == "pointplane-skipped label=OPENNI2" ? 1 : 0;
+        }
+        EXPECT_EQ(told, waits ? 0 : 1);
+    }
+}
+
 TEST(LiveOdometry, aMaskOfAnotherSizeIsRefusedBeforeTheFirstFrame)
 {
     const test::TempDir dir;

@@ -154,10 +154,18 @@ void LiveOdometry::finish()
 {
     latest_.close();
     thread_.join();
-    if (rawlog_)
+    if (!rawlog_)
     {
-        rawlog_->close();
+        return;
     }
+    if (latest_.numReplaced() > 0)
+    {
+        mrpt::obs::CObservationComment comment;
+        comment.timestamp = mrpt::Clock::now();
+        comment.text = skippedCommentOf(builder_.calibration().sensorLabel);
+        rawlog_->write(comment);
+    }
+    rawlog_->close();
 }
 
 LiveStats LiveOdometry::stats() const

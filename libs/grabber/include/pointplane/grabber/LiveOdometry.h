@@ -47,7 +47,7 @@ class LiveOdometry
 
     void add(const ImagePair& pair);
 
-    /** Processes the last frame and completes the rawlog. */
+    /** Processes the last frame and completes the rawlog; once. \throws EnvironmentError */
     void finish();
 
     [[nodiscard]] LiveStats stats() const;

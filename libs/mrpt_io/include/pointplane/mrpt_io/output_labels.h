@@ -38,5 +38,11 @@ inline const std::string kStatusFrame = " frame=";  //!< behind the label; numbe
     return statusCommentOf(camera) + std::to_string(frame) + " " + status +
            (reason.empty() ? "" : ": " + reason);
 }
+inline const std::string kSkippedBegins = "pointplane-skipped label=";  //!< the label follows
+/** Text of a CObservationComment: there were frames without a pose and a status comment. */
+[[nodiscard]] inline std::string skippedCommentOf(const std::string& camera)
+{
+    return kSkippedBegins + camera;
+}
 /** @} */
 }  // namespace pointplane
