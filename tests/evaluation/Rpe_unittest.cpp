@@ -381,3 +381,52 @@ TEST(Rpe, aPoseIsNotComparedWithItselfWithoutAWord)
         describe(options, relativePoseError(gap, gap, options)),
         HasSubstr("4 of 4 pairs, 1 of a pose with itself"));
 }
+
+TEST(Rpe, onePairIsTooFewWhateverTheGroundTruth)
+{
+    const Trajectory t = line({0, 1, 2, 3, 4, 5});
+    RpeOptions options;
+    options.maxPairs = 1;
+    for (const bool fixed : {false, true})
+    {
+        options.fixedDelta = fixed;
+        EXPECT_THAT(
+            [&] { (void)relativePoseError(t, t, options); },
+            testing::ThrowsMessage<std::runtime_error>(
+                "only one pair was drawn (--max-pairs 1); at least two are needed"));
+    }
+}
+
+/** Trajectories of programs, which makeTrajectory() never saw. */
+TEST(Rpe, refusesATrajectoryThatIsNone)
+{
+    const Trajectory t = line({0, 1, 2, 3, 4, 5});
+    const auto expectRefused = [&](const Trajectory& estimate, const char* message)
+    {
+        EXPECT_THAT(
+            [&] { (void)relativePoseError(t, estimate, {}); },
+            testing::ThrowsMessage<std::invalid_argument>(HasSubstr(message)));
+    };
+    Trajectory mixed = t;
+    std::swap(mixed.stamps[1], mixed.stamps[4]);
+    expectRefused(mixed, "stamps are not in order; makeTrajectory() sorts them");
+    Trajectory cut = t;
+    cut.poses.resize(3);
+    expectRefused(cut, "has 6 stamps, but 3 poses");
+    cut = t;
+    cut.covs.resize(2, Matrix6d::Identity());
+    expectRefused(cut, "has 6 stamps, but 2 covariances");
+    cut = t;
+    cut.status.resize(7);
+    expectRefused(cut, "has 6 stamps, but 7 states");
+
+    RpeOptions options;
+    options.fixedDelta = true;
+    options.delta = std::nan("");
+    EXPECT_THROW((void)relativePoseError(t, t, options), std::invalid_argument);
+    options.delta = 1;
+    options.offset = std::nan("");
+    EXPECT_THAT(
+        [&] { (void)relativePoseError(t, t, options); },
+        testing::ThrowsMessage<std::runtime_error>(HasSubstr("do not overlap")));
+}

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/check.h>
 #include <pointplane/evaluation/rpe.h>
 #include <pointplane/evaluation/scored_trajectories.h>
 
@@ -145,6 +146,7 @@ void evaluateFixedDelta(
 RpeResult relativePoseError(
     const Trajectory& groundTruth, const Trajectory& estimate, const RpeOptions& options)
 {
+    POINTPLANE_CHECK(!std::isnan(options.delta), "delta is no number");
     checkOverlap(groundTruth, estimate, options.offset);
     checkPositions(groundTruth);
     checkPositions(estimate, options.scale);
@@ -152,6 +154,11 @@ RpeResult relativePoseError(
         sampleTruth(groundTruth, estimate.stamps, options.offset, options.truthAt);
     const PairError error(truth.poses, estimate.poses, options.scale, options.formula);
 
+    if (options.maxPairs == 1)
+    {
+        throw std::runtime_error(
+            "only one pair was drawn (--max-pairs 1); at least two are needed");
+    }
     RpeResult result;
     result.coverage = coverageOf(groundTruth, estimate, options.offset);
     const auto maxPairs = static_cast<std::size_t>(std::max<std::int64_t>(0, options.maxPairs));

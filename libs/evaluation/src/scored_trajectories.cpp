@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/check.h>
 #include <pointplane/core/counted.h>
 #include <pointplane/core/number_text.h>
 #include <pointplane/evaluation/scored_trajectories.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <stdexcept>
@@ -43,10 +45,34 @@ std::string whyApart(const Trajectory& groundTruth, const Trajectory& estimate)
 }
 }  // namespace
 
+namespace
+{
+/** Of a program that did not ask makeTrajectory(). */
+void checkWhole(const Trajectory& t)
+{
+    const auto requireSize = [&t](std::size_t size, const char* what)
+    {
+        POINTPLANE_CHECK(
+            size == t.size(),
+            "'" << t.name << "' has " << t.size() << " stamps, but " << size << " " << what);
+    };
+    requireSize(t.poses.size(), "poses");
+    requireSize(t.covs.empty() ? t.size() : t.covs.size(), "covariances");
+    requireSize(t.sinceCovs.empty() ? t.size() : t.sinceCovs.size(), "lists of covariances");
+    requireSize(t.numbers.empty() ? t.size() : t.numbers.size(), "numbers");
+    requireSize(t.status.empty() ? t.size() : t.status.size(), "states");
+    const auto isNotBefore = [](double a, double b) { return !(a < b); };
+    POINTPLANE_CHECK(
+        std::adjacent_find(t.stamps.begin(), t.stamps.end(), isNotBefore) == t.stamps.end(),
+        "'" << t.name << "': stamps are not in order; makeTrajectory() sorts them");
+}
+}  // namespace
+
 void checkOverlap(const Trajectory& groundTruth, const Trajectory& estimate, double offset)
 {
     for (const Trajectory* t : {&groundTruth, &estimate})
     {
+        checkWhole(*t);
         if (t->size() < 2)
         {
             throw std::runtime_error(
@@ -54,8 +80,8 @@ void checkOverlap(const Trajectory& groundTruth, const Trajectory& estimate, dou
                 "; at least two are needed");
         }
     }
-    if (estimate.stamps.back() + offset < groundTruth.stamps.front() ||
-        estimate.stamps.front() + offset > groundTruth.stamps.back())
+    if (!(estimate.stamps.back() + offset >= groundTruth.stamps.front() &&
+          estimate.stamps.front() + offset <= groundTruth.stamps.back()))
     {
         throw std::runtime_error(
             "the trajectories do not overlap in time: " +

@@ -71,7 +71,8 @@ struct RpeResult
 /** Relative pose error by the protocol of the TUM benchmark's evaluate_rpe.py, whose figures it
  * reproduces (docs/evaluation.md says what it leaves to chance).
  * \throws std::runtime_error if the trajectories do not overlap, or fewer than two pairs have
- * ground truth at both ends */
+ * ground truth at both ends \throws std::invalid_argument as checkOverlap(), and for a delta that
+ * is no number */
 [[nodiscard]] RpeResult relativePoseError(
     const Trajectory& groundTruth, const Trajectory& estimate, const RpeOptions& options);
 

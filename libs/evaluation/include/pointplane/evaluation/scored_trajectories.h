@@ -9,7 +9,8 @@ namespace pointplane
 {
 /** \param offset added to the estimate's stamps [s]
  * \throws std::runtime_error if the two do not overlap in time (it names both ranges), or if one
- * has fewer than two poses */
+ * has fewer than two poses \throws std::invalid_argument if one is not as Trajectory says: its
+ * stamps are not in order, or its lists differ in length */
 void checkOverlap(const Trajectory& groundTruth, const Trajectory& estimate, double offset);
 
 /** ", estimate's stamps +0.5 s and translations times 2": a score of it is that of another
