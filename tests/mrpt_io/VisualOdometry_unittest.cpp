@@ -94,5 +94,26 @@ TEST(VisualOdometry, resetStartsAnew)
     EXPECT_EQ(vo.process(*sampleScan(0, 64, 48)).status, TrackingStatus::First);
     EXPECT_EQ(vo.process(*sampleScan(1, 64, 48)).pose.mean, before.pose.mean);
 }
+
+/** As those of a loop over a rawlog of two cameras. */
+TEST(VisualOdometry, aFrameOfAnotherCameraIsLostAndChangesNoPose)
+{
+    VisualOdometry vo;
+    vo.setMinLoggingLevel(mrpt::system::LVL_ERROR);
+    (void)vo.process(*sampleScan(0, 64, 48));
+    const RobotMotion before = vo.process(*sampleScan(1, 64, 48));
+    const auto other = sampleScan(40, 64, 48);
+    other->sensorLabel = "REAR";
+    other->sensorPose = mrpt::poses::CPose3D::FromXYZYawPitchRoll(-0.3, 0, 0, M_PI, 0, 0);
+    const RobotMotion lost = vo.process(*other);
+    EXPECT_EQ(lost.status, TrackingStatus::Lost);
+    EXPECT_EQ(
+        lost.reason, "is of camera 'REAR', not of 'RGBD': each camera needs an object of its own");
+    EXPECT_NEAR(lost.pose.mean.distanceTo(before.pose.mean), 0, 1e-9);
+    // Its stamp is later than that of the next one of the first camera.
+    EXPECT_NE(vo.process(*sampleScan(2, 64, 48)).status, TrackingStatus::Lost);
+    vo.reset();
+    EXPECT_EQ(vo.process(*other).status, TrackingStatus::First);
+}
 }  // namespace
 }  // namespace pointplane

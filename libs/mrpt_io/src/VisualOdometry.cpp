@@ -4,6 +4,7 @@
 
 #include <mrpt/core/format.h>
 
+#include <limits>
 #include <utility>
 
 namespace pointplane
@@ -19,11 +20,21 @@ void VisualOdometry::loadFromConfigFileName(const std::string& path)
     odometry.setMask(odometry_.mask());
     odometry_ = std::move(odometry);
     trajectory_.reset();
+    label_.reset();
 }
 
 RobotMotion VisualOdometry::process(const mrpt::obs::CObservation3DRangeScan& scan)
 {
-    return process(converter_.convert(scan));
+    label_ = label_.value_or(scan.sensorLabel);
+    if (scan.sensorLabel == *label_)
+    {
+        return process(converter_.convert(scan));
+    }
+    ConvertedFrame other;
+    other.frame.stamp = std::numeric_limits<double>::quiet_NaN();  // it says nothing of this camera
+    other.problem = "is of camera '" + scan.sensorLabel + "', not of '" + *label_ +
+                    "': each camera needs an object of its own";
+    return process(other);
 }
 
 RobotMotion VisualOdometry::process(const ConvertedFrame& converted)
@@ -50,5 +61,6 @@ void VisualOdometry::reset()
 {
     odometry_.reset();
     trajectory_.reset();
+    label_.reset();
 }
 }  // namespace pointplane

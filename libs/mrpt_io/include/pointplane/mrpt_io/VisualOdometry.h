@@ -8,6 +8,7 @@
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/system/COutputLogger.h>
 
+#include <optional>
 #include <string>
 
 namespace pointplane
@@ -19,7 +20,8 @@ namespace pointplane
  *     const auto r = vo.process(*observation);
  *     std::cout << r.pose << pointplane::toString(r.status);
  *
- * One object per camera, observations in order of time. Not thread-safe. A frame that cannot be
+ * One object per camera, observations in order of time: those of another sensorLabel than the first
+ * one's are Lost. Not thread-safe. A frame that cannot be
  * used is Lost with a reason, never an exception. Logs at LVL_DEBUG per frame, LVL_WARN when not
  * tracked.
  */
@@ -59,5 +61,6 @@ class VisualOdometry : public mrpt::system::COutputLogger
     Odometry odometry_;
     ObservationConverter converter_;
     RobotTrajectory trajectory_;
+    std::optional<std::string> label_;  //!< of the first observation
 };
 }  // namespace pointplane
