@@ -371,8 +371,25 @@ TEST(LoadableParams, worksAsMrptsLoadableOptions)
     EXPECT_EQ(out.read_int("any", "count", 0), 9);
     mrpt::config::CConfigFileMemory typo(std::string("[any]\ncuont = 9\n"));
     EXPECT_THROW(params.loadFromConfigFile(typo, "any"), InputError);
-    mrpt::config::CConfigFileMemory range(std::string("[any]\ncount = -1\n"));
-    EXPECT_THROW(params.loadFromConfigFile(range, "any"), std::invalid_argument);
+}
+
+/** The program has an ini file of its own, so lines are not known; values stay as they were. */
+TEST(LoadableParams, mistakesNameSectionAndKeyAndChangeNothing)
+{
+    LoadableParams<Alpha> params;
+    const Alpha before = params.values;
+    for (const auto& [text, message] :
+         {std::pair("count = -1", "[any] [Alpha] count is negative"),
+          std::pair("gain = 0.25\ncuont = 9", "unknown key 'cuont' in [any]; did you mean"),
+          std::pair("gain = 0.25\ncount = x", "[any] count = 'x' is not a whole number")})
+    {
+        mrpt::config::CConfigFileMemory ini("[other]\na=1\n[any]\n" + std::string(text) + "\n");
+        EXPECT_THAT(
+            [&] { params.loadFromConfigFile(ini, "any"); },
+            testing::ThrowsMessage<InputError>(testing::StartsWith(message)));
+        EXPECT_EQ(params.values.count, before.count);
+        EXPECT_EQ(params.values.gain, before.gain);
+    }
 }
 }  // namespace
 }  // namespace pointplane

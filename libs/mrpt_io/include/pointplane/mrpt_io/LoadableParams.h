@@ -1,20 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pointplane/core/trimmed.h>
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/params_ini.h>
 
 #include <mrpt/config/CConfigFileBase.h>
 #include <mrpt/config/CLoadableOptions.h>
 
-#include <algorithm>
-#include <sstream>
+#include <ostream>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
 namespace pointplane
 {
 /** A parameter group as MRPT's CLoadableOptions: it loads, saves and prints like any other of an
- * MRPT program. Loading is as strict as loadIni(): it throws InputError for an unknown key, or for
- * a value that the key does not take. */
+ * MRPT program. Loading is as strict as loadIni(): it throws InputError naming section and key, for
+ * an unknown key, or for a value that the key does not take. Values are then as before. */
 template <class Group>
 class LoadableParams : public mrpt::config::CLoadableOptions
 {
@@ -26,13 +29,22 @@ class LoadableParams : public mrpt::config::CLoadableOptions
     {
         std::vector<std::string> keys;
         source.getAllKeys(section, keys);
-        std::string text = "[" + section + "]\n";
+        Group loaded = values;
+        const ParameterTable table = parametersOf(section, loaded);
         for (const std::string& key : keys)
         {
-            text += key + " = " + source.read_string(section, key, "") + "\n";
+            const std::string text = source.read_string(section, key, "");
+            parameterOf(table, section, key).set(trimmed(text.substr(0, text.find("//"))));
         }
-        parseIni(text, "configuration", parametersOf(section, values));
-        values.check();
+        try
+        {
+            loaded.check();
+        }
+        catch (const std::invalid_argument& e)
+        {
+            throw InputError("[" + section + "] " + e.what());
+        }
+        values = loaded;
     }
 
     void saveToConfigFile(
