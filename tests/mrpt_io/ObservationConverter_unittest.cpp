@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/core/se3.h>
 #include <pointplane/mrpt_io/ObservationConverter.h>
+#include <pointplane/mrpt_io/SimplemapWriter.h>
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/external_range.h>
 #include <pointplane/mrpt_io/mrpt_poses.h>
@@ -437,6 +438,16 @@ TEST_F(ExternalFiles, areReadAsIfEmbedded)
     ASSERT_EQ(b.problem, "");
     EXPECT_EQ(cv::norm(a.frame.gray, b.frame.gray, cv::NORM_INF), 0);
     EXPECT_EQ(cv::norm(a.frame.depth, b.frame.depth, cv::NORM_INF), 0);
+}
+
+/** As MRPT's own programs find them. */
+TEST_F(ExternalFiles, areInMrptsFolderUnlessAnotherIsGiven)
+{
+    const std::string before = mrpt::img::CImage::getImagesPathBase();
+    mrpt::img::CImage::setImagesPathBase(dir_ / "");
+    EXPECT_EQ(ObservationConverter().convert(*scan_).problem, "");
+    EXPECT_GT(withPoints(*scan_)->points3D_x.size(), 0U);
+    mrpt::img::CImage::setImagesPathBase(before);
 }
 
 TEST_F(ExternalFiles, missingOnesAreNamed)

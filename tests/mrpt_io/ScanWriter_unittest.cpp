@@ -336,5 +336,28 @@ TEST(DepthInUnits, roundsAndLeavesOutWhatDoesNotFit)
     const cv::Mat expected = (cv::Mat_<std::uint16_t>(1, 6) << 5000, 5001, 0, 0, 0, 0);
     EXPECT_EQ(cv::norm(units, expected, cv::NORM_INF), 0);
 }
+
+/** The size is right; before, the camera was blamed, or the scan could not be read again. */
+TEST(ScanWriter, namesWhatIsWrongWithAnImage)
+{
+    const test::TempDir dir;
+    ScanWriter writer(dir / "a.rawlog", "RGBD", false);
+    const auto expectRefused = [&](const RegisteredScan& scan, const std::string& message)
+    {
+        EXPECT_THAT(
+            [&] { writer.write(scan); },
+            testing::ThrowsMessage<std::invalid_argument>(testing::HasSubstr(message)));
+    };
+    RegisteredScan scan = sample();
+    scan.depth.convertTo(scan.depth, CV_32F);
+    expectRefused(scan, "depth is not CV_16UC1");
+    scan = sample();
+    scan.colour.convertTo(scan.colour, CV_32F);
+    expectRefused(scan, "colour is neither CV_8UC3 nor CV_8UC1");
+    scan = sample();
+    scan.unitsPerMetre = 0;
+    expectRefused(scan, "unitsPerMetre: 0 is not a number from 1 to");
+    writer.write(sample());
+}
 }  // namespace
 }  // namespace pointplane

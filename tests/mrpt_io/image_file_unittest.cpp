@@ -195,5 +195,16 @@ TEST_F(ImageFile, aFullDiskLeavesNoPartOfAnImageAndTheEarlierOne)
     }
     EXPECT_EQ(*code, 0);
 }
+
+/** The coder takes three bytes a pixel, whatever there is. */
+TEST(JpegFile, isOfColourImagesAlone)
+{
+    const TempDir dir;
+    for (const cv::Mat& image : {cv::Mat(8, 8, CV_8UC1, cv::Scalar(9)), cv::Mat()})
+    {
+        EXPECT_THROW(writeJpegFile(dir / "a.jpg", image, 90), std::invalid_argument);
+    }
+    EXPECT_FALSE(std::filesystem::exists(dir / "a.jpg"));
+}
 }  // namespace
 }  // namespace pointplane

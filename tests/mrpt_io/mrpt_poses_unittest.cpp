@@ -266,5 +266,16 @@ TEST(RobotTrajectory, motionsSinceEarlierFrames)
         }
     }
 }
+
+/** Its information would be NaN, or of another matrix, and spoil the whole graph. */
+TEST(MrptPoses, aCovarianceThatIsNoneHasNoInformation)
+{
+    mrpt::poses::CPose3DPDFGaussian edge;
+    edge.cov.setZero();
+    EXPECT_THROW((void)optimizerInformation(edge), std::invalid_argument);
+    edge.cov.setIdentity();
+    edge.cov(0, 0) = -1;
+    EXPECT_THROW((void)optimizerInformation(edge), std::invalid_argument);
+}
 }  // namespace
 }  // namespace pointplane

@@ -64,7 +64,9 @@ struct ObservationConverter::Impl
 {
     [[nodiscard]] std::string resolved(const std::string& name) const
     {
-        return name.empty() || name.front() == '/' ? name : externals + name;
+        const std::string folder =
+            externals.empty() ? mrpt::img::CImage::getImagesPathBase() + "/" : externals;
+        return name.empty() || name.front() == '/' ? name : folder + name;
     }
     [[nodiscard]] cv::Mat intensityOf(const CObservation3DRangeScan& scan) const;
     [[nodiscard]] cv::Mat depthOf(

@@ -169,11 +169,16 @@ void ScanWriter::write(const RegisteredScan& scan)
 {
     const cv::Size size(scan.camera.width, scan.camera.height);
     const PinholeCamera& ofDepth = scan.depthCamera ? scan.depthCamera->camera : scan.camera;
+    POINTPLANE_CHECK(scan.depth.type() == CV_16UC1, "depth is not CV_16UC1");
     POINTPLANE_CHECK(
-        scan.depth.type() == CV_16UC1 &&
-            scan.depth.size() == cv::Size(ofDepth.width, ofDepth.height) &&
+        scan.colour.empty() || scan.colour.type() == CV_8UC3 || scan.colour.type() == CV_8UC1,
+        "colour is neither CV_8UC3 nor CV_8UC1");
+    POINTPLANE_CHECK(
+        scan.depth.size() == cv::Size(ofDepth.width, ofDepth.height) &&
             (scan.colour.empty() || scan.colour.size() == size),
         "images do not fit the camera, " << size.width << "x" << size.height);
+    const std::string units = problemOfDepthUnits(scan.unitsPerMetre);
+    POINTPLANE_CHECK(units.empty(), "unitsPerMetre: " << units);
     CObservation3DRangeScan out;
     out.sensorLabel = label_;
     out.timestamp = scan.stamp;

@@ -32,6 +32,7 @@ struct SimplemapReader::Impl
     std::vector<std::uint8_t> bytes, room;
     ObjectScanner::MapStart map;
     std::uint32_t numRead{0};
+    bool isAtEnd{false};  //!< nothing is left but the end of the file, which was checked
 };
 
 void SimplemapReader::Impl::fail(const std::string& problem) const
@@ -94,7 +95,11 @@ std::optional<SimplemapKeyFrame> SimplemapReader::Impl::next()
 {
     if (numRead == map.numKeyFrames)
     {
-        scanner.scanMapEnd(map, bytes);
+        if (!isAtEnd)
+        {
+            scanner.scanMapEnd(map, bytes);
+            isAtEnd = true;
+        }
         return std::nullopt;
     }
     SimplemapKeyFrame out;

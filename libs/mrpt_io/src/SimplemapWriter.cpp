@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/check.h>
 #include <pointplane/mrpt_io/SimplemapWriter.h>
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/external_range.h>
@@ -22,6 +23,7 @@ struct SimplemapWriter::Impl
     GzOutput file;
     std::vector<std::pair<mrpt::poses::CPose3DPDFGaussian, mrpt::obs::CObservation3DRangeScan::Ptr>>
         keyframes;
+    bool isClosed{false};
 };
 
 mrpt::obs::CObservation3DRangeScan::Ptr withPoints(const mrpt::obs::CObservation3DRangeScan& scan)
@@ -29,7 +31,8 @@ mrpt::obs::CObservation3DRangeScan::Ptr withPoints(const mrpt::obs::CObservation
     auto out = mrpt::obs::CObservation3DRangeScan::Create(scan);
     if (out->rangeImage_isExternallyStored() && out->rangeImage.size() == 0)
     {
-        const auto readings = readExternalRange(out->rangeImage_getExternalStorageFile(""));
+        const auto readings =
+            readExternalRange(out->rangeImage_getExternalStorageFileAbsolutePath(""));
         out->rangeImage_forceResetExternalStorage();
         out->rangeImage = readings;
     }
@@ -53,6 +56,7 @@ void SimplemapWriter::add(
     const mrpt::poses::CPose3DPDFGaussian& pose,
     const mrpt::obs::CObservation3DRangeScan::Ptr& scan)
 {
+    POINTPLANE_CHECK(scan, "a key frame needs a scan");
     impl_->keyframes.emplace_back(pose, scan);
 }
 
@@ -60,6 +64,10 @@ std::size_t SimplemapWriter::size() const { return impl_->keyframes.size(); }
 
 void SimplemapWriter::close()
 {
+    if (impl_->isClosed)
+    {
+        return;
+    }
     // The layout of a serialised object: class name, version, contents, end mark.
     mrpt::io::CMemoryStream head;
     auto archive = mrpt::serialization::archiveFrom(head);
@@ -83,6 +91,7 @@ void SimplemapWriter::close()
     constexpr std::uint8_t kEndMark = 0x88;
     file.write(&kEndMark, 1);
     file.commit();
+    impl_->isClosed = true;
 }
 
 void SimplemapWriter::discard() noexcept { impl_->file.discard(); }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/check.h>
 #include <pointplane/core/read_errors.h>
 #include <pointplane/mrpt_io/OutputFile.h>
 #include <pointplane/mrpt_io/errors.h>
@@ -236,6 +237,8 @@ void writeImageFile(const std::string& path, const cv::Mat& image, const std::ve
 
 void writeJpegFile(const std::string& path, const cv::Mat& bgr, int quality)
 {
+    POINTPLANE_CHECK(!bgr.empty() && bgr.type() == CV_8UC3, path << ": the image is not CV_8UC3");
+    POINTPLANE_CHECK(quality >= 1 && quality <= 100, path << ": the quality is " << quality);
     writeBytes(path, jpegOf(bgr, quality));
 }
 }  // namespace pointplane

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/check.h>
 #include <pointplane/core/covariance.h>
 #include <pointplane/core/se3.h>
 #include <pointplane/mrpt_io/errors.h>
@@ -95,7 +96,10 @@ mrpt::math::CMatrixDouble66 optimizerInformation(const mrpt::poses::CPose3DPDFGa
 {
     const PoseGaussian left = fromMrpt(edge);
     const Matrix6d cov = propagate(adjoint(left.mean.inverse()), left.cov);
-    return mrpt::math::CMatrixDouble66(Matrix6d(cov.llt().solve(Matrix6d::Identity())));
+    const Eigen::LLT<Matrix6d> root(cov);
+    POINTPLANE_CHECK(
+        root.info() == Eigen::Success, "the covariance of an edge is not positive definite");
+    return mrpt::math::CMatrixDouble66(Matrix6d(root.solve(Matrix6d::Identity())));
 }
 
 double toSeconds(mrpt::Clock::time_point stamp)

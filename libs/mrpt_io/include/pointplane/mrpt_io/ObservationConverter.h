@@ -31,7 +31,8 @@ struct ConvertedFrame
  * intensity camera. maxRange is ignored: writers leave it at its default while measuring farther.
  *
  * Registered depth lies in the raw image if cameraParams has the distortion of
- * cameraParamsIntensity, and at undistorted pixels if it has none. Docs: docs/rawlogs.md. */
+ * cameraParamsIntensity, and at undistorted pixels if it has none. Not thread-safe: convert() keeps
+ * a table of the latest camera. Docs: docs/rawlogs.md. */
 class ObservationConverter
 {
  public:
@@ -40,7 +41,8 @@ class ObservationConverter
     ObservationConverter(ObservationConverter&&) noexcept;
     ObservationConverter& operator=(ObservationConverter&&) noexcept;
 
-    /** Where external images and ranges are (RawlogReader::externalsDirectory()). */
+    /** Where external images and ranges are (RawlogReader::externalsDirectory()). Without it, or
+     * with an empty one, MRPT's folder: mrpt::img::CImage::getImagesPathBase(). */
     void setExternalsDirectory(const std::string& directory);
 
     /** Reads the shutter model of a comment of the form

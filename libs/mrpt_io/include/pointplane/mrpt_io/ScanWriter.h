@@ -51,6 +51,7 @@ class ScanWriter
     ScanWriter& operator=(const ScanWriter&) = delete;
 
     void writeComment(mrpt::Clock::time_point stamp, const std::string& text);
+    /** \throws std::invalid_argument for images that are not as RegisteredScan says */
     void write(const RegisteredScan& scan);
     void close();
     /** Removes the partial rawlog and its images. */

@@ -24,12 +24,14 @@ class SimplemapWriter
     SimplemapWriter(const SimplemapWriter&) = delete;
     SimplemapWriter& operator=(const SimplemapWriter&) = delete;
 
-    /** Adds a key frame. \param pose of the robot in the map */
+    /** Adds a key frame. \param pose of the robot in the map
+     * \throws std::invalid_argument without a scan */
     void add(
         const mrpt::poses::CPose3DPDFGaussian& pose,
         const mrpt::obs::CObservation3DRangeScan::Ptr& scan);
 
-    /** Writes everything and renames the file to its name. \throws EnvironmentError */
+    /** Writes everything and renames the file to its name. \throws EnvironmentError, and InputError
+     * as withPoints() */
     void close();
     /** Removes the partial file. */
     void discard() noexcept;
@@ -41,7 +43,8 @@ class SimplemapWriter
     std::unique_ptr<Impl> impl_;
 };
 
-/** A copy of a scan with its point cloud (sensor frame). Ranges that were in a file are in memory.
+/** A copy of a scan with its point cloud (sensor frame). Ranges that were in a file (of MRPT's
+ * folder, if its name is relative) are in memory.
  * \throws InputError if that file cannot be read, or the cloud cannot be computed */
 [[nodiscard]] mrpt::obs::CObservation3DRangeScan::Ptr withPoints(
     const mrpt::obs::CObservation3DRangeScan& scan);

@@ -29,6 +29,7 @@ void requireMaskSize(
 void writeImageFile(
     const std::string& path, const cv::Mat& image, const std::vector<int>& options = {});
 
-/** The same as JPEG, without OpenCV's coders. \param bgr CV_8UC3 \param quality 1 to 100 */
+/** The same as JPEG, without OpenCV's coders. \param bgr CV_8UC3 \param quality 1 to 100
+ * \throws std::invalid_argument for another image or quality */
 void writeJpegFile(const std::string& path, const cv::Mat& bgr, int quality);
 }  // namespace pointplane

@@ -40,7 +40,8 @@ namespace pointplane
  * An edge's cov_inv is documented, saved and composed in (x, y, z, yaw, pitch, roll). But that
  * optimiser (MRPT 2.5.8) multiplies it with the logarithm of the error, (x, y, z, rx, ry, rz) in
  * the frame of the edge's end, so yaw's weight meets the rotation about x. Assign the result to
- * edge.cov_inv before optimising. */
+ * edge.cov_inv before optimising. \throws std::invalid_argument if the covariance is not positive
+ * definite */
 [[nodiscard]] mrpt::math::CMatrixDouble66 optimizerInformation(
     const mrpt::poses::CPose3DPDFGaussian& edge);
 

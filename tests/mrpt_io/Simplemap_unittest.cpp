@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/mrpt_io/SimplemapReader.h>
+#include <pointplane/mrpt_io/SimplemapWriter.h>
+
+#include "TempDir.h"
+#include "rawlog_samples.h"
+#include <gtest/gtest.h>
+
+namespace pointplane
+{
+namespace
+{
+TEST(Simplemap, endsOnceAndStaysWhole)
+{
+    const test::TempDir dir;
+    SimplemapWriter writer(dir / "a.simplemap");
+    writer.add({}, test::sampleScan(0));
+    writer.close();
+    writer.close();  // as RawlogWriter's
+
+    SimplemapReader reader(dir / "a.simplemap");
+    EXPECT_TRUE(reader.next());
+    EXPECT_FALSE(reader.next());
+    EXPECT_FALSE(reader.next());
+}
+
+TEST(Simplemap, aKeyFrameWithoutScanIsRefusedWhereItIsAdded)
+{
+    const test::TempDir dir;
+    SimplemapWriter writer(dir / "a.simplemap");
+    EXPECT_THROW(writer.add({}, nullptr), std::invalid_argument);
+    EXPECT_EQ(writer.size(), 0U);
+    writer.discard();
+}
+}  // namespace
+}  // namespace pointplane
