@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <cstring>
 #include <ostream>
 #include <utility>
 
@@ -84,7 +86,12 @@ void ProgressBar::message(const std::string& line)
     out_ << line << "\n" << std::flush;
 }
 
-bool standardErrorIsTerminal() { return ::isatty(STDERR_FILENO) == 1; }
+bool standardErrorIsTerminal()
+{
+    const char* const terminal = std::getenv("TERM");
+    return ::isatty(STDERR_FILENO) == 1 &&
+           (terminal == nullptr || std::strcmp(terminal, "dumb") != 0);
+}
 
 std::string durationText(double seconds)
 {

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "EvalApp.h"
+#include "HelpFormatter.h"
 #include "OdometryApp.h"
 #include "SimulateApp.h"
 #include "TempDir.h"
@@ -260,6 +261,25 @@ TEST(RunCommand, wholeNumbersAreThoseThatWereGiven)
     EXPECT_FALSE(parsed({"--jobs", "2", "--jobs", "3"}));
     EXPECT_NE(told.find(": --jobs is given more than once (see --help)"), std::string::npos)
         << told;
+}
+
+TEST(RunCommand, helpFitsTheTerminal)
+{
+    const std::string help =
+        "  --mask FILE                 Image that is black where the camera sees the robot: left "
+        "out\n"
+        "                                corner: a room corner, three planes with a little "
+        "texture\n";
+    EXPECT_EQ(
+        wrappedHelp(help, 80, 30),
+        "  --mask FILE                 Image that is black where the camera sees the\n"
+        "                              robot: left out\n"
+        "                                corner: a room corner, three planes with a\n"
+        "                                little texture\n");
+    EXPECT_EQ(wrappedHelp(help, 0, 30), help) << "no terminal";
+    EXPECT_EQ(wrappedHelp(help, 40, 30), help) << "too narrow to be of use";
+    const std::string path = "  --x " + std::string(90, 'x') + "\n";
+    EXPECT_EQ(wrappedHelp(path, 80, 30), path);
 }
 
 TEST(RunCommand, numbersAreThoseOfFilesToo)
