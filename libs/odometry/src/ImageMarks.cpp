@@ -3,6 +3,7 @@
 
 #include <pointplane/core/quantile.h>
 #include <pointplane/core/se3.h>
+#include <pointplane/core/significance.h>
 
 #include <opencv2/imgproc.hpp>
 
@@ -11,6 +12,8 @@
 #include <cmath>
 #include <cstdint>
 #include <utility>
+
+#include "few_points.h"
 
 namespace pointplane
 {
@@ -22,12 +25,8 @@ constexpr double kStill_px = 0.3;
 /** More than that noise, surely [px]. */
 constexpr double kMoved_px = 1;
 
-/** Fewer points than this are wrong matches, and fewer that change lie at edges of depth. */
-constexpr size_t kLeastPoints = 20;
+/** Fewer points that change lie at edges of depth. */
 constexpr size_t kLeastChanged = 10;
-
-/** By more standard deviations than this, something has changed. */
-constexpr double kSigmas = 3;
 
 /** Before a camera that stands, noise changes the depth of three points in a thousand, and what
  * moves covers the points behind it. */
@@ -87,7 +86,7 @@ bool hasChanged(const std::vector<StandingPoint>& points, double factor, int pow
     for (const StandingPoint& point : points)
     {
         const double change = point.change - factor * std::pow(point.z, power);
-        if (std::abs(change) > kSigmas * point.sigma)
+        if (std::abs(change) > kUnlikelySigmas * point.sigma)
         {
             places_px.push_back(point.uv_px);
             changes.push_back(std::abs(change) / point.z);
@@ -138,7 +137,7 @@ Still still(const Association& association)
                  std::sqrt(cur.p_cam.cov(2, 2) + ref.p_cam.cov(2, 2))});
         }
     }
-    if (points.size() < kLeastPoints)
+    if (points.size() < kPointsOfAMotion)
     {
         return Still::Nothing;
     }
@@ -241,7 +240,7 @@ void ImageMarks::learn(
             const Eigen::Vector3d p_cur = T_cur_ref * ref.p_cam.mean;
             if (areKnown_ && stands(ref, track.cur) && p_cur.z() > 0 &&
                 (camera.project(p_cur) - ref.uv_px).norm() >
-                    kMoved_px + kSigmas * sigma_px(p_cur, T_cur_world.cov, camera))
+                    kMoved_px + kUnlikelySigmas * sigma_px(p_cur, T_cur_world.cov, camera))
             {
                 add(track.cur.uv_px, camera);
             }

@@ -2,6 +2,8 @@
 #include "Judge.h"
 
 #include <pointplane/core/se3.h>
+#include <pointplane/core/significance.h>
+#include <pointplane/odometry/uncertainty/NoiseScale.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -21,11 +23,6 @@ namespace
 /** Fewer matches than this in total cannot fix a pose [P17, section Pose estimation]. */
 constexpr int kMinMatches = 3;
 
-/** Standard deviations from the predicted motion beyond which an estimate has to be convincing by
- * itself. Cameras in hands stay below three, at any frame rate: the prediction knows how little it
- * knows. Of estimates beyond five, hardly one is right (docs/theory.md, "Verdict"). */
-constexpr double kMostSurprise = 5;
-
 /** Residuals up to twice as large as in the frames before, squared: a wrong motion disagrees more.
  */
 constexpr double kConvincingRise = 4;
@@ -33,9 +30,6 @@ constexpr double kConvincingRise = 4;
 /** Twice that rise: such a motion is none of anything in view, but lies between that of the still
  * world and that of what moves. */
 constexpr double kNoMotionRise = kConvincingRise * kConvincingRise;
-
-/** Residuals ten times as large as usual, squared: planes are not where the motion puts them. */
-constexpr double kElsewhereRise = 100;
 
 /** How many directions the measurements know better than the motion model does. */
 int observableDirections(const Matrix6d& information, const Matrix6d& priorCovariance)
@@ -162,9 +156,12 @@ bool Judge::areConvincing(const Agreement& surfaces)
     return surfaces.seen() >= kEnoughSurfaces && surfaces.fraction() > kConvincingSurfaces;
 }
 
+/** Cameras in hands stay below three standard deviations, at any frame rate: the prediction knows
+ * how little it knows. Of estimates beyond five, hardly one is right (docs/theory.md, "Verdict").
+ */
 bool Judge::isSurprising(const Eigen::Isometry3d& T_prev_cur, const PoseGaussian& predicted)
 {
-    return surprise(T_prev_cur, predicted) > kMostSurprise;
+    return surprise(T_prev_cur, predicted) > kNoChanceSigmas;
 }
 
 std::string Judge::whyUnsettled(const Rivalry& rivalry, const Prediction& predicted)
@@ -255,7 +252,9 @@ void Judge::contradict(Alignment& alignment, const NoiseFactors& usual) const
                << alignment.numSought << ", of the surfaces " << std::lround(100 * agreement)
                << " %";
     }
-    else if (alignment.estimate.planeChi2PerDof > kElsewhereRise * std::max(1.0, usual.planes))
+    else if (
+        alignment.estimate.planeChi2PerDof >
+        NoiseScale::kMostVariance * std::max(1.0, usual.planes))
     {
         reason << "planes are " << std::lround(std::sqrt(alignment.estimate.planeChi2PerDof))
                << " standard deviations from where the motion puts them";

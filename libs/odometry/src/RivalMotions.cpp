@@ -9,13 +9,12 @@
 #include <tuple>
 #include <utility>
 
+#include "few_points.h"
+
 namespace pointplane
 {
 namespace
 {
-/** Fewer points than this are wrong matches, not a motion. */
-constexpr int kLeastPoints = 20;
-
 /** So many of the points tell two motions apart: of a single motion fewer seem to. */
 constexpr double kTelling = 1.0 / 3;
 
@@ -68,7 +67,7 @@ std::optional<Motion> secondMotion(
         counts.begin(),
         counts.end(),
         [](const auto& a, const auto& b) { return a.second < b.second; });
-    if (most == counts.end() || most->second < kLeastPoints)
+    if (most == counts.end() || most->second < kPointsOfAMotion)
     {
         return {};
     }
@@ -115,7 +114,7 @@ bool areDistinct(const std::vector<PointPair>& points, const std::vector<Side>& 
             const Counts& c = entry.second;
             const int tell = c.first + c.second;
             return tell >= kTelling * (tell + c.both) &&
-                   std::min(c.first, c.second) >= kLeastPoints;
+                   std::min(c.first, c.second) >= kPointsOfAMotion;
         });
 }
 

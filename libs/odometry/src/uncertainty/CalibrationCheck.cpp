@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/significance.h>
 #include <pointplane/odometry/uncertainty/CalibrationCheck.h>
 #include <pointplane/odometry/uncertainty/camera_errors.h>
 
@@ -8,12 +9,6 @@
 
 namespace pointplane
 {
-namespace
-{
-/** So many standard deviations are no chance. */
-constexpr double kSurely = 5;
-}  // namespace
-
 void CalibrationCheck::start(const PinholeCamera& camera, const CameraVector& calibration)
 {
     PinholeCamera calibrated = camera, nominal = camera;
@@ -42,6 +37,6 @@ bool CalibrationCheck::isContradicted(const CameraVector& others) const
     const CameraMatrix cov = this->cov();
     const CameraVector errors = -cov * sum_.gradient;
     const CameraVector variances = CameraVector(cov.diagonal()) + calibration_ + others;
-    return (errors.array().square() > kSurely * kSurely * variances.array()).any();
+    return (errors.array().square() > kNoChanceSigmas * kNoChanceSigmas * variances.array()).any();
 }
 }  // namespace pointplane

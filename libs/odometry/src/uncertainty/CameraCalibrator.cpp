@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/core/covariance.h>
 #include <pointplane/core/range.h>
+#include <pointplane/core/significance.h>
 #include <pointplane/odometry/uncertainty/CameraCalibrator.h>
 #include <pointplane/odometry/uncertainty/camera_errors.h>
 
@@ -18,9 +19,6 @@ namespace
 constexpr int kNumLensErrors = kDepthScale - kPrincipalPointX;
 
 constexpr double kMaxTime = 0.05;  //!< no camera is slower [s]
-
-/** So many standard deviations tell the sign of a readout. */
-constexpr double kSure = 3;
 
 /** Who knows the readouts knows when images are exposed. Otherwise the delay comes from time
  * stamps, which tell when they arrived. */
@@ -160,7 +158,7 @@ double CameraCalibrator::directionOfReadout() const
     const Eigen::Vector2d sigmas = cov_.diagonal().segment<2>(kReadoutColour).cwiseSqrt();
     for (const int image : {0, 1})
     {
-        if (std::abs(readouts[image]) > kSure * sigmas[image])
+        if (std::abs(readouts[image]) > kUnlikelySigmas * sigmas[image])
         {
             return std::copysign(1.0, readouts[image]);
         }

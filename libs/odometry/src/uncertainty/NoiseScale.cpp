@@ -15,7 +15,10 @@ namespace
 constexpr double kFirstVariance = 4, kFirstFrames = 3;
 }  // namespace
 
-double NoiseScale::plausible(double variance) { return std::clamp(variance, 0.1, 100.0); }
+double NoiseScale::plausible(double variance)
+{
+    return std::clamp(variance, kLeastVariance, kMostVariance);
+}
 
 void NoiseScale::TParams::check() const
 {

@@ -45,8 +45,12 @@ class NoiseScale
         void check() const;
     };
 
-    /** The variance, but at least a tenth and at most a hundred: a few odd frames must neither make
-     * features certain nor worthless. */
+    /** Variances of residuals, over the propagated one, that noise can have. More, and features are
+     * not where the motion puts them. */
+    static constexpr double kLeastVariance = 0.1, kMostVariance = 100;
+
+    /** The nearest such variance: a few odd frames must neither make features certain nor
+     * worthless. */
     [[nodiscard]] static double plausible(double variance);
 
     /** \throws std::invalid_argument naming the key */
