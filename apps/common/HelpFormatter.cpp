@@ -4,19 +4,8 @@
 #include <algorithm>
 #include <sstream>
 
-#include <sys/ioctl.h>
-#include <unistd.h>
-
 namespace pointplane
 {
-std::size_t columnsOfStandardOutput()
-{
-    winsize size = {};
-    const bool isTerminal =
-        ::isatty(STDOUT_FILENO) == 1 && ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0;
-    return isTerminal ? size.ws_col : 0;
-}
-
 std::string wrappedHelp(const std::string& text, std::size_t columns, std::size_t indent)
 {
     constexpr std::size_t kLeastWords = 24;  // else there is a word a line
@@ -48,6 +37,11 @@ std::string HelpFormatter::make_option(const CLI::Option* option, bool isPositio
 {
     return wrappedHelp(
         CLI::Formatter::make_option(option, isPositional), columns_, get_column_width());
+}
+
+std::string HelpFormatter::make_description(const CLI::App* app) const
+{
+    return wrappedHelp(CLI::Formatter::make_description(app), columns_, 0);
 }
 
 std::string HelpFormatter::make_subcommand(const CLI::App* command) const

@@ -8,9 +8,6 @@
 
 namespace pointplane
 {
-/** Of the terminal that is the standard output; 0 if it is none, or does not tell. */
-[[nodiscard]] std::size_t columnsOfStandardOutput();
-
 /** Lines of help, broken between words. What follows stands below the descriptions.
  * \param columns 0: nothing is broken
  * \param indent where descriptions begin */
@@ -27,6 +24,7 @@ class HelpFormatter : public CLI::Formatter
 
     [[nodiscard]] std::string make_option(
         const CLI::Option* option, bool isPositional) const override;
+    [[nodiscard]] std::string make_description(const CLI::App* app) const override;
     [[nodiscard]] std::string make_subcommand(const CLI::App* command) const override;
     [[nodiscard]] std::string make_option_name(
         const CLI::Option* option, bool isPositional) const override;

@@ -19,6 +19,7 @@
 #include <CLI/CLI.hpp>
 #include <pthread.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 namespace pointplane
 {
@@ -191,7 +192,7 @@ int runCommand(
         return kExitBadInput;
     }
     commands.push_back(&app);
-    const std::size_t columns = &out == &std::cout ? columnsOfStandardOutput() : 0;
+    const std::size_t columns = &out == &std::cout ? columnsOf(STDOUT_FILENO) : 0;
     for (CLI::App* command : commands)
     {
         command->formatter(std::make_shared<HelpFormatter>(columns));

@@ -18,6 +18,7 @@
 #include "EvalApp.h"
 #include "HelpFormatter.h"
 #include "OdometryApp.h"
+#include "ProgressBar.h"
 #include "SimulateApp.h"
 #include "TempDir.h"
 #include "number_checks.h"
@@ -280,6 +281,15 @@ TEST(RunCommand, helpFitsTheTerminal)
     EXPECT_EQ(wrappedHelp(help, 40, 30), help) << "too narrow to be of use";
     const std::string path = "  --x " + std::string(90, 'x') + "\n";
     EXPECT_EQ(wrappedHelp(path, 80, 30), path);
+}
+
+TEST(RunCommand, linesThatAreRedrawnFitTheTerminal)
+{
+    const std::string rest = ": 50 %  10 frames";
+    EXPECT_EQ(lineOf("in.rawlog", rest, 80), "in.rawlog" + rest);
+    EXPECT_EQ(lineOf("/a/long/way/to/in.rawlog", rest, 31), ".../in.rawlog: 50 %  10 frames");
+    EXPECT_EQ(lineOf("/a/long/way/to/in.rawlog", rest, 0).size(), 24 + rest.size());
+    EXPECT_EQ(lineOf("/a/long/way/to/in.rawlog", rest, 20), "...n.rawlog: 50 %  ");
 }
 
 TEST(RunCommand, numbersAreThoseOfFilesToo)
