@@ -259,7 +259,16 @@ std::string toCsv(const Comparison& c)
 
 namespace
 {
-/** Of the report's table. */
+// The report's table.
+const std::vector<std::string> kColumns{
+    "run",
+    "RPE [mm]",
+    "behind the best [mm]",
+    "RPE [deg]",
+    "behind the best [deg]",
+    "ATE [mm]",
+    "coverage"};
+
 std::vector<std::string> rowOf(const Comparison& c, std::size_t run)
 {
     const ComparedRun& r = c.runs[run];
@@ -303,16 +312,7 @@ HtmlReport reportOf(
             errors[n].series.back().name = r.name;
         }
     }
-    report.addTable(
-        "RPE and ATE RMSE",
-        {"run",
-         "RPE [mm]",
-         "behind the best [mm]",
-         "RPE [deg]",
-         "behind the best [deg]",
-         "ATE [mm]",
-         "coverage"},
-        rows);
+    report.addTable("RPE and ATE RMSE", kColumns, rows);
     for (const std::string& hint : hints)
     {
         report.addParagraph("Hint: " + hint);
