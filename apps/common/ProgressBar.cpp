@@ -6,9 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <cstring>
 #include <ostream>
 #include <utility>
 
+#include "standard_streams.h"
 #include <unistd.h>
 
 namespace pointplane
@@ -42,7 +45,7 @@ void ProgressBar::draw(double fraction, std::size_t frames, Clock::time_point no
 {
     const double elapsed = std::chrono::duration<double>(now - start_).count();
     const double rate = static_cast<double>(frames) / elapsed;
-    std::string text = what_ + ": ";
+    std::string text = ": ";
     constexpr int kWidth = 24;
     if (isTerminal_)
     {
@@ -65,12 +68,12 @@ void ProgressBar::draw(double fraction, std::size_t frames, Clock::time_point no
     }
     if (isTerminal_)
     {
-        out_ << "\r" << text << "\x1b[K" << std::flush;
+        out_ << "\r" << lineOf(what_, text, columnsOf(STDERR_FILENO)) << "\x1b[K" << std::flush;
         lineOpen_ = true;
     }
     else
     {
-        out_ << text << "\n" << std::flush;
+        out_ << what_ << text << "\n" << std::flush;
     }
 }
 
@@ -84,7 +87,26 @@ void ProgressBar::message(const std::string& line)
     out_ << line << "\n" << std::flush;
 }
 
-bool standardErrorIsTerminal() { return ::isatty(STDERR_FILENO) == 1; }
+bool standardErrorIsTerminal()
+{
+    const char* const terminal = std::getenv("TERM");
+    return ::isatty(STDERR_FILENO) == 1 &&
+           (terminal == nullptr || std::strcmp(terminal, "dumb") != 0);
+}
+
+std::string lineOf(const std::string& name, const std::string& rest, std::size_t columns)
+{
+    constexpr std::size_t kLeastName = 8;
+    const std::string dots = "...";
+    if (columns == 0 || name.size() + rest.size() < columns)
+    {
+        return name + rest;
+    }
+    const std::size_t most = columns - 1, taken = rest.size() + dots.size();
+    const std::size_t kept = std::max(kLeastName, most > taken ? most - taken : 0);
+    const bool isLong = name.size() > kept + dots.size();
+    return ((isLong ? dots + name.substr(name.size() - kept) : name) + rest).substr(0, most);
+}
 
 std::string durationText(double seconds)
 {

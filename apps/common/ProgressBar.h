@@ -41,6 +41,12 @@ class ProgressBar
 /** True when standard error is a terminal. */
 [[nodiscard]] bool standardErrorIsTerminal();
 
+/** A line that can be redrawn: of one that is longer than the terminal's, the beginning would stay.
+ * First the name loses its beginning, then the rest its end.
+ * \param columns 0: the line may have any length */
+[[nodiscard]] std::string lineOf(
+    const std::string& name, const std::string& rest, std::size_t columns);
+
 /** "1:02" or "1:00:05". */
 [[nodiscard]] std::string durationText(double seconds);
 }  // namespace pointplane

@@ -13,11 +13,13 @@
 #include <system_error>
 #include <vector>
 
+#include "HelpFormatter.h"
 #include "number_checks.h"
 #include "standard_streams.h"
 #include <CLI/CLI.hpp>
 #include <pthread.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 namespace pointplane
 {
@@ -68,35 +70,6 @@ void runOnOwnStack(Call& call)
     return {
         [](const std::string& text) { return std::string(text.empty() ? "is empty" : ""); }, ""};
 }
-
-/** Help without what CLI11 adds and nobody can use: the values of flags (--wait{1e9}), a type told
- * twice (INT:INT in [1 - 9]), dots behind options that take one value at a time. */
-class HelpFormatter : public CLI::Formatter
-{
- public:
-    [[nodiscard]] std::string make_option_name(
-        const CLI::Option* option, bool isPositional) const override
-    {
-        const std::string name = CLI::Formatter::make_option_name(option, isPositional);
-        return name.substr(0, name.find('{'));
-    }
-
-    [[nodiscard]] std::string make_option_opts(const CLI::Option* option) const override
-    {
-        std::string text = CLI::Formatter::make_option_opts(option);
-        const std::string again = ":INT in [", dots = " ...";
-        if (const auto at = text.find(again); at != std::string::npos)
-        {
-            text.replace(at, again.size(), " in [");
-        }
-        const auto at = text.find(dots);
-        if (at != std::string::npos && !option->get_positional() && !option->get_allow_extra_args())
-        {
-            text.erase(at, dots.size());
-        }
-        return text;
-    }
-};
 
 /** CLI11 says of an unknown command that none was given. \return empty: there is no such mistake */
 [[nodiscard]] std::string problemOfCommand(
@@ -219,9 +192,10 @@ int runCommand(
         return kExitBadInput;
     }
     commands.push_back(&app);
+    const std::size_t columns = &out == &std::cout ? columnsOf(STDOUT_FILENO) : 0;
     for (CLI::App* command : commands)
     {
-        command->formatter(std::make_shared<HelpFormatter>());
+        command->formatter(std::make_shared<HelpFormatter>(columns));
         for (CLI::Option* option : command->get_options())
         {
             const std::string type = option->get_type_name();

@@ -9,6 +9,7 @@
 #include <string>
 
 #include <fcntl.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 namespace pointplane
@@ -57,6 +58,13 @@ void openStandardStreams()
             openPipeThatNobodyReads(stream);
         }
     }
+}
+
+std::size_t columnsOf(int stream)
+{
+    winsize size = {};
+    const bool tells = ::isatty(stream) == 1 && ::ioctl(stream, TIOCGWINSZ, &size) == 0;
+    return tells ? size.ws_col : 0;
 }
 
 void requireStandardOutput()

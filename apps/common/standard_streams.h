@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
+
 namespace pointplane
 {
 /** Before anything else is opened: the first file that a program opens must not take the number of
  * a stream that is closed. Whatever is written to a closed stream fails. */
 void openStandardStreams();
+
+/** Columns of the terminal that this is, like STDOUT_FILENO; 0 if it is none, or does not tell. */
+[[nodiscard]] std::size_t columnsOf(int stream);
 
 /** Before a run whose result goes there. What only tells about a run may be lost with a closed
  * stream. \throws EnvironmentError if it was closed when the program began */

@@ -14,8 +14,13 @@ namespace pointplane
 {
 namespace
 {
+/** \param decimals those of the value beside it */
 std::string behindText(
-    const Comparison& c, const std::optional<BootstrapInterval>& behind, bool best, double unit)
+    const Comparison& c,
+    const std::optional<BootstrapInterval>& behind,
+    bool best,
+    double unit,
+    int decimals)
 {
     if (best)
     {
@@ -27,12 +32,15 @@ std::string behindText(
     }
     if (!behind->isKnown())
     {
-        return format("%+.3f too short", behind->value * unit);
+        return format("%+.*f too short", decimals, behind->value * unit);
     }
     return format(
-        "%+.3f [%+.3f, %+.3f]%s",
+        "%+.*f [%+.*f, %+.*f]%s",
+        decimals,
         behind->value * unit,
+        decimals,
         behind->lower * unit,
+        decimals,
         behind->upper * unit,
         behind->excludesZero() ? "" : " ns");
 }
@@ -126,34 +134,66 @@ std::string intervalFields(const BootstrapInterval& interval, double unit)
 }
 }  // namespace
 
+namespace
+{
+/** Of translation or rotation, in no more columns than a terminal has. */
+struct ErrorBlock
+{
+    const char* header;
+    double unit;
+    int decimals;
+    std::size_t best;
+    BootstrapInterval ComparedRun::*value;
+    std::optional<BootstrapInterval> ComparedRun::*behind;
+};
+
+void printErrors(const Comparison& c, const ErrorBlock& block, std::ostream& out)
+{
+    out << format("\n%-32s%12s  %s\n", "run", block.header, "behind the best");
+    for (std::size_t k = 0; k < c.runs.size(); ++k)
+    {
+        const ComparedRun& r = c.runs[k];
+        const bool best = isBest(c, k, block.best);
+        out << format(
+            "%-32s%12.*f%s %s\n",
+            shownName(r.name, 30).c_str(),
+            block.decimals,
+            block.unit * (r.*block.value).value,
+            best ? "*" : " ",
+            behindText(c, r.*block.behind, best, block.unit, block.decimals).c_str());
+    }
+}
+}  // namespace
+
 void printTable(const Comparison& c, const std::string& protocol, std::ostream& out)
 {
     out << titleOf(c) << ": " << protocol << "\n"
-        << "RPE RMSE, its distance to the best with the bootstrap's 95 % interval (ns: not "
-           "significant), ATE RMSE\n\n"
-        << format(
-               "%-32s%9s  %-27s%9s  %-27s%9s%8s%7s\n",
-               "run",
-               "mm",
-               "behind the best",
-               "deg",
-               "behind the best",
-               "ATE mm",
-               "pairs",
-               "cover");
+        << "RMSE; distance to the best with the bootstrap's 95 % interval (ns: not significant)\n";
+    printErrors(
+        c,
+        {"RPE [mm]",
+         1000,
+         3,
+         c.bestTranslation,
+         &ComparedRun::translation,
+         &ComparedRun::translationBehindBest},
+        out);
+    printErrors(
+        c,
+        {"RPE [deg]",
+         kDegreesPerRadian,
+         4,
+         c.bestRotation,
+         &ComparedRun::rotation,
+         &ComparedRun::rotationBehindBest},
+        out);
+    out << format("\n%-32s%12s  %8s  %8s\n", "run", "ATE [mm]", "pairs", "coverage");
     for (std::size_t k = 0; k < c.runs.size(); ++k)
     {
         const ComparedRun& r = c.runs[k];
         out << format(
-            "%-32s%9.3f%s %-27s%9.4f%s %-27s%9.3f%s%7zu%6.1f%%\n",
+            "%-32s%12.3f%s %8zu  %6.1f %%\n",
             shownName(r.name, 30).c_str(),
-            1000 * r.translation.value,
-            isBest(c, k, c.bestTranslation) ? "*" : " ",
-            behindText(c, r.translationBehindBest, isBest(c, k, c.bestTranslation), 1000).c_str(),
-            kDegreesPerRadian * r.rotation.value,
-            isBest(c, k, c.bestRotation) ? "*" : " ",
-            behindText(c, r.rotationBehindBest, isBest(c, k, c.bestRotation), kDegreesPerRadian)
-                .c_str(),
             1000 * r.ate.translation.rmse,
             c.bestAte == k ? "*" : " ",
             r.rpe.translation.count,
@@ -219,16 +259,25 @@ std::string toCsv(const Comparison& c)
 
 namespace
 {
-/** Of the report's table. */
+// The report's table.
+const std::vector<std::string> kColumns{
+    "run",
+    "RPE [mm]",
+    "behind the best [mm]",
+    "RPE [deg]",
+    "behind the best [deg]",
+    "ATE [mm]",
+    "coverage"};
+
 std::vector<std::string> rowOf(const Comparison& c, std::size_t run)
 {
     const ComparedRun& r = c.runs[run];
     return {
         r.name,
         format("%.3f", 1000 * r.translation.value),
-        behindText(c, r.translationBehindBest, isBest(c, run, c.bestTranslation), 1000),
+        behindText(c, r.translationBehindBest, isBest(c, run, c.bestTranslation), 1000, 3),
         format("%.4f", kDegreesPerRadian * r.rotation.value),
-        behindText(c, r.rotationBehindBest, isBest(c, run, c.bestRotation), kDegreesPerRadian),
+        behindText(c, r.rotationBehindBest, isBest(c, run, c.bestRotation), kDegreesPerRadian, 4),
         format("%.3f", 1000 * r.ate.translation.rmse),
         format("%.1f %%", 100 * r.rpe.coverage.share)};
 }
@@ -263,10 +312,7 @@ HtmlReport reportOf(
             errors[n].series.back().name = r.name;
         }
     }
-    report.addTable(
-        "RPE and ATE RMSE",
-        {"run", "mm", "behind the best", "deg", "behind the best", "ATE mm", "coverage"},
-        rows);
+    report.addTable("RPE and ATE RMSE", kColumns, rows);
     for (const std::string& hint : hints)
     {
         report.addParagraph("Hint: " + hint);

@@ -39,7 +39,7 @@ std::vector<std::string> consistencyCells(const std::string& name, const NeesRes
 const std::vector<std::string> kConsistencyColumns{
     "increments of",
     "verdict",
-    "independent",
+    "without overlap",
     "joint",
     "translation",
     "rotation",
@@ -76,10 +76,11 @@ void addConsistency(HtmlReport& report, const ReportedRun& run)
     }
     charts.insert(charts.end(), errors.begin(), errors.end());
     report.addTable(
-        "NEES per degree of freedom (1 is consistent), ground truth with " +
-            describeTruthNoise(run.nees),
+        "NEES per degree of freedom (1 is consistent)",
         kConsistencyColumns,
-        rows);
+        rows,
+        "Lengths in frames (f) or seconds (s). Ground truth with " + describeTruthNoise(run.nees) +
+            ".");
     if (!tested.note.empty())
     {
         report.addParagraph("Note: " + tested.note + ".");

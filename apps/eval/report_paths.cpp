@@ -4,6 +4,8 @@
 #include <pointplane/evaluation/trajectory_charts.h>
 #include <pointplane/evaluation/units.h>
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -16,12 +18,16 @@ namespace
 {
 const std::vector<std::string> kStatisticsHeader{"", "rmse", "mean", "median", "std", "min", "max"};
 
+/** With as many decimals as show four digits of the RMSE. */
 std::vector<std::string> statisticsCells(const std::string& name, const Statistics& s)
 {
+    constexpr double kRoundsUp = 1.00005;  // 9.9996 is shown as 10.00
+    const double digits = s.rmse > 0 ? 3 - std::floor(std::log10(kRoundsUp * s.rmse)) : 4;
+    const int decimals = static_cast<int>(std::clamp(digits, 0.0, 6.0));
     std::vector<std::string> cells{name};
     for (const double value : {s.rmse, s.mean, s.median, s.std, s.min, s.max})
     {
-        cells.push_back(format("%.4f", value));
+        cells.push_back(format("%.*f", decimals, value));
     }
     return cells;
 }
@@ -61,19 +67,21 @@ class PathSections
     {
         const RpeResult rpe = relativePoseError(truth_, measured_, run_.rpe);
         report.addTable(
-            "Relative pose error: " + describe(run_.rpe, rpe),
+            "Relative pose error",
             kStatisticsHeader,
             {statisticsCells("translation [mm]", scaled(rpe.translation, 1000)),
-             statisticsCells("rotation [deg]", scaled(rpe.rotation, kDegreesPerRadian))});
+             statisticsCells("rotation [deg]", scaled(rpe.rotation, kDegreesPerRadian))},
+            describe(run_.rpe, rpe));
     }
 
     void addAbsolute(HtmlReport& report) const
     {
         const AteResult ate = absoluteTrajectoryError(truth_, measured_, run_.ate);
         report.addTable(
-            "Absolute trajectory error: " + describe(run_.ate, ate, measured_.size()),
+            "Absolute trajectory error",
             kStatisticsHeader,
-            {statisticsCells("translation [mm]", scaled(ate.translation, 1000))});
+            {statisticsCells("translation [mm]", scaled(ate.translation, 1000))},
+            describe(run_.ate, ate, measured_.size()));
         // Covariances are relative to the first pose, so that is where ellipses start from.
         const bool fromStart =
             !measured_.covs.empty() && run_.ate.alignment != Alignment::FirstPose;

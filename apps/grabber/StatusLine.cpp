@@ -9,6 +9,8 @@
 #include <ostream>
 
 #include "ProgressBar.h"
+#include "standard_streams.h"
+#include <unistd.h>
 
 namespace pointplane
 {
@@ -24,19 +26,24 @@ std::string statusText(const RunState& state)
         return "waiting for the camera's streams to settle";
     }
     const auto& pairing = state.capture.pairing;
+    const auto dropped =
+        static_cast<unsigned long long>(pairing.droppedDepth + pairing.droppedColour);
+    const auto unpaired =
+        static_cast<unsigned long long>(pairing.unpairedDepth + pairing.unpairedColour);
+    const auto late = static_cast<unsigned long long>(state.queueDrops);
     std::string text = mrpt::format(
-        "%s  %.1f fps  %s  lost: camera %llu, unpaired %llu, queue %llu",
+        "%s  %.1f fps  %s  lost",
         durationText(state.capture.recordedTime).c_str(),
         state.capture.frameRate,
-        framesText(pairing.pairs).c_str(),
-        static_cast<unsigned long long>(pairing.droppedDepth + pairing.droppedColour),
-        static_cast<unsigned long long>(pairing.unpairedDepth + pairing.unpairedColour),
-        static_cast<unsigned long long>(state.queueDrops));
+        framesText(pairing.pairs).c_str());
+    text += dropped + unpaired + late == 0
+                ? " 0"
+                : mrpt::format(": camera %llu, unpaired %llu, queue %llu", dropped, unpaired, late);
     if (state.isRecording)
     {
         const double written = static_cast<double>(state.recording.bytesWritten);
         text += mrpt::format(
-            "  queue %zu/%zu  %.0f MB  disk free %.0f MB",
+            "  queue %zu/%zu  %.0f MB  free %.0f MB",
             state.recording.framesQueued,
             state.queueCapacity,
             written / kMega,
@@ -66,6 +73,7 @@ void StatusLine::update(const RunState& state)
         out_ << text << std::endl;
         return;
     }
+    text = lineOf("", text, columnsOf(STDERR_FILENO));
     const std::size_t previous = width_;
     width_ = text.size();
     text.resize(std::max(width_, previous), ' ');

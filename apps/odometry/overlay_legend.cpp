@@ -102,6 +102,30 @@ class Legend
     int x_{kLeft}, y_{0};
 };
 
+/** In parts where the picture is too narrow for the whole. Without a speed, its room stays empty.
+ */
+void addSpeed(const std::optional<CameraSpeed>& speed, Legend& legend)
+{
+    constexpr int kWhole = 290;
+    char size[32] = "", forward[32] = "", rotation[32] = "";
+    if (speed)
+    {
+        std::snprintf(size, sizeof(size), "-> %.2f m/s", speed->translation.norm());
+        std::snprintf(forward, sizeof(forward), "(%+.2f forward),", speed->translation.z());
+        std::snprintf(rotation, sizeof(rotation), "%.0f deg/s", speed->rotation * 180 / M_PI);
+    }
+    if (legend.strip().cols >= kWhole)
+    {
+        const auto whole = std::string(size) + " " + forward + " " + rotation;
+        legend.add(speed ? whole : "", kWhole, kArrow);
+        return;
+    }
+    for (const char* part : {size, forward, rotation})
+    {
+        legend.add(part, 112, kArrow);
+    }
+}
+
 void addStatus(
     const FrameRecord& record,
     std::size_t frameIndex,
@@ -118,17 +142,7 @@ void addStatus(
                             record.motion.status == TrackingStatus::First;
     legend.add(toString(record.motion.status), 72, isMeasured ? kUsed : kRejected);
     legend.add(record.features.isKeyframe ? "KEY FRAME" : "", 90, kArrow);
-    if (speed)
-    {
-        std::snprintf(
-            text,
-            sizeof(text),
-            "-> %.2f m/s (%+.2f forward), %.0f deg/s",
-            speed->translation.norm(),
-            speed->translation.z(),
-            speed->rotation * 180 / M_PI);
-    }
-    legend.add(speed ? text : "", 290, kArrow);
+    addSpeed(speed, legend);
 }
 
 void addCounts(const FrameFeatures& features, Legend& legend)

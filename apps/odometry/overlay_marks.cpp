@@ -33,9 +33,14 @@ cv::Vec3b sigmaColour(double sigma)
 void drawPoint(FeatureUse use, const cv::Point2d& at, cv::Mat& picture)
 {
     const cv::Point centre(cvRound(at.x), cvRound(at.y));
-    if (use == FeatureUse::Used || use == FeatureUse::Doubted)
+    // Shapes differ, too: green, orange and red are much alike for people with colour-blindness.
+    if (use == FeatureUse::Used)
     {
-        cv::circle(picture, centre, 3, use == FeatureUse::Used ? kUsed : kDoubted, 1);
+        cv::circle(picture, centre, 3, kUsed, 1);
+    }
+    else if (use == FeatureUse::Doubted)
+    {
+        cv::drawMarker(picture, centre, kDoubted, cv::MARKER_TRIANGLE_UP, 8, 1);
     }
     else if (use == FeatureUse::Rejected)
     {

@@ -134,7 +134,8 @@ EnvelopeBenchmark::EnvelopeBenchmark(CLI::App& app)
         ->envname("POINTPLANE_DATA");
     app.add_option("--config-directory", configDirectory_, "with config.ini and its relatives")
         ->capture_default_str();
-    app.add_option("--configs", configs_, "files in it, the first is the table's; 'none': only peers")
+    app.add_option(
+           "--configs", configs_, "files in it, the first is the table's; 'none': only peers")
         ->delimiter(',')
         ->capture_default_str();
     app.add_option("--set", settings_, "Section.key=value for all of them, any number of times")

@@ -16,7 +16,9 @@
 #include <vector>
 
 #include "EvalApp.h"
+#include "HelpFormatter.h"
 #include "OdometryApp.h"
+#include "ProgressBar.h"
 #include "SimulateApp.h"
 #include "TempDir.h"
 #include "number_checks.h"
@@ -260,6 +262,34 @@ TEST(RunCommand, wholeNumbersAreThoseThatWereGiven)
     EXPECT_FALSE(parsed({"--jobs", "2", "--jobs", "3"}));
     EXPECT_NE(told.find(": --jobs is given more than once (see --help)"), std::string::npos)
         << told;
+}
+
+TEST(RunCommand, helpFitsTheTerminal)
+{
+    const std::string help =
+        "  --mask FILE                 Image that is black where the camera sees the robot: left "
+        "out\n"
+        "                                corner: a room corner, three planes with a little "
+        "texture\n";
+    EXPECT_EQ(
+        wrappedHelp(help, 80, 30),
+        "  --mask FILE                 Image that is black where the camera sees the\n"
+        "                              robot: left out\n"
+        "                                corner: a room corner, three planes with a\n"
+        "                                little texture\n");
+    EXPECT_EQ(wrappedHelp(help, 0, 30), help) << "no terminal";
+    EXPECT_EQ(wrappedHelp(help, 40, 30), help) << "too narrow to be of use";
+    const std::string path = "  --x " + std::string(90, 'x') + "\n";
+    EXPECT_EQ(wrappedHelp(path, 80, 30), path);
+}
+
+TEST(RunCommand, linesThatAreRedrawnFitTheTerminal)
+{
+    const std::string rest = ": 50 %  10 frames";
+    EXPECT_EQ(lineOf("in.rawlog", rest, 80), "in.rawlog" + rest);
+    EXPECT_EQ(lineOf("/a/long/way/to/in.rawlog", rest, 31), ".../in.rawlog: 50 %  10 frames");
+    EXPECT_EQ(lineOf("/a/long/way/to/in.rawlog", rest, 0).size(), 24 + rest.size());
+    EXPECT_EQ(lineOf("/a/long/way/to/in.rawlog", rest, 20), "...n.rawlog: 50 %  ");
 }
 
 TEST(RunCommand, numbersAreThoseOfFilesToo)

@@ -283,6 +283,12 @@ TEST_F(EvalApp, compareMarksTheBest)
     EXPECT_EQ(r.code, 0) << r.err;
     EXPECT_THAT(r.out, HasSubstr("100.000  +50.000 [+50.000, +50.000]"));
     EXPECT_THAT(r.out, HasSubstr("50.000* best"));
+    EXPECT_THAT(r.out, HasSubstr("RPE [deg]"));
+    std::istringstream table(r.out.substr(r.out.find("\n\n")));
+    for (std::string line; std::getline(table, line);)
+    {
+        EXPECT_LE(line.size(), 80U) << line;
+    }
     const auto json = nlohmann::json::parse(test::readBytes(files / "out.json"));
     EXPECT_EQ(json["bestTranslation"], estimate);
     EXPECT_NEAR(json["runs"][0]["translationBehindBest"]["value"], 0.05, 1e-9);
@@ -297,7 +303,7 @@ TEST_F(EvalApp, compareTellsWhatIsTooShortForAnInterval)
     args.insert(args.end(), {"--json", files / "out.json", "--csv", files / "out.csv"});
     const test::AppRun r = run(args);
     EXPECT_EQ(r.code, 0) << r.err;
-    EXPECT_THAT(r.out, HasSubstr("200.000  +100.000 too short "));
+    EXPECT_THAT(r.out, HasSubstr("200.000  +100.000 too short\n"));
     EXPECT_THAT(r.out, HasSubstr("too short for an interval: 1 pair without overlap, at least"));
     const auto behind = nlohmann::json::parse(
         test::readBytes(files / "out.json"))["runs"][0]["translationBehindBest"];
@@ -683,7 +689,7 @@ TEST_F(EvalApp, theReportShowsTheTerminalsFigures)
         const auto json = nlohmann::json::parse(test::readBytes(files / "r.json"));
         char rmse[32];
         std::snprintf(
-            rmse, sizeof rmse, "<td>%.4f</td>", 1000 * json["translation"]["rmse"].get<double>());
+            rmse, sizeof rmse, "<td>%#.4g</td>", 1000 * json["translation"]["rmse"].get<double>());
         const std::string html = test::readBytes(files / "r/index.html");
         EXPECT_THAT(html, HasSubstr(std::string("translation [mm]</td>") + rmse));
         EXPECT_THAT(html, HasSubstr(json["protocol"].get<std::string>().substr(0, 60)));

@@ -18,7 +18,7 @@ TEST(HtmlReport, isOneSelfContainedFile)
 {
     HtmlReport report("a <title>", "sub & title");
     report.addParagraph("5 < 6");
-    report.addTable("scores", {"", "rmse"}, {{"translation", "0.1"}});
+    report.addTable("scores", {"", "rmse"}, {{"translation", "0.1"}}, "of 2 < 3 pairs");
     Chart chart;
     chart.title = "errors";
     chart.series.push_back({"</script>", {0, 1}, {2, 3}});
@@ -26,6 +26,7 @@ TEST(HtmlReport, isOneSelfContainedFile)
     const std::string html = report.html();
     EXPECT_THAT(html, HasSubstr("a &lt;title&gt;"));
     EXPECT_THAT(html, HasSubstr("5 &lt; 6"));
+    EXPECT_THAT(html, HasSubstr("<h2>scores</h2><p class=\"detail\">of 2 &lt; 3 pairs</p>"));
     EXPECT_THAT(html, HasSubstr("width=device-width"));
     EXPECT_THAT(html, HasSubstr("<svg"));
     EXPECT_THAT(html, Not(HasSubstr("<script src")));

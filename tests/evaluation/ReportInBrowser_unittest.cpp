@@ -35,7 +35,7 @@ std::string sampleReport(const test::TempDir& dir)
     const auto increments = neesIncrements(truth, estimate, {}, {});
     HtmlReport report("A run with quite a long name that has to wrap on a phone", "sub/title");
     // The widest table that there is.
-    std::vector<std::string> header{"increments of", "verdict", "independent", "joint"};
+    std::vector<std::string> header{"increments of", "verdict", "without overlap", "joint"};
     std::vector<std::string> row{"10f", "optimistic, sigmas x 12.34 too small", "12345", "123.45"};
     for (const char* name : {"translation", "rotation", "x", "y", "z", "rx", "ry", "rz", "bounds"})
     {
@@ -43,7 +43,7 @@ std::string sampleReport(const test::TempDir& dir)
         row.emplace_back("123.45");
     }
     row.back() = "0.95 - 1.05";
-    report.addTable("a table wider than a phone", header, {row});
+    report.addTable("a table wider than a phone", header, {row}, "its detail");
     const AteResult ate = absoluteTrajectoryError(truth, estimate, {});
     for (const std::vector<Chart>& charts :
          {pathCharts(truth, {{"estimate", estimate, ate}}),
@@ -98,4 +98,34 @@ TEST(ReportInBrowser, fitsPhoneDeskAndPaper)
     EXPECT_GT(test::readBytes(dir / "desk.png").size(), 50000u);  // an empty page has some 10 kB
     ASSERT_EQ(browse(dir, "index.html", 1300, "--print-to-pdf=" + (dir / "paper.pdf")), 0);
     EXPECT_THAT(test::readBytes(dir / "paper.pdf"), testing::StartsWith("%PDF"));
+}
+
+TEST(ReportInBrowser, theFirstPageOnPaperIsNotEmpty)
+{
+    if (std::system(
+            "command -v chromium >/dev/null 2>&1 && command -v pdftotext >/dev/null 2>&1") != 0)
+    {
+        GTEST_SKIP() << "no chromium, or no pdftotext";
+    }
+    test::TempDir dir;
+    const Trajectory truth = randomTrajectory(300, 1), estimate = odometry(truth, 2);
+    HtmlReport report("Comparison", std::string(400, '-'));
+    report.addTable("scores", {"run", "mm"}, {{"a", "1"}, {"b", "2"}});
+    const AteResult ate = absoluteTrajectoryError(truth, estimate, {});
+    for (const Chart& chart : pathCharts(truth, {{"estimate", estimate, ate}}))
+    {
+        report.addChart(chart);
+    }
+    RpeOptions options;
+    options.fixedDelta = true;
+    for (const Chart& chart :
+         relativeErrorCharts(estimate, options, relativePoseError(truth, estimate, options)))
+    {
+        report.addChart(chart);
+    }
+    (void)writeFile(dir, "index.html", report.html());
+    ASSERT_EQ(browse(dir, "index.html", 1300, "--print-to-pdf=" + (dir / "paper.pdf")), 0);
+    const std::string toText = "pdftotext -l 1 " + (dir / "paper.pdf") + " " + (dir / "page.txt");
+    ASSERT_EQ(std::system(toText.c_str()), 0);
+    EXPECT_THAT(test::readBytes(dir / "page.txt"), HasSubstr("scores"));
 }

@@ -54,10 +54,12 @@ void HtmlReport::addDetails(const std::string& caption, const std::string& text)
 void HtmlReport::addTable(
     const std::string& caption,
     const std::vector<std::string>& header,
-    const std::vector<std::vector<std::string>>& rows)
+    const std::vector<std::vector<std::string>>& rows,
+    const std::string& detail)
 {
-    body_ += "<section class=\"wide\"><h2>" + xmlEscaped(caption) +
-             "</h2><div class=\"scroll\"><table><tr>";
+    body_ += "<section class=\"wide\"><h2>" + xmlEscaped(caption) + "</h2>" +
+             (detail.empty() ? "" : "<p class=\"detail\">" + xmlEscaped(detail) + "</p>") +
+             "<div class=\"scroll\"><table><tr>";
     for (const std::string& cell : header)
     {
         body_ += "<th scope=\"col\">" + xmlEscaped(cell) + "</th>";
@@ -68,8 +70,8 @@ void HtmlReport::addTable(
         body_ += "<tr>";
         for (const std::string& cell : row)
         {
-            // Words may be broken into lines, figures not.
-            const bool isText = cell.size() > 24;
+            // Words may be broken into lines, figures with their interval not.
+            const bool isText = cell.size() > 32;
             body_ += (isText ? "<td class=\"text\">" : "<td>") + xmlEscaped(cell) + "</td>";
         }
         body_ += "</tr>\n";

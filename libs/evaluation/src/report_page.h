@@ -5,6 +5,7 @@
 
 namespace pointplane
 {
+/** On paper no grid: browsers move a grid that fits one page to the next one as a whole. */
 inline constexpr std::string_view kReportStyle = R"css(
 :root{color-scheme:light dark;--ink:#1c2430;--muted:#5b6672;--page:#f4f6f8;--card:#fff;--edge:#dde3e9}
 *{box-sizing:border-box}
@@ -25,10 +26,11 @@ th{font-weight:600}
 td{white-space:nowrap}
 td.text{white-space:normal;text-align:left;min-width:11ch}
 th:first-child,td:first-child{text-align:left;position:sticky;left:0;background:var(--card);
-white-space:normal;overflow-wrap:anywhere;min-width:9ch}
+white-space:normal;overflow-wrap:anywhere;min-width:13ch}
 svg.plot{display:block;width:100%;height:auto;overflow:visible}
 img{max-width:100%;height:auto;display:block;border-radius:4px}
 p{margin:.2rem 0;overflow-wrap:anywhere}
+p.detail{margin:0 0 .5rem;color:var(--muted);font-size:.88rem}
 pre{overflow-x:auto;font-size:.8rem;white-space:pre-wrap;overflow-wrap:anywhere}
 #reading{position:fixed;pointer-events:none;background:var(--ink);color:var(--card);font-size:.8rem;
 padding:.1rem .4rem;border-radius:4px;display:none}
@@ -36,10 +38,11 @@ padding:.1rem .4rem;border-radius:4px;display:none}
 @media(min-width:560px) and (max-width:900px){section.small{grid-column:span 3}}
 @media screen and (prefers-color-scheme:dark){:root{--ink:#e8ecf0;--muted:#9aa5b1;--page:#14191f;
 --card:#1d242c;--edge:#333d47}}
-@media print{@page{margin:12mm}body{background:#fff;font-size:9.5pt}h2{font-size:9pt}header,main,footer{padding:0 0 6pt}
-main{gap:6pt}section{break-inside:avoid;padding:5pt;grid-column:span 3}
-section.small{grid-column:span 2}section.wide{grid-column:1/-1}
-.scroll{overflow:visible}table{font-size:7.5pt}th,td{padding:1.5pt 3pt}}
+@media print{@page{margin:12mm}body{background:#fff;font-size:9.5pt}h2{font-size:9pt}p.detail{font-size:7.5pt}header,main,footer{padding:0 0 6pt}
+main{display:flex;flex-wrap:wrap;gap:6pt}
+section{break-inside:avoid;padding:5pt;flex:0 0 calc(50% - 3pt)}
+section.small{flex-basis:calc(100%/3 - 4pt)}section.wide{flex-basis:100%}
+.scroll{overflow:visible}table{font-size:7.5pt}th,td{padding:1.5pt 3pt}td{white-space:normal}}
 )css";
 
 /** Says what the point nearest to the pointer is. */

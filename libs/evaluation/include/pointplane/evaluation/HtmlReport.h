@@ -18,10 +18,12 @@ class HtmlReport
     void addParagraph(const std::string& text);
     /** Text in its own layout (a configuration, say) that the reader can unfold. */
     void addDetails(const std::string& caption, const std::string& text);
+    /** \param detail below the caption: how the figures were made, say */
     void addTable(
         const std::string& caption,
         const std::vector<std::string>& header,
-        const std::vector<std::vector<std::string>>& rows);
+        const std::vector<std::vector<std::string>>& rows,
+        const std::string& detail = "");
     /** See svgOf(). */
     void addChart(const Chart& chart);
     /** Embeds a PNG or JPEG file. \throws std::runtime_error naming it if it cannot be read */
