@@ -79,6 +79,8 @@ fi
 check notexture tum_fr3_structure_notexture_far_part 1 0.004 0.5 0
 check notexture_3Hz tum_fr3_structure_notexture_far_part 'n % 10 == 1' 0.010 0.7 0
 check icl icl_living_room_kt0_part 1 0.002 0.06 0
+# One of its frames shows hardly a point where it is expected, and planes that may slide along themselves.
+check phone_6Hz iphone_lidar_bedroom_part 'n % 5 == 0' 0.045 1.1 0
 # A camera that stands still; its depth image tilts to and fro. The noise that is learnt is a little
 # different on every machine: the pose must not follow the depth for any of them.
 for sigma in 0.0012 0.0015 0.0019; do

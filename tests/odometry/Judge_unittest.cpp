@@ -36,7 +36,7 @@ TEST(Judge, believesWhatPointsAndSurfacesConfirm)
         judge.contradict(a, kUsual);
         EXPECT_TRUE(a.holds) << a.reason;
         EXPECT_TRUE(Judge::isConvincing(a, kUsual));
-        EXPECT_FALSE(Judge::restsOnChance(a));
+        EXPECT_FALSE(Judge::mayBeChance(a));
         EXPECT_EQ(a.reason, "");
     }
 }
@@ -55,18 +55,34 @@ TEST(Judge, surfacesAloneDoNotConvinceWhereThePredictionSaysNothing)
 
 TEST(Judge, fewPointsMayAgreeByChance)
 {
-    const auto restsOnChance = [](double sigma, int inliers, double support)
+    const auto mayBeChance = [](double sigma, int inliers, int sought)
     {
         Alignment a = makeAlignment(sigma);
         a.estimate.numPointInliers = inliers;
-        a.pointSupport = support;
+        a.numSought = sought;
         Judge(OdometryParams{}).judge(a);
-        return Judge::restsOnChance(a);
+        return Judge::mayBeChance(a);
     };
-    EXPECT_TRUE(restsOnChance(kUncertain, 100, 5));
-    EXPECT_FALSE(restsOnChance(kUncertain, 100, 9)) << "so many do not agree by chance";
-    EXPECT_FALSE(restsOnChance(kUncertain, 200, 5)) << "most points in view agree";
-    EXPECT_FALSE(restsOnChance(kCertain, 100, 5)) << "they were searched for where they are";
+    EXPECT_TRUE(mayBeChance(kUncertain, 100, 300));
+    EXPECT_FALSE(mayBeChance(kUncertain, 200, 300)) << "most points in view agree";
+    EXPECT_FALSE(mayBeChance(kCertain, 100, 300)) << "they were searched for where they are";
+    EXPECT_TRUE(mayBeChance(kCertain, 1, 300));
+    EXPECT_FALSE(mayBeChance(kCertain, 3, 3)) << "no other point is in view";
+    EXPECT_FALSE(mayBeChance(kCertain, 7, 12)) << "most points in view agree";
+}
+
+/** Planes that slide along themselves hide it from the surfaces. */
+TEST(Judge, otherMotionsAreTriedWherePointsShouldAgree)
+{
+    Alignment a = makeAlignment(kCertain);
+    Judge(OdometryParams{}).judge(a);
+    EXPECT_TRUE(Judge::needsNoOther(a, kUsual));
+    a.problem.planes.resize(7);
+    a.estimate.numPointInliers = 1;
+    EXPECT_TRUE(Judge::isConvincing(a, kUsual));
+    EXPECT_FALSE(Judge::needsNoOther(a, kUsual));
+    a.numSought = 1;
+    EXPECT_TRUE(Judge::needsNoOther(a, kUsual)) << "no other point is in view";
 }
 
 /** Without depth, no surface can contradict: most points have to agree. */
@@ -76,15 +92,12 @@ TEST(Judge, whereNoSurfaceIsSeenMostPointsHaveToAgree)
     {
         Alignment a = makeAlignment(sigma);
         a.agreement = {};
-        a.pointSupport = 5;
         Judge(OdometryParams{}).judge(a);
         EXPECT_TRUE(Judge::isConvincing(a, kUsual));
-        EXPECT_FALSE(Judge::restsOnChance(a));
+        EXPECT_FALSE(Judge::mayBeChance(a));
         a.estimate.numPointInliers = 100;
         EXPECT_FALSE(Judge::isConvincing(a, kUsual));
-        EXPECT_TRUE(Judge::restsOnChance(a));
-        a.pointSupport = 9;
-        EXPECT_FALSE(Judge::restsOnChance(a)) << "so many do not agree by chance";
+        EXPECT_TRUE(Judge::mayBeChance(a));
     }
 }
 

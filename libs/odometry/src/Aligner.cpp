@@ -8,6 +8,7 @@
 
 #include "Stopwatch.h"
 #include "depth_motion.h"
+#include "few_points.h"
 #include "image_motions.h"
 #include "points_in_view.h"
 #include "surfaces.h"
@@ -80,7 +81,7 @@ Alignment Aligner::align(
     const bool verifies = params_.leastAgreement > 0;
     Alignment out = attempt(scene, start, Search::Close);
     if (track.overlap(out.associations, current) < minOverlap_ ||
-        (verifies && !Judge::isConvincing(out, errors.usual())))
+        (verifies && !Judge::needsNoOther(out, errors.usual())))
     {
         Alignment wide = attempt(scene, start, Search::Wide);
         if (verifies)
@@ -92,7 +93,7 @@ Alignment Aligner::align(
             wide.marks.insert(wide.marks.end(), out.marks.begin(), out.marks.end());
             out = std::move(wide);
         }
-        if (params_.searchImages && !Judge::isConvincing(out, errors.usual()))
+        if (params_.searchImages && !Judge::needsNoOther(out, errors.usual()))
         {
             searchImages(scene, out);
         }
@@ -104,7 +105,7 @@ Alignment Aligner::align(
             "to the image, or its depth is wrong";
     }
     judge_.contradict(out, errors.usual());
-    if (out.holds && Judge::restsOnChance(out))
+    if (restsOnChance(out))
     {
         distrustPoints(scene, out);
     }
@@ -134,10 +135,6 @@ Alignment Aligner::attempt(const Scene& scene, const Motion& start, Search searc
     settleRivals(scene, out);
     verify(scene, out);
     out.marks = marksIn(out.associations);
-    if (params_.fuses() && (out.isUnforeseen || out.agreement.seen() == 0))
-    {
-        out.pointSupport = solver_.pointSupport(out.problem, out.estimate);
-    }
     return out;
 }
 
@@ -191,7 +188,15 @@ void Aligner::settleRivals(const Scene& scene, Alignment& alignment) const
     alignment.unsettled = Judge::whyUnsettled(*rivalry, scene.predicted);
 }
 
-/** The motion stays; its covariance is what planes and prediction tell without the points. */
+/** Whether points that may agree by chance decide a direction. */
+bool Aligner::restsOnChance(const Alignment& alignment) const
+{
+    return params_.fuses() && alignment.holds && Judge::mayBeChance(alignment) &&
+           solver_.pointSupport(alignment.problem, alignment.estimate) < kFewPoints;
+}
+
+/** Leaves what planes and prediction tell. Where that is little, the motion stays, but not its
+ * covariance. */
 void Aligner::distrustPoints(const Scene& scene, Alignment& alignment) const
 {
     const Motion motion = alignment.estimate.motion.mean;
@@ -203,8 +208,11 @@ void Aligner::distrustPoints(const Scene& scene, Alignment& alignment) const
         association.points.clear();
     }
     estimate(scene, motion, alignment);
-    alignment.estimate.motion.mean = motion;
-    alignment.isOfDoubtedPoints = true;
+    if (alignment.isUnforeseen || alignment.agreement.seen() == 0)
+    {
+        alignment.estimate.motion.mean = motion;
+        alignment.isOfDoubtedPoints = true;
+    }
     judge_.judge(alignment);
     if (!alignment.holds)
     {
@@ -238,7 +246,7 @@ void Aligner::searchImages(const Scene& scene, Alignment& best) const
             Alignment other = attempt(scene, start, Search::Wide);
             const bool isKnown = Judge::areSame(best, other);
             Judge::keepBetter(best, std::move(other), scene.errors.usual());
-            if (isKnown || Judge::isConvincing(best, scene.errors.usual()))
+            if (isKnown || Judge::needsNoOther(best, scene.errors.usual()))
             {
                 return;
             }

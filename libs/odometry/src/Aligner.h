@@ -55,6 +55,7 @@ class Aligner
         const Motion& first,
         Alignment& alignment) const;
     void settleRivals(const Scene& scene, Alignment& alignment) const;
+    [[nodiscard]] bool restsOnChance(const Alignment& alignment) const;
     void distrustPoints(const Scene& scene, Alignment& alignment) const;
     void searchImages(const Scene& scene, Alignment& best) const;
     [[nodiscard]] static std::vector<Association> associate(

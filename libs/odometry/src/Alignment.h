@@ -5,7 +5,6 @@
 #include <pointplane/odometry/Verdict.h>
 #include <pointplane/pose/PoseSolver.h>
 
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -25,8 +24,6 @@ struct Alignment
     bool isUnforeseen{false};     //!< the prediction does not tell which feature is which
     Agreement agreement;          //!< of the surfaces seen before with this frame's depth image
     int numSought{0};             //!< points of the references that should be in view
-    /** PoseSolver::pointSupport() of a motion that is unforeseen or shown by no surface. */
-    double pointSupport{std::numeric_limits<double>::infinity()};
     /** The motion was estimated with points that neither `problem` nor the covariance contains. So
      * it is no minimum of `problem`. */
     bool isOfDoubtedPoints{false};

@@ -82,11 +82,17 @@ bool isConfirmed(const Alignment& a)
     return (!a.isUnforeseen && a.agreement.seen() > 0) || mostPointsAgree(a);
 }
 
-/** Whether it rests on planes that may be others: points in view should agree, and do not. */
-bool isOfDoubtfulPlanes(const Alignment& a)
+/** Whether points in view should agree, and do not. */
+bool hardlyAnyPointAgrees(const Alignment& a)
 {
     return a.numSought >= kFewPoints && a.estimate.numPointInliers < kFewPoints &&
-           a.agreement.fraction() <= Judge::kConvincingSurfaces;
+           !mostPointsAgree(a);
+}
+
+/** Whether it rests on planes that may be others. */
+bool isOfDoubtfulPlanes(const Alignment& a)
+{
+    return hardlyAnyPointAgrees(a) && a.agreement.fraction() <= Judge::kConvincingSurfaces;
 }
 }  // namespace
 
@@ -108,10 +114,7 @@ bool Judge::isUncertain(const PoseGaussian& predicted) const
            variances.tail<3>().maxCoeff() > sameAngle_ * sameAngle_;
 }
 
-bool Judge::restsOnChance(const Alignment& a)
-{
-    return !isConfirmed(a) && a.pointSupport < kFewPoints;
-}
+bool Judge::mayBeChance(const Alignment& a) { return !isConfirmed(a) || hardlyAnyPointAgrees(a); }
 
 std::string Judge::fewPointsAgree(const Alignment& alignment)
 {
@@ -149,6 +152,11 @@ bool Judge::isConvincing(const Alignment& a, const NoiseFactors& usual)
     return a.holds && worth >= kFewPoints && (isConfirmed(a) || a.numSought < kFewPoints) &&
            isSeen && a.estimate.pointChi2PerDof < kConvincingRise * usual.points &&
            a.estimate.planeChi2PerDof < kConvincingRise * usual.planes;
+}
+
+bool Judge::needsNoOther(const Alignment& a, const NoiseFactors& usual)
+{
+    return isConvincing(a, usual) && !hardlyAnyPointAgrees(a);
 }
 
 bool Judge::areConvincing(const Agreement& surfaces)

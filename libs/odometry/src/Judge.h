@@ -39,8 +39,11 @@ class Judge
      */
     [[nodiscard]] static bool areSame(const Alignment& a, const Alignment& b);
 
-    /** Whether it needs no comparison with others, and is believed even far from the prediction. */
+    /** Whether it is believed even far from the prediction. */
     [[nodiscard]] static bool isConvincing(const Alignment& alignment, const NoiseFactors& usual);
+
+    /** Whether it is convincing and needs no comparison with others: points in view agree, too. */
+    [[nodiscard]] static bool needsNoOther(const Alignment& alignment, const NoiseFactors& usual);
 
     /** Whether enough surfaces are compared, and agree as they do with a right motion. */
     [[nodiscard]] static bool areConvincing(const Agreement& surfaces);
@@ -60,8 +63,9 @@ class Judge
      * motion from a wrong one. */
     [[nodiscard]] static bool needsNewView(const Alignment& alignment, const MovingRegions& moving);
 
-    /** Whether points that may agree by chance decide a direction. */
-    [[nodiscard]] static bool restsOnChance(const Alignment& alignment);
+    /** Whether neither the prediction nor most of the points in view confirm a motion: a direction
+     * that few points decide may then be wrong. */
+    [[nodiscard]] static bool mayBeChance(const Alignment& alignment);
 
     /** The reason of a frame that is not believed because of that. */
     [[nodiscard]] static std::string fewPointsAgree(const Alignment& alignment);
