@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The real program with the real OpenNI2 runtime and a virtual camera.
+#include <mrpt/obs/CObservationRobotPose.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -477,9 +479,10 @@ TEST_F(OpenNi2Recording, odometryOnTheRecordingFindsTheTrueMotion)
     const auto numLines = std::count(lines.begin(), lines.end(), '\n');
     RawlogReader reader(poses);
     long numPoses = 0;
-    while (reader.next())
+    while (const auto object = reader.next())
     {
-        ++numPoses;
+        // A comment tells that frames were skipped.
+        numPoses += std::dynamic_pointer_cast<mrpt::obs::CObservationRobotPose>(object) ? 1 : 0;
     }
     EXPECT_EQ(reader.ending().kind, RawlogEnd::Clean);
     EXPECT_EQ(numLines, numPoses + 1);
