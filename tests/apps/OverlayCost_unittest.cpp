@@ -36,10 +36,11 @@ namespace
 /** The least of several: other programs may be running. */
 TEST(OverlayCost, aPictureTakesLessThanTenMilliseconds)
 {
-#ifndef POINTPLANE_IS_OPTIMISED
-    GTEST_SKIP() << "not built for speed";
-#endif
+#ifdef POINTPLANE_IS_OPTIMISED
     constexpr double kMostMs = 10;
+#else
+    constexpr double kMostMs = 400;  // not built for speed
+#endif
     constexpr int kRuns = 30;
     const test::TempDir dir;
     OverlaySink sink(dir / "pictures", 1);

@@ -195,8 +195,9 @@ bool Aligner::restsOnChance(const Alignment& alignment) const
            solver_.pointSupport(alignment.problem, alignment.estimate) < kFewPoints;
 }
 
-/** Leaves what planes and prediction tell. Where that is little, the motion stays, but not its
- * covariance. */
+/** Planes and prediction tell the motion without the points. If the prediction does not confirm it,
+ * these points are the best guess: the motion stays, with the covariance that it has without them.
+ */
 void Aligner::distrustPoints(const Scene& scene, Alignment& alignment) const
 {
     const Motion motion = alignment.estimate.motion.mean;
@@ -208,7 +209,7 @@ void Aligner::distrustPoints(const Scene& scene, Alignment& alignment) const
         association.points.clear();
     }
     estimate(scene, motion, alignment);
-    if (alignment.isUnforeseen || alignment.agreement.seen() == 0)
+    if (!Judge::isConfirmed(alignment))
     {
         alignment.estimate.motion.mean = motion;
         alignment.isOfDoubtedPoints = true;

@@ -75,13 +75,6 @@ double evidence(const Alignment& alignment, const NoiseFactors& usual)
 /** Most points in view do not agree on a wrong motion. */
 bool mostPointsAgree(const Alignment& a) { return pointShare(a) > 0.5; }
 
-/** Whether the prediction tells that a motion is right, as far as surfaces can contradict it, or
- * most points in view. */
-bool isConfirmed(const Alignment& a)
-{
-    return (!a.isUnforeseen && a.agreement.seen() > 0) || mostPointsAgree(a);
-}
-
 /** Whether points in view should agree, and do not. */
 bool hardlyAnyPointAgrees(const Alignment& a)
 {
@@ -112,6 +105,11 @@ bool Judge::isUncertain(const PoseGaussian& predicted) const
     const Vector6d variances = predicted.cov.diagonal();
     return variances.head<3>().maxCoeff() > sameDistance_ * sameDistance_ ||
            variances.tail<3>().maxCoeff() > sameAngle_ * sameAngle_;
+}
+
+bool Judge::isConfirmed(const Alignment& a)
+{
+    return (!a.isUnforeseen && a.agreement.seen() > 0) || mostPointsAgree(a);
 }
 
 bool Judge::mayBeChance(const Alignment& a) { return !isConfirmed(a) || hardlyAnyPointAgrees(a); }

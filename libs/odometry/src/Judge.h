@@ -63,8 +63,12 @@ class Judge
      * motion from a wrong one. */
     [[nodiscard]] static bool needsNewView(const Alignment& alignment, const MovingRegions& moving);
 
-    /** Whether neither the prediction nor most of the points in view confirm a motion: a direction
-     * that few points decide may then be wrong. */
+    /** Whether the prediction tells that a motion is right, as far as surfaces can contradict it,
+     * or most points in view. */
+    [[nodiscard]] static bool isConfirmed(const Alignment& alignment);
+
+    /** Whether a direction that few points decide may be wrong: the motion is not confirmed, or
+     * hardly any of the points in view agrees with it. */
     [[nodiscard]] static bool mayBeChance(const Alignment& alignment);
 
     /** The reason of a frame that is not believed because of that. */

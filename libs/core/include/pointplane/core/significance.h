@@ -3,10 +3,11 @@
 
 namespace pointplane
 {
-/** By so many standard deviations, a single measured value has changed: chance does it to three in
- * a thousand. */
+/** A single value that is off by more standard deviations has changed: chance alone moves three of
+ * a thousand values as far. */
 constexpr double kUnlikelySigmas = 3;
 
-/** By so many, it is no chance, of however many values: it does it to one in a million. */
+/** Even of many values, one that is off by more has changed: chance alone moves one of two million
+ * as far. */
 constexpr double kNoChanceSigmas = 5;
 }  // namespace pointplane
