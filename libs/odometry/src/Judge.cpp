@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Judge.h"
 
+#include <pointplane/core/number_text.h>
 #include <pointplane/core/se3.h>
 #include <pointplane/core/significance.h>
 #include <pointplane/odometry/uncertainty/NoiseScale.h>
@@ -39,11 +40,19 @@ int observableDirections(const Matrix6d& information, const Matrix6d& priorCovar
     return static_cast<int>((es.eigenvalues().array() > 1).count());
 }
 
-/** Root mean square deviation from the predicted pose, in its standard deviations. */
-double surprise(const Eigen::Isometry3d& T_prev_cur, const PoseGaussian& predicted)
+/** Root mean square deviation from the predicted pose, in its standard deviations, over the
+ * directions in which there may be one: the others are predicted themselves. */
+double surprise(
+    const Eigen::Isometry3d& T_prev_cur, const PoseGaussian& predicted, int directions = 6)
 {
     const Vector6d e = leftError(T_prev_cur, predicted.mean);
-    return std::sqrt(e.dot(predicted.cov.ldlt().solve(e)) / 6);
+    return std::sqrt(e.dot(predicted.cov.ldlt().solve(e)) / directions);
+}
+
+double surprise(const Alignment& a)
+{
+    return surprise(
+        a.estimate.motion.mean.T_prev_cur, a.predicted.pose, std::max(1, a.observableDirections));
 }
 
 double maxSigma(const Matrix6d& cov)
@@ -117,8 +126,8 @@ bool Judge::mayBeChance(const Alignment& a) { return !isConfirmed(a) || hardlyAn
 std::string Judge::fewPointsAgree(const Alignment& alignment)
 {
     std::ostringstream out;
-    out << "points in view that agree with the motion: only " << alignment.estimate.numPointInliers
-        << " of " << alignment.numSought << ", " << alignment.predicted.dt
+    out << "only " << alignment.estimate.numPointInliers << " of " << alignment.numSought
+        << " points in view agree with the motion, " << numberText(alignment.predicted.dt, 3)
         << " s after the previous measured frame";
     return out.str();
 }
@@ -168,6 +177,11 @@ bool Judge::areConvincing(const Agreement& surfaces)
 bool Judge::isSurprising(const Eigen::Isometry3d& T_prev_cur, const PoseGaussian& predicted)
 {
     return surprise(T_prev_cur, predicted) > kNoChanceSigmas;
+}
+
+bool Judge::isSurprising(const Alignment& alignment)
+{
+    return surprise(alignment) > kNoChanceSigmas;
 }
 
 std::string Judge::whyUnsettled(const Rivalry& rivalry, const Prediction& predicted)
@@ -239,7 +253,6 @@ void Judge::contradict(Alignment& alignment, const NoiseFactors& usual) const
     }
     std::ostringstream reason;
     const double agreement = alignment.agreement.fraction();
-    const Eigen::Isometry3d& T_prev_cur = alignment.estimate.motion.mean.T_prev_cur;
     if (!alignment.unsettled.empty())
     {
         reason << alignment.unsettled;
@@ -250,9 +263,9 @@ void Judge::contradict(Alignment& alignment, const NoiseFactors& usual) const
                << " % of the surfaces where the motion puts them; points and planes it comes from: "
                << alignment.numMatches();
     }
-    else if (isSurprising(T_prev_cur, alignment.predicted.pose) && !isConvincing(alignment, usual))
+    else if (isSurprising(alignment) && !isConvincing(alignment, usual))
     {
-        reason << "the motion is " << std::lround(surprise(T_prev_cur, alignment.predicted.pose))
+        reason << "the motion is " << std::lround(surprise(alignment))
                << " standard deviations from the predicted one, and too little confirms it: of the "
                << "points in view " << alignment.estimate.numPointInliers << " of "
                << alignment.numSought << ", of the surfaces " << std::lround(100 * agreement)

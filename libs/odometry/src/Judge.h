@@ -53,6 +53,9 @@ class Judge
     [[nodiscard]] static bool isSurprising(
         const Eigen::Isometry3d& T_prev_cur, const PoseGaussian& predicted);
 
+    /** Likewise of an estimate, in the directions that are measured. */
+    [[nodiscard]] static bool isSurprising(const Alignment& alignment);
+
     /** Why the winner of two motions is not believed to be the camera's, or empty: its surface is
      * not clearly larger, or the estimate went with the other one. That one may have been followed
      * in the frames before, too; so it takes two frames to turn to the winner. */

@@ -262,7 +262,8 @@ void Odometry::Impl::measure(const Features& current, Alignment& alignment, Odom
          track.acceleration2(),
          errors.camera().complete(current.frame.shutter),
          current.bend,
-         !alignment.isOfDoubtedPoints});
+         !alignment.isOfDoubtedPoints,
+         track.velocityCovs()});
     showPairs(alignment.associations, &analysis, shown);
     shown.moving = frontEnd.findMoving(
         current, earlierViews(track, current.frame, motion.mean, errors.camera()));
@@ -286,7 +287,7 @@ void Odometry::Impl::measure(const Features& current, Alignment& alignment, Odom
     track.measure(
         {std::move(reference),
          shown.isKeyframe,
-         Judge::isSurprising(motion.mean.T_prev_cur, alignment.predicted.pose),
+         Judge::isSurprising(alignment),
          motion,
          dt,
          measurement,

@@ -191,6 +191,7 @@ void PairBuilder::addCameraErrors(
     {
         const Reference& reference = *association.reference;
         const ShutterCorrection past(learnt_.complete(reference.shutter), sizeOf(camera));
+        const ShutterCorrection most(learnt_.rootMeanSquare(reference.shutter), sizeOf(camera));
         const Eigen::Matrix3d ofReference = learnt_.estimated(reference.shutter).asDiagonal();
         const Eigen::Isometry3d T_prev_ref =
             previous_.T_world_cam.inverse() * reference.T_world_cam;
@@ -204,7 +205,9 @@ void PairBuilder::addCameraErrors(
                 ref.plane_cam.theta_m + past.planeJacobian(ref) * velocity;
             ByCamera ofRef = planeByCamera(theta_m, camera);
             ofRef.rightCols<3>() = past.planeByShutter(ref, velocity) * ofReference;
-            plane->dRef_dCamera = transformJacobian(T_prev_ref, theta_m) * ofRef;
+            const Eigen::Matrix3d toPrevious = transformJacobian(T_prev_ref, theta_m);
+            plane->dRef_dV = toPrevious * most.planeJacobian(ref);
+            plane->dRef_dCamera = toPrevious * ofRef;
             plane->dCur_dCamera = planeByCamera(cur.plane_cam.theta_m, camera);
             plane->dCur_dCamera.rightCols<3>() =
                 current.planeByShutter(cur, motion.velocity) * ofCurrent;
@@ -216,6 +219,7 @@ void PairBuilder::addCameraErrors(
             const FusedPoint fused(*point, motion);
             ByCamera ofRef = pointByCamera(T_ref_prev * fused.inPrevious, camera);
             ofRef.rightCols<3>() = past.pointByShutter(ref, velocity) * ofReference;
+            point->dRef_dV = T_prev_ref.linear() * most.pointJacobian(ref);
             point->dRef_dCamera = T_prev_ref.linear() * ofRef;
             point->dCur_dCamera = pointByCamera(fused.inCurrent, camera);
             point->dCur_dCamera.col(kVignetting) = track.cur.ofVignetting_m;

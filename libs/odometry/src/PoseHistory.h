@@ -46,6 +46,8 @@ class PoseHistory
     void keep(const std::vector<int>& references, const std::vector<int>& poses);
 
     [[nodiscard]] const Eigen::Isometry3d& latest() const { return poses_.front(); }
+    /** JointCovariance::velocity(). */
+    [[nodiscard]] Matrix6d velocityCov(int frame) const { return joint_.velocity(frame); }
     [[nodiscard]] int latestFrame() const { return latestFrame_; }
 
     /** T_world_latest. */

@@ -272,6 +272,16 @@ void Track::add(Reference frame, bool isKeyframe)
     forgetOthers();
 }
 
+std::map<int, Matrix6d> Track::velocityCovs() const
+{
+    std::map<int, Matrix6d> out;
+    for (const Reference* reference : references())
+    {
+        out[reference->id] = history_.velocityCov(reference->id);
+    }
+    return out;
+}
+
 std::vector<int> Track::placeIds() const
 {
     std::vector<int> out;

@@ -10,6 +10,7 @@
 
 #include <deque>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -88,6 +89,9 @@ class Track
 
     /** MotionModel::processNoise(). */
     [[nodiscard]] Matrix12d motionNoise(double dt) const { return motion_.processNoise(dt); }
+
+    /** Covariance of the velocity of each reference that has one, by its id. */
+    [[nodiscard]] std::map<int, Matrix6d> velocityCovs() const;
 
     /** MotionModel::acceleration2(). */
     [[nodiscard]] const Vector6d& acceleration2() const { return motion_.acceleration2(); }

@@ -14,12 +14,14 @@ struct Columns
 {
     MotionByCamera H{MotionByCamera::Zero()};  //!< with pose and velocity
     CameraInformation own;                     //!< with each other, motion not eliminated
+    CameraByVelocity byVelocity{CameraByVelocity::Zero()};  //!< of own.gradient, of a reference
 
     Columns& operator+=(const Columns& other)
     {
         H += other.H;
         own.information += other.own.information;
         own.gradient += other.own.gradient;
+        byVelocity += other.byVelocity;
         return *this;
     }
 };
@@ -37,6 +39,7 @@ Columns columnsOf(const NormalEquations& equations, size_t i)
         out.H << residual.J.transpose() * weighted, residual.J_V.transpose() * weighted;
         out.own.information = K.transpose().lazyProduct(weighted);
         out.own.gradient = weighted.transpose() * residual.r;
+        out.byVelocity = weighted.transpose() * residual.ofReferenceVelocity;
     }
     return out;
 }
@@ -86,6 +89,9 @@ void addCamera(const Solution& at, PoseAnalysis& out)
     out.camera.information += all.H.transpose() * out.sensitivity.camera;
     for (const auto& [reference, columns] : byReference)
     {
+        out.cameraByVelocity[reference] =
+            columns.byVelocity +
+            all.H.transpose() * out.sensitivity.references.at(reference).rightCols<6>();
         const CameraInformation alone = withoutMotion(at, reference, columns);
         const auto numReferences = static_cast<double>(byReference.size());
         out.cameraByReference.information += alone.information / numReferences;

@@ -113,7 +113,10 @@ CameraVector CameraCalibrator::priorVariances(double bend) const
 }
 
 CameraCalibrator::Change CameraCalibrator::update(
-    const PoseAnalysis& frame, double bend, double variance)
+    const PoseAnalysis& frame,
+    double bend,
+    double variance,
+    const Eigen::Matrix3d& byVelocities)
 {
     // The kind of depth camera shows in its images only.
     const CameraVector prior = prior_.cwiseMax(priorVariances(bend));
@@ -130,7 +133,12 @@ CameraCalibrator::Change CameraCalibrator::update(
         learnt.gradient.segment(first, size) = from.gradient.segment(first, size) / factor;
     };
     add(frame.cameraByReference, kPrincipalPointX, kDepthScale);
-    add(frame.camera, kReadoutColour, kNumCameraErrors);
+    const Eigen::Matrix3d times = frame.camera.information.bottomRightCorner<3, 3>();
+    const Eigen::Matrix3d weight =
+        times *
+        (factor * times + byVelocities).completeOrthogonalDecomposition().pseudoInverse();
+    learnt.information.bottomRightCorner<3, 3>() = weight * times;
+    learnt.gradient.tail<3>() = weight * frame.camera.gradient.tail<3>();
 
     checkCalibration(learnt);
     Change out;
@@ -158,7 +166,7 @@ double CameraCalibrator::directionOfReadout() const
     const Eigen::Vector2d sigmas = cov_.diagonal().segment<2>(kReadoutColour).cwiseSqrt();
     for (const int image : {0, 1})
     {
-        if (std::abs(readouts[image]) > kUnlikelySigmas * sigmas[image])
+        if (std::abs(readouts[image]) > kNoChanceSigmas * sigmas[image])
         {
             return std::copysign(1.0, readouts[image]);
         }
@@ -217,6 +225,19 @@ ShutterModel CameraCalibrator::complete(const ShutterModel& source) const
         known(source.readoutColour, estimate[0]),
         known(source.readoutDepth, estimate[1]),
         known(source.depthDelay, 0) + (tellsExposure(source) ? 0 : estimate[2])};
+}
+
+ShutterModel CameraCalibrator::rootMeanSquare(const ShutterModel& source) const
+{
+    const ShutterModel mean = complete(source);
+    const Eigen::Vector3d variances =
+        estimated(source).cwiseProduct(cov_.diagonal().tail<3>().eval());
+    const auto rms = [](double time, double variance)
+    { return std::copysign(std::sqrt(time * time + variance), time); };
+    return {
+        rms(mean.readoutColour, variances[0]),
+        rms(mean.readoutDepth, variances[1]),
+        rms(mean.depthDelay, variances[2])};
 }
 
 Eigen::Vector3d CameraCalibrator::estimated(const ShutterModel& source)

@@ -129,7 +129,7 @@ JointCovariance::Measurement ErrorModel::learn(const Measured& frame)
         return out;
     }
     const CameraCalibrator::Change change =
-        camera_.update(frame.analysis, frame.bend, noise_.overCautious());
+        camera_.update(frame.analysis, frame.bend, noise_.overCautious(), timesByVelocities(frame));
     out.cameraGain = change.gain;
     out.cameraNoise = change.noise;
     return out;
@@ -167,6 +167,28 @@ JointCovariance::Measurement ErrorModel::errorsOf(const Measured& frame) const
         out.viewSigma = viewSigma(commonAngle(), distanceOf(frame), frame.shutter);
     }
     out.planeViewRoot = rootOf(planes_.byView() * Matrix6d(of.planes.topLeftCorner<6, 6>()));
+    return out;
+}
+
+Eigen::Matrix3d ErrorModel::timesByVelocities(const Measured& frame) const
+{
+    Eigen::Matrix3d out = Eigen::Matrix3d::Zero();
+    Eigen::Matrix<double, 3, 6> all = Eigen::Matrix<double, 3, 6>::Zero();
+    for (const auto& [reference, change] : frame.analysis.cameraByVelocity)
+    {
+        const Eigen::Matrix<double, 3, 6> ofTimes = change.bottomRows<3>();
+        all += ofTimes;
+        if (const auto cov = frame.velocities.find(reference); cov != frame.velocities.end())
+        {
+            out += propagate(ofTimes, cov->second);
+        }
+    }
+    if (!camera_.knowsDirection())
+    {
+        // The frame's own features move as those of all references do, the other way. Once the
+        // readouts are known, the solution follows its velocity.
+        out += propagate(all, Matrix6d(frame.estimate.motion.cov.bottomRightCorner<6, 6>()));
+    }
     return out;
 }
 

@@ -9,6 +9,7 @@
 #include <pointplane/odometry/uncertainty/NoiseScale.h>
 #include <pointplane/pose/PoseSolver.h>
 
+#include <map>
 #include <vector>
 
 namespace pointplane
@@ -77,6 +78,7 @@ class ErrorModel
         /** The estimate minimises the residuals of its pairs. Else these do not tell their noise.
          */
         bool isMinimum{true};
+        std::map<int, Matrix6d> velocities{};  //!< covariances, of the references
     };
 
     /** Learns from the frame. \return what its estimate's errors come from */
@@ -87,6 +89,7 @@ class ErrorModel
 
     /** Standard deviation of eta, as a turn [rad]: in proportion to how far references contradict
      * each other by more than the frame's own noise makes them. */
+    [[nodiscard]] Eigen::Matrix3d timesByVelocities(const Measured& frame) const;
     [[nodiscard]] double commonAngle() const;
 
     JointCovariance::TParams params_;

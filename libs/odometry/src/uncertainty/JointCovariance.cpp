@@ -250,6 +250,16 @@ void JointCovariance::keep(const std::vector<int>& references, const std::vector
 
 Matrix6d JointCovariance::latest() const { return at(newest(), newest()); }
 
+Matrix6d JointCovariance::velocity(int frame) const
+{
+    if (!has(Kind::Velocity, frame))
+    {
+        return Matrix6d::Zero();
+    }
+    const Eigen::Index k = find(Kind::Velocity, frame);
+    return at(k, k);
+}
+
 bool JointCovariance::knows(int frame) const { return has(Kind::Pose, frame); }
 
 Matrix6d JointCovariance::relative(int from, const Eigen::Isometry3d& T_world_from) const

@@ -119,8 +119,14 @@ class CameraCalibrator
     /** Learns from a measured frame: of the shutter by all references together
      * (PoseAnalysis::camera), of the lens by each alone (PoseAnalysis::cameraByReference).
      * \param bend smooth error of depth, as a fraction of it (DepthNoise::sigmaRelative)
-     * \param variance of its features, over the one by which the solver weighed them */
-    Change update(const PoseAnalysis& frame, double bend = 0, double variance = 1);
+     * \param variance of its features, over the one by which the solver weighed them
+     * \param byVelocities covariance of the gradient for the times of the shutter, by errors of the
+     * velocities: these tell as little of the times as they are known themselves */
+    Change update(
+        const PoseAnalysis& frame,
+        double bend = 0,
+        double variance = 1,
+        const Eigen::Matrix3d& byVelocities = Eigen::Matrix3d::Zero());
 
     /** What the true camera has more than recording and parameters say, in the order and units of
      * CameraError. Zero where it is not learnt, as vignetting and the scale of depth. */
@@ -135,6 +141,12 @@ class CameraCalibrator
     /** The source's values where it knows them, else the estimate [s]. A delay that comes from time
      * stamps is a part of the true one: the estimate is added. All zero if `correct` is off. */
     [[nodiscard]] ShutterModel complete(const ShutterModel& source) const;
+
+    /** Likewise, each estimated time as its root mean square: so much may be moved. */
+    [[nodiscard]] ShutterModel rootMeanSquare(const ShutterModel& source) const;
+
+    /** Whether it is known which of the rows is exposed first. */
+    [[nodiscard]] bool knowsDirection() const { return knowsDirection_; }
 
     /** 1 for each of the three times that is estimated, 0 for each that the source knows. */
     [[nodiscard]] static Eigen::Vector3d estimated(const ShutterModel& source);

@@ -163,6 +163,9 @@ class JointCovariance
     /** Covariance of the latest pose (left, world); positive semidefinite. */
     [[nodiscard]] Matrix6d latest() const;
 
+    /** Covariance of the velocity of a frame [m/s, rad/s]; zero if it is not known. */
+    [[nodiscard]] Matrix6d velocity(int frame) const;
+
     /** Whether relative() knows the frame. */
     [[nodiscard]] bool knows(int frame) const;
 
