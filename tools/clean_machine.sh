@@ -40,7 +40,8 @@ if [[ -n ${PACKAGES:-} ]]; then
     packages=$(realpath "$PACKAGES")
 fi
 export dir data packages command
-source=$(git rev-parse --show-toplevel) commit=$(git rev-parse HEAD)
+# The repository, not the folder of the sources: that of a worktree is no repository by itself.
+source=$(realpath "$(git rev-parse --git-common-dir)") commit=$(git rev-parse HEAD)
 export source commit
 # shellcheck disable=SC2016  # expanded there
 unshare --mount bash -euo pipefail -c '
@@ -55,7 +56,7 @@ unshare --mount bash -euo pipefail -c '
             git config --global --replace-all safe.directory \"*\"
             [[ -d /clone ]] || git clone --quiet /source /clone
             cd /clone
-            git fetch --quiet origin HEAD
+            git fetch --quiet origin $commit
             git checkout --quiet --detach $commit
             $command"
 '

@@ -9,12 +9,14 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 readonly build_dir=${build_dir:-build/release${CXX:+-${CXX##*/}}}
 
 # A question mark: not in every release. What it is for is left out, or its tests are skipped.
+# dpkg-dev and file: README makes Debian packages after ./demo, and cpack needs them.
 build_packages=(
     g++ cmake ninja-build pkgconf
     libeigen3-dev libopencv-dev libdlib-dev zlib1g-dev libdeflate-dev libturbojpeg0-dev
     libmrpt-obs-dev libmrpt-graphslam-dev libcli11-dev nlohmann-json3-dev libgtest-dev libgmock-dev
     libopenni2-dev "libfreenect-dev?" help2man "pybind11-dev?" python3-dev
     "librosbag-storage-dev?" "libsensor-msgs-dev?" "libtf2-msgs-dev?"
+    dpkg-dev file
 )
 [[ ${CXX:-} != *clang* ]] || build_packages+=(clang)
 # MRPT's own programs and data sets, which the tests run on our output; a browser for the reports;
@@ -22,7 +24,7 @@ build_packages=(
 # module; what commands of the documents need.
 readonly test_packages=(
     mrpt-apps mrpt-common doxygen "doxygen-awesome-css?" "chromium?" "codespell?" "clang-format-14?"
-    dpkg-dev lintian python3-numpy fakeroot time
+    lintian python3-numpy fakeroot time
 )
 
 say() { printf '\n== %s\n' "$*"; }

@@ -24,10 +24,12 @@ pointplane-eval ate in.groundtruth.txt out.txt --max-rmse 0.02
 # A TUM folder, by the commands of README.
 if [[ -d /data/tum_fr1_xyz_part ]]; then
     ln -s /data/tum_fr1_xyz_part rgbd_dataset_freiburg1_xyz
-    while read -r command; do
+    mapfile -t commands < <(sed -nE '/^    pointplane-convert tum/,/^$/s/^    (pointplane-.*)/\1/p' /clone/README.md)
+    ((${#commands[@]} == 3)) || die "README has ${#commands[@]} commands for a TUM sequence; 3 were expected"
+    for command in "${commands[@]}"; do
         echo "\$ $command"
         bash -c "$command" </dev/null
-    done < <(sed -nE '/TUM sequence/,/My camera/s/^    (pointplane-.*)/\1/p' /clone/README.md)
+    done
 fi
 if [[ -e /usr/lib/python3/dist-packages/pointplane.$(python3 -c 'import sysconfig
 print(sysconfig.get_config_var("SOABI"))' 2>/dev/null).so ]]; then
