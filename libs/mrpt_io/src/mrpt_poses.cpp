@@ -5,6 +5,8 @@
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/mrpt_poses.h>
 
+#include <mrpt/system/datetime.h>
+
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
@@ -104,6 +106,10 @@ mrpt::math::CMatrixDouble66 optimizerInformation(const mrpt::poses::CPose3DPDFGa
 
 double toSeconds(mrpt::Clock::time_point stamp)
 {
+    if (stamp == INVALID_TIMESTAMP)
+    {
+        return std::numeric_limits<double>::quiet_NaN();
+    }
     return static_cast<double>(ticksSince1970(stamp)) / static_cast<double>(kTicksPerSecond);
 }
 
