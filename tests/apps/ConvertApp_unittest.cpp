@@ -149,6 +149,15 @@ TEST_F(ConvertApp, pairsAreThoseOfAssociateAndNothingIsLost)
         "# copied by pointplane-convert\n" + test::readBytes(dir_ / "in/groundtruth.txt"));
 }
 
+TEST_F(ConvertApp, aLineThatIsTwiceInAListCountsOnce)
+{
+    const std::string colour = test::readBytes(dir_ / "in/rgb.txt");
+    writeBytes(dir_ / "in/rgb.txt", colour + colour);
+    ASSERT_EQ(run({in_, "-o", out_}), kExitOk) << text_;
+    EXPECT_THAT(text_, HasSubstr("2 frames"));
+    EXPECT_THAT(text_, HasSubstr("1 colour and 2 depth images"));
+}
+
 TEST_F(ConvertApp, namesOfImagesMayHaveBlanks)
 {
     for (const char* name : {"rgb", "depth"})
