@@ -508,6 +508,8 @@ TEST_F(ConvertApp, mistakesAreNamed)
     expect("seconds; if it is in nanoseconds, write 1305031102.160407000\n");
     writeBytes(dir_ / "in/depth.txt", "1305031102160 a.png\n");
     expect("seconds; if it is in milliseconds, write 1305031102.160\n");
+    writeBytes(dir_ / "in/depth.txt", "1305031102160.407 a.png\n");
+    expect("seconds; if it is in milliseconds, write 1305031102.160407\n");
     writeBytes(dir_ / "in/depth.txt", "5.0 a b.png\n");
     expect("expected 'stamp file', found '5.0 a b.png'; no file is named 'a b.png'\n");
     std::filesystem::remove(dir_ / "in/depth.txt");

@@ -137,8 +137,9 @@ std::string stampText(mrpt::Clock::time_point stamp)
 
 namespace
 {
-/** For digits that are as many as those of another unit since 1970 (2001 to 2286). */
-[[nodiscard]] std::string otherUnitOf(const std::string& digits)
+/** For digits that are as many as those of another unit since 1970 (2001 to 2286), and those
+ * behind their point. */
+[[nodiscard]] std::string otherUnitOf(const std::string& digits, const std::string& fraction)
 {
     constexpr std::size_t kSeconds = 10;
     const std::pair<std::size_t, const char*> units[] = {
@@ -148,7 +149,7 @@ namespace
         if (digits.size() == kSeconds + more)
         {
             return std::string("; if it is in ") + unit + ", write " + digits.substr(0, kSeconds) +
-                   "." + digits.substr(kSeconds);
+                   "." + digits.substr(kSeconds) + fraction;
         }
     }
     return "";
@@ -167,7 +168,7 @@ mrpt::Clock::time_point stampFromText(const std::string& text)
     {
         throw InputError(
             "'" + text + "' is not a time stamp in seconds" +
-            (isDigits(text) ? otherUnitOf(text) : ""));
+            (isDigits(whole) && isDigits(fraction) ? otherUnitOf(whole, fraction) : ""));
     }
     const bool roundUp = fraction.size() > kTickDigits && fraction[kTickDigits] >= '5';
     fraction.resize(kTickDigits, '0');
