@@ -25,6 +25,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <type_traits>
@@ -56,6 +57,12 @@ py::str textOf(const std::string& text)
         throw py::error_already_set();
     }
     return py::reinterpret_steal<py::str>(decoded);
+}
+
+[[noreturn]] void refuseType(const py::array& array, const std::string& expected)
+{
+    throw py::type_error(
+        expected + "; it is " + py::cast<std::string>(py::str(py::object(array.dtype()))));
 }
 
 /** Whether it holds numbers of this type. A pickled array, or one with metadata, has a dtype object
@@ -113,7 +120,7 @@ cv::Mat depthOf(const py::array& depth, double unit)
     }
     if (!isOf<std::uint16_t>(depth, "depth", "0"))
     {
-        throw py::type_error("depth: expected float32 in metres, or uint16 in units of depth_unit");
+        refuseType(depth, "depth: expected float32 in metres, or uint16 in units of depth_unit");
     }
     if (!problemOfDepthUnits(1 / unit).empty())
     {
@@ -129,8 +136,8 @@ cv::Mat depthOf(const py::array& depth, double unit)
     return metres;
 }
 
-/** Gray as it is; RGB is converted. */
-cv::Mat grayOf(const py::object& colour, const char* name)
+/** Gray as it is; RGB is converted. \param meaning of its numbers */
+cv::Mat grayOf(const py::object& colour, const char* name, const std::string& meaning)
 {
     if (colour.is_none())
     {
@@ -139,7 +146,7 @@ cv::Mat grayOf(const py::object& colour, const char* name)
     const auto array = py::cast<py::array>(colour);
     if (!isOf<std::uint8_t>(array, name, "0"))
     {
-        throw py::type_error(std::string(name) + ": expected uint8, gray or RGB");
+        refuseType(array, std::string(name) + ": expected uint8, " + meaning);
     }
     if (array.ndim() == 2)
     {
@@ -183,9 +190,13 @@ py::object arrayOf(const cv::Mat& image)
 class RawlogFrames
 {
  public:
-    RawlogFrames(const std::string& path, std::string label)
-        : reader_(path), label_(std::move(label))
+    /** \param label empty: the first frame's */
+    RawlogFrames(const std::string& path, std::string label) : reader_(path)
     {
+        if (!label.empty())
+        {
+            label_ = std::move(label);
+        }
         converter_.setExternalsDirectory(reader_.externalsDirectory());
     }
 
@@ -208,7 +219,7 @@ class RawlogFrames
                 {
                     continue;
                 }
-                label_ = label_.empty() ? scan->sensorLabel : label_;
+                label_ = label_.value_or(scan->sensorLabel);
                 ++framesOf_[scan->sensorLabel];
                 if (scan->sensorLabel == label_)
                 {
@@ -257,7 +268,7 @@ class RawlogFrames
         {
             throw InputError(reader_.path() + ": no CObservation3DRangeScan in it");
         }
-        if (framesOf_.count(label_) > 0)
+        if (framesOf_.count(*label_) > 0)
         {
             return;
         }
@@ -267,13 +278,13 @@ class RawlogFrames
             there += (there.empty() ? "" : ", ") + std::to_string(count) + " of '" + label + "'";
         }
         throw InputError(
-            reader_.path() + ": no frames of camera '" + label_ + "'; in it are " + there);
+            reader_.path() + ": no frames of camera '" + *label_ + "'; in it are " + there);
     }
 
     RawlogReader reader_;
     ObservationConverter converter_;
     std::deque<mrpt::obs::CObservation::Ptr> pending_;
-    std::string label_;
+    std::optional<std::string> label_;
     std::map<std::string, std::size_t> framesOf_;
 };
 
@@ -538,7 +549,7 @@ void addOdometry(py::module_& m)
                 converted.frame.stamp = checkedStamp(stamp);
                 converted.frame.camera = camera;
                 converted.frame.depth = depthOf(depth, unit);
-                converted.frame.gray = grayOf(colour, "colour");
+                converted.frame.gray = grayOf(colour, "colour", "gray or RGB");
                 return odometry.process(converted);
             },
             py::arg("depth"),
@@ -559,7 +570,7 @@ void addOdometry(py::module_& m)
         .def(
             "set_mask",
             [](SharedOdometry& odometry, const py::object& mask)
-            { odometry.setMask(grayOf(mask, "mask")); },
+            { odometry.setMask(grayOf(mask, "mask", "0 where the robot is, 1 or 255 elsewhere")); },
             py::arg("mask"),
             "Leaves out what the camera sees of the robot that carries it. mask: (height, width), "
             "uint8, or None for no mask. The robot is where it is less than half of its largest "
@@ -597,7 +608,11 @@ void addRawlogs(py::module_& m)
             "gray",
             [](const ConvertedFrame& f) { return arrayOf<std::uint8_t>(f.frame.gray); },
             "uint8, or None")
-        .def_property_readonly("camera", [](const ConvertedFrame& f) { return f.frame.camera; })
+        .def_property_readonly(
+            "camera",
+            [](const ConvertedFrame& f)
+            { return f.problem.empty() ? std::make_optional(f.frame.camera) : std::nullopt; },
+            "Camera, or None if the frame cannot be used")
         .def_property_readonly(
             "problem",
             [](const ConvertedFrame& f) { return textOf(f.problem); },

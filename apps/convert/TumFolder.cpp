@@ -97,6 +97,9 @@ std::vector<TumImage> readTumListing(const std::string& folder, const std::strin
         images.begin(),
         images.end(),
         [](const TumImage& a, const TumImage& b) { return a.stamp < b.stamp; });
+    const auto isSame = [](const TumImage& a, const TumImage& b)
+    { return a.stamp == b.stamp && a.path == b.path; };
+    images.erase(std::unique(images.begin(), images.end(), isSame), images.end());
     return images;
 }
 }  // namespace pointplane

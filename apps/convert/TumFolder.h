@@ -17,6 +17,7 @@ struct TumImage
 };
 
 /** Reads `stamp file` lines in order of time; '#' starts a comment line. Names may have blanks.
+ * A line that is there twice counts once.
  * \param folder \param listing name in it, e.g. "rgb.txt"
  * \throws InputError naming file and line */
 [[nodiscard]] std::vector<TumImage> readTumListing(

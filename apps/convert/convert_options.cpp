@@ -52,7 +52,7 @@ void addMaxDifference(CLI::App& command, double& seconds)
     command
         .add_option(
             "--max-difference", seconds, "Longest time between colour and depth of a frame [s]")
-        ->check(isNotNegative())
+        ->check(isPositive())
         ->capture_default_str();
 }
 

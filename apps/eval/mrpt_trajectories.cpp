@@ -105,6 +105,16 @@ Trajectory ofRobot(const std::string& path, std::vector<StampedPose> poses)
     return out;
 }
 
+/** Of its first observation that has one: comments need not. */
+mrpt::Clock::time_point stampOf(const mrpt::obs::CSensoryFrame& frame)
+{
+    const auto first = std::find_if(
+        frame.begin(),
+        frame.end(),
+        [](const auto& observation) { return observation->timestamp != INVALID_TIMESTAMP; });
+    return first == frame.end() ? INVALID_TIMESTAMP : (*first)->timestamp;
+}
+
 /** Collects poses from the objects of a rawlog. */
 class PoseCollector
 {
@@ -185,9 +195,10 @@ class PoseCollector
         {
             addObservation(*observation);
         }
-        if (frame.size() > 0 && hasMovement_)
+        const auto stamp = stampOf(frame);
+        if (stamp != INVALID_TIMESTAMP && hasMovement_)
         {
-            composed_.push_back(stamped(toSeconds((*frame.begin())->timestamp), accumulated_));
+            composed_.push_back(stamped(toSeconds(stamp), accumulated_));
         }
     }
 
@@ -271,16 +282,16 @@ Trajectory readSimplemapTrajectory(const std::string& path)
     std::vector<StampedPose> poses;
     while (const auto keyFrame = reader.next())
     {
-        if (keyFrame->observations->empty())
+        const auto stamp = stampOf(*keyFrame->observations);
+        if (stamp == INVALID_TIMESTAMP)
         {
             throw InputError(
                 "'" + path + "': key frame " + std::to_string(poses.size()) +
-                " has no observation, hence no time stamp");
+                " has no observation with a time stamp");
         }
         mrpt::poses::CPose3DPDFGaussian gaussian;
         gaussian.copyFrom(*keyFrame->pose);
-        poses.push_back(
-            stamped(toSeconds((*keyFrame->observations->begin())->timestamp), fromMrpt(gaussian)));
+        poses.push_back(stamped(toSeconds(stamp), fromMrpt(gaussian)));
     }
     if (poses.empty())
     {

@@ -270,5 +270,14 @@ void checkThreshold(
             row.unit.c_str());
         context.exitCode = kExitIncomplete;
     }
+    else if (row.unit == "m" && threshold > 1 && threshold > 100 * row.statistics.rmse)
+    {
+        context.err << format(
+            "pointplane-eval: warning: the threshold is %g m, the %s %.6f m: is it in "
+            "millimetres?\n",
+            threshold,
+            name.c_str(),
+            row.statistics.rmse);
+    }
 }
 }  // namespace pointplane

@@ -4,6 +4,8 @@
 #include <pointplane/core/counted.h>
 #include <pointplane/mrpt_io/mrpt_poses.h>
 
+#include <mrpt/system/datetime.h>
+
 #include <algorithm>
 #include <ostream>
 
@@ -41,8 +43,8 @@ constexpr std::size_t kMostGroups = 8;  // lines that are still read
     const std::string first = std::to_string(frames.first);
     return (frames.first == frames.last ? "frame " + first
                                         : "frames " + first + "-" + std::to_string(frames.last)) +
-           " (stamp " + stampText(frames.stamp) + "): " + toString(frames.status) + ": " +
-           frames.reason;
+           (frames.stamp == INVALID_TIMESTAMP ? "" : " (stamp " + stampText(frames.stamp) + ")") +
+           ": " + toString(frames.status) + ": " + frames.reason;
 }
 }  // namespace
 

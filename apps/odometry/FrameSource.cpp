@@ -96,7 +96,10 @@ bool FrameSource::refill()
             pending_.insert(pending_.end(), frame->begin(), frame->end());
             pendingIsObject_ = false;
         }
-        // Actions are the odometry of somebody else.
+        else  // actions, the odometry of somebody else
+        {
+            ++notPassedOn_[object->GetRuntimeClass()->className];
+        }
     }
     return true;
 }
@@ -144,6 +147,13 @@ std::vector<std::string> FrameSource::notes() const
             out.push_back(
                 "not used: " + framesText(count) + " of camera '" + label +
                 "' (--sensor-label chooses)");
+        }
+    }
+    if (!options_.output.empty() && !options_.onlyPoses)
+    {
+        for (const auto& [name, count] : notPassedOn_)
+        {
+            out.push_back("not passed on: " + counted(count, "object") + " of class " + name);
         }
     }
     if (isNominal_)

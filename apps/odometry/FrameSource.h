@@ -79,9 +79,10 @@ class FrameSource
     std::deque<SourceItem> ready_;
     std::map<std::string, SourceItem> skippedComments_;  //!< the latest about each camera
     std::string label_;
-    std::map<std::string, std::size_t> framesOf_;  //!< their number, of each camera by its label
-    bool isNominal_{false};                        //!< the recording says so of its camera
-    std::size_t numReplaced_{0};                   //!< observations of an earlier run
+    std::map<std::string, std::size_t> framesOf_;     //!< their number, of each camera by its label
+    bool isNominal_{false};                           //!< the recording says so of its camera
+    std::map<std::string, std::size_t> notPassedOn_;  //!< objects by class
+    std::size_t numReplaced_{0};                      //!< observations of an earlier run
     std::size_t numFrames_{0};
     std::string damage_;
     std::chrono::steady_clock::time_point start_{std::chrono::steady_clock::now()};

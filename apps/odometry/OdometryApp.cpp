@@ -82,7 +82,7 @@ void addMapOptions(CLI::App& app, OdometryOptions& o)
            "--keyframe-distance",
            o.keyframeDistance,
            "Least distance between key frames of the map [m]")
-        ->check(isPositive())
+        ->check(isBetween(0.001, 10))  // not millimetres
         ->capture_default_str()
         ->needs(simplemap);
     app.add_option("--keyframe-angle", o.keyframeAngleDeg, "Or least rotation between them [deg]")

@@ -3,26 +3,61 @@
 
 #include <pointplane/core/counted.h>
 #include <pointplane/mrpt_io/image_file.h>
+#include <pointplane/mrpt_io/mrpt_camera.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 
 namespace pointplane
 {
+namespace
+{
+const cv::Size kUsualSize(640, 480);
+}  // namespace
+
 OverlaySink::OverlaySink(const std::string& folder, std::size_t every)
     : folder_(folder), every_(every)
 {
 }
 
-/** Since the frame before. */
+/** That of its images; if there are none, that of the latest ones: a video has one size. */
+cv::Size OverlaySink::sizeOf(const OutputItem& item)
+{
+    const RgbdFrame& frame = item.source.converted->frame;
+    if (!frame.gray.empty() || !frame.depth.empty())
+    {
+        size_ = frame.gray.empty() ? frame.depth.size() : frame.gray.size();
+    }
+    else if (const auto scan = std::dynamic_pointer_cast<mrpt::obs::CObservation3DRangeScan>(
+                 item.source.observation);
+             !size_ && scan)
+    {
+        const PinholeCamera camera =
+            fromMrpt(scan->hasIntensityImage ? scan->cameraParamsIntensity : scan->cameraParams);
+        // Those of a damaged scan may be any numbers.
+        const bool isUsual =
+            camera.problem().empty() && std::max(camera.width, camera.height) < 1e4;
+        return isUsual ? cv::Size(camera.width, camera.height) : kUsualSize;
+    }
+    return size_.value_or(kUsualSize);
+}
+
+/** Since the latest frame that was measured. That of others is a guess: what it was wrong by would
+ * count as a motion in the time of one frame. */
 std::optional<CameraSpeed> OverlaySink::speedAt(const OutputItem& item)
 {
+    if (!isMeasured(item.frame->motion.status))
+    {
+        return {};
+    }
     const double stamp = item.source.converted->frame.stamp;
     const Eigen::Isometry3d pose = item.frame->motion.cameraPose.mean;
-    const Eigen::Isometry3d motion = latestPose_.inverse() * pose;
-    const double dt = stamp - latestStamp_.value_or(stamp);
-    latestPose_ = pose;
-    latestStamp_ = stamp;
+    const Eigen::Isometry3d motion = measuredPose_.inverse() * pose;
+    const double dt = stamp - measuredStamp_.value_or(stamp);
+    measuredPose_ = pose;
+    measuredStamp_ = stamp;
     if (dt <= 0)
     {
         return {};
@@ -38,7 +73,11 @@ void OverlaySink::add(const OutputItem& item)
     }
     const double stamp = item.source.converted->frame.stamp;
     const auto speed = speedAt(item);
-    firstStamp_ = firstStamp_.value_or(stamp);
+    const cv::Size size = sizeOf(item);
+    if (!firstStamp_ && std::isfinite(stamp))
+    {
+        firstStamp_ = stamp;
+    }
     if (numFrames_++ % every_ != 0)
     {
         return;
@@ -46,7 +85,7 @@ void OverlaySink::add(const OutputItem& item)
     constexpr int kQuality = 90;
     char name[32];
     std::snprintf(name, sizeof(name), "%06zu.jpg", item.source.frameIndex);
-    const cv::Mat picture = drawOverlay(item, stamp - *firstStamp_, speed);
+    const cv::Mat picture = drawOverlay(item, stamp - firstStamp_.value_or(stamp), speed, size);
     writeJpegFile(folder_.fileAt(name), picture, kQuality);
     names_.insert(name);
 }

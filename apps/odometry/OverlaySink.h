@@ -26,14 +26,17 @@ class OverlaySink : public Sink
     [[nodiscard]] bool needsFeatures() const override { return true; }
 
  private:
+    [[nodiscard]] cv::Size sizeOf(const OutputItem& item);
     [[nodiscard]] std::optional<CameraSpeed> speedAt(const OutputItem& item);
     [[nodiscard]] std::set<std::string> earlierPictures() const;
 
     OutputFolder folder_;
     std::size_t every_;
     std::size_t numFrames_{0};
-    std::set<std::string> names_;                     //!< of the files
-    std::optional<double> firstStamp_, latestStamp_;  //!< [s]
-    Eigen::Isometry3d latestPose_{Eigen::Isometry3d::Identity()};
+    std::set<std::string> names_;          //!< of the files
+    std::optional<cv::Size> size_;         //!< of the latest images
+    std::optional<double> firstStamp_;     //!< [s]
+    std::optional<double> measuredStamp_;  //!< of the latest frame that was measured [s]
+    Eigen::Isometry3d measuredPose_{Eigen::Isometry3d::Identity()};
 };
 }  // namespace pointplane

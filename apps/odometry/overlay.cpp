@@ -26,12 +26,12 @@ constexpr double kFullSpeed = 1.0;
     return std::sqrt(std::max(0.0, hessianCovariance(plane.plane_cam)(3, 3)));
 }
 
-[[nodiscard]] cv::Mat background(const cv::Mat& gray, const cv::Mat& depth)
+[[nodiscard]] cv::Mat background(const cv::Mat& gray, const cv::Mat& depth, cv::Size size)
 {
     cv::Mat picture;
     if (gray.empty() && depth.empty())
     {
-        return {480, 640, CV_8UC3, cv::Scalar()};
+        return {size, CV_8UC3, cv::Scalar()};
     }
     if (!gray.empty())
     {
@@ -130,11 +130,12 @@ void drawArrow(const CameraSpeed& speed, cv::Mat& picture)
 }
 }  // namespace
 
-cv::Mat drawOverlay(const OutputItem& item, double seconds, const std::optional<CameraSpeed>& speed)
+cv::Mat drawOverlay(
+    const OutputItem& item, double seconds, const std::optional<CameraSpeed>& speed, cv::Size size)
 {
     const RgbdFrame& frame = item.source.converted->frame;
     const FrameRecord& record = *item.frame;
-    cv::Mat picture = background(frame.gray, frame.depth);
+    cv::Mat picture = background(frame.gray, frame.depth, size);
     drawPlanes(record.features, picture);
     drawMoving(record.features.moving, picture);
     for (const FrameFeatures::Point& point : record.features.points)

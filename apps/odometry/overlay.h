@@ -21,8 +21,9 @@ struct CameraSpeed
  * the colour of the standard deviation of their distance (blue small, red large); those that the
  * pose does not follow are outlined only. An arrow shows where the camera moves.
  * Where there is no gray image, it is on the depth. \param item of a frame \param seconds since the
- * first frame
+ * first frame; NaN if its stamp tells nothing
+ * \param size of the picture, if there are no images
  * \return CV_8UC3, BGR, as wide as the image */
 [[nodiscard]] cv::Mat drawOverlay(
-    const OutputItem& item, double seconds, const std::optional<CameraSpeed>& speed);
+    const OutputItem& item, double seconds, const std::optional<CameraSpeed>& speed, cv::Size size);
 }  // namespace pointplane

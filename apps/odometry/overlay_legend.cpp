@@ -137,7 +137,7 @@ void addStatus(
     std::snprintf(text, sizeof(text), "frame %zu", frameIndex);
     legend.add(text, 92);
     std::snprintf(text, sizeof(text), "%.3f s", seconds);
-    legend.add(text, 82);
+    legend.add(std::isfinite(seconds) ? text : "", 82);
     const bool isMeasured = record.motion.status == TrackingStatus::Tracked ||
                             record.motion.status == TrackingStatus::First;
     legend.add(toString(record.motion.status), 72, isMeasured ? kUsed : kRejected);

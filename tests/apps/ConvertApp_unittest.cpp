@@ -149,6 +149,15 @@ TEST_F(ConvertApp, pairsAreThoseOfAssociateAndNothingIsLost)
         "# copied by pointplane-convert\n" + test::readBytes(dir_ / "in/groundtruth.txt"));
 }
 
+TEST_F(ConvertApp, aLineThatIsTwiceInAListCountsOnce)
+{
+    const std::string colour = test::readBytes(dir_ / "in/rgb.txt");
+    writeBytes(dir_ / "in/rgb.txt", colour + colour);
+    ASSERT_EQ(run({in_, "-o", out_}), kExitOk) << text_;
+    EXPECT_THAT(text_, HasSubstr("2 frames"));
+    EXPECT_THAT(text_, HasSubstr("1 colour and 2 depth images"));
+}
+
 TEST_F(ConvertApp, namesOfImagesMayHaveBlanks)
 {
     for (const char* name : {"rgb", "depth"})
@@ -499,6 +508,8 @@ TEST_F(ConvertApp, mistakesAreNamed)
     expect("seconds; if it is in nanoseconds, write 1305031102.160407000\n");
     writeBytes(dir_ / "in/depth.txt", "1305031102160 a.png\n");
     expect("seconds; if it is in milliseconds, write 1305031102.160\n");
+    writeBytes(dir_ / "in/depth.txt", "1305031102160.407 a.png\n");
+    expect("seconds; if it is in milliseconds, write 1305031102.160407\n");
     writeBytes(dir_ / "in/depth.txt", "5.0 a b.png\n");
     expect("expected 'stamp file', found '5.0 a b.png'; no file is named 'a b.png'\n");
     std::filesystem::remove(dir_ / "in/depth.txt");

@@ -548,6 +548,8 @@ TEST_F(ConvertFolder, depthAloneMayBeStampedAndSmallerThanItsCalibration)
         const std::string stamp = std::to_string(1305031102 + i) + ".25";
         writeImage("in/depth/" + stamp + ".png", depthImage(i, 32, 24));
     }
+    EXPECT_EQ(run({"folder", in_, "--max-difference=0"}), kExitBadInput);  // pairs nothing
+    EXPECT_THAT(text_, HasSubstr("--max-difference: '0' is not a positive number"));
     for (const std::string option : {"--max-difference=0.02", "--even-stamps"})
     {
         ASSERT_EQ(run({"folder", in_, option}), kExitOk) << text_;

@@ -783,6 +783,26 @@ TEST_F(OdometryApp, readsFormat1AsFormat2)
     EXPECT_EQ(readBytes(dir_ / "1.txt"), readBytes(dir_ / "2.txt"));
 }
 
+/** Another odometry is not lost without a word. */
+TEST_F(OdometryApp, actionsThatAreNotPassedOnAreTold)
+{
+    test::writeActionsAndFrames(in_, 5);
+    const std::string told = "not passed on: 5 objects of class mrpt::obs::CActionCollection\n";
+    EXPECT_THAT(run({in_, "-o", out_}).out, HasSubstr(told));
+    EXPECT_THAT(run({in_, "-o", out_, "--format1"}).out, HasSubstr(told));
+    EXPECT_THAT(run({in_, "-o", out_, "--only-poses"}).out, Not(HasSubstr("not passed on")));
+    EXPECT_THAT(run({in_}).out, Not(HasSubstr("not passed on")));
+}
+
+TEST_F(OdometryApp, lengthsInMillimetresAreRefused)
+{
+    test::writeObservations(in_, 2);
+    const Outcome outcome =
+        run({in_, "--simplemap", dir_ / "map.simplemap", "--keyframe-distance", "200"});
+    EXPECT_EQ(outcome.code, kExitBadInput);
+    EXPECT_THAT(outcome.err, HasSubstr("--keyframe-distance: '200' is not a number from 0.001"));
+}
+
 TEST_F(OdometryApp, format1KeepsOtherSensorsAndComments)
 {
     {
@@ -876,6 +896,26 @@ TEST_F(OdometryApp, picturesOfEveryFrame)
     ASSERT_EQ(run({in_, "--overlay", dir_ / "few", "--overlay-every", "2"}).code, kExitOk);
     EXPECT_TRUE(std::filesystem::exists(dir_ / "few/000000.jpg"));
     EXPECT_FALSE(std::filesystem::exists(dir_ / "few/000001.jpg"));
+}
+
+/** A video has one size. */
+TEST_F(OdometryApp, picturesOfLostFramesAreAsLargeAsOthers)
+{
+    RawlogWriter writer(in_);
+    for (int i = 0; i < 4; ++i)
+    {
+        const auto scan = sampleScan(i, 64, 48);
+        scan->timestamp = i == 0 ? INVALID_TIMESTAMP : scan->timestamp;
+        scan->hasRangeImage = i != 2;
+        writer.write(*scan);
+    }
+    writer.close();
+    const Outcome outcome = run({in_, "--overlay", dir_ / "pictures"});
+    EXPECT_THAT(outcome.out, HasSubstr("  frame 0: lost: has no time stamp"));
+    const cv::Size size = cv::imread(dir_ / "pictures/000001.jpg").size();
+    EXPECT_EQ(size.width, 64);
+    EXPECT_EQ(cv::imread(dir_ / "pictures/000000.jpg").size(), size);
+    EXPECT_EQ(cv::imread(dir_ / "pictures/000002.jpg").size(), size);
 }
 
 TEST_F(OdometryApp, oneOfAKindIsNotToldAsMany)

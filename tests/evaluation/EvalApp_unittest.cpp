@@ -243,6 +243,9 @@ TEST_F(EvalApp, gateSetsTheExitCode)
     };
     EXPECT_EQ(with("--max-rmse", "0.0501").code, 0);
     EXPECT_EQ(with("--max-rmse-deg", "0.1").code, 0);
+    EXPECT_EQ(with("--max-rmse", "0.0501").err, "");
+    EXPECT_THAT(with("--max-rmse", "50").err, HasSubstr("is 50 m, the translation RMSE 0.05"));
+    EXPECT_THAT(with("--max-rmse", "50").err, HasSubstr(": is it in millimetres?\n"));
     const test::AppRun exceeded = with("--max-rmse", "0.0499");
     EXPECT_EQ(exceeded.code, 1);
     EXPECT_THAT(exceeded.err, HasSubstr("translation RMSE 0.050000 m exceeds"));

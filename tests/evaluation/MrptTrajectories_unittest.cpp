@@ -74,7 +74,10 @@ mrpt::obs::CSensoryFrame frameAt(std::size_t k)
 {
     const auto comment = mrpt::obs::CObservationComment::Create();
     comment->timestamp = fromSeconds(estimate().stamps[k]);
+    const auto unstamped = mrpt::obs::CObservationComment::Create();
+    unstamped->timestamp = INVALID_TIMESTAMP;
     mrpt::obs::CSensoryFrame frame;
+    frame.insert(unstamped);
     frame.insert(comment);
     return frame;
 }
@@ -128,6 +131,32 @@ TEST(MrptTrajectories, rawlogOfRobotPosesWithTheirCovariances)
     writeFormat2(dir / "a.rawlog", {"VO"});
     expectEstimate(readRawlogTrajectory(dir / "a.rawlog", ""));
     expectEstimate(readRawlogTrajectory(dir / "a.rawlog", "VO"));
+}
+
+TEST(MrptTrajectories, posesWithoutAStampAreLeftOut)
+{
+    test::TempDir dir;
+    {
+        RawlogWriter writer(dir / "a.rawlog");
+        auto unstamped = observationOf(0, "RGBD_pose");
+        unstamped.timestamp = INVALID_TIMESTAMP;
+        writer.write(unstamped);
+        mrpt::obs::CObservationComment mark;
+        mark.text = "pointplane-status label=RGBD frame=0 lost: has no time stamp";
+        writer.write(mark);
+        for (std::size_t k = 0; k < estimate().size(); ++k)
+        {
+            writer.write(observationOf(k, "RGBD_pose"));
+        }
+        writer.write(unstamped);  // of another program, which does not mark it
+        writer.close();
+    }
+    const Trajectory read = readRawlogTrajectory(dir / "a.rawlog", "");
+    expectEstimate(read);
+    EXPECT_EQ(read.lostWithoutTime, 1U);
+    EXPECT_THAT(
+        read.warnings,
+        testing::Contains(HasSubstr("a.rawlog: 1 pose without a time stamp left out")));
 }
 
 TEST(MrptTrajectories, motionsSinceEarlierFramesBelongToTheirPoses)

@@ -83,7 +83,9 @@ TEST(ReportInBrowser, fitsPhoneDeskAndPaper)
         "phone.html",
         "<body style='margin:0'><iframe id=f src=index.html style='width:390px;height:1400px;"
         "border:0'></iframe><script>onload=()=>{const d=f.contentDocument.documentElement;"
-        "document.body.dataset.result=f.contentWindow.innerWidth+' '+d.dataset.overflow}</script>");
+        "document.body.dataset.result=f.contentWindow.innerWidth+' '+d.dataset.overflow;"
+        "document.body.dataset.readable=[...d.querySelectorAll('svg.plot')]"
+        ".every(s=>s.getScreenCTM().a>0.85)}</script>");
 
     ASSERT_EQ(browse(dir, "index.html", 1300, "--dump-dom >" + (dir / "desk.dom")), 0)
         << test::readBytes(dir / "log");
@@ -93,6 +95,8 @@ TEST(ReportInBrowser, fitsPhoneDeskAndPaper)
 
     ASSERT_EQ(browse(dir, "phone.html", 500, "--dump-dom >" + (dir / "phone.dom")), 0);
     EXPECT_THAT(test::readBytes(dir / "phone.dom"), HasSubstr("data-result=\"390 false\""));
+    EXPECT_THAT(test::readBytes(dir / "phone.dom"), HasSubstr("data-readable=\"true\""))
+        << "labels are smaller than they are meant to be";
 
     ASSERT_EQ(browse(dir, "index.html", 1300, "--screenshot=" + (dir / "desk.png")), 0);
     EXPECT_GT(test::readBytes(dir / "desk.png").size(), 50000u);  // an empty page has some 10 kB

@@ -32,7 +32,9 @@ using test::TempDir;
 [[nodiscard]] std::string problemOf(const CObservation3DRangeScan& scan)
 {
     const ConvertedFrame converted = ObservationConverter().convert(scan);
-    EXPECT_DOUBLE_EQ(converted.frame.stamp, toSeconds(scan.timestamp));
+    const double seconds = toSeconds(scan.timestamp);
+    EXPECT_TRUE(
+        std::isnan(seconds) ? std::isnan(converted.frame.stamp) : converted.frame.stamp == seconds);
     if (!converted.problem.empty())
     {
         EXPECT_TRUE(converted.frame.depth.empty());
@@ -347,6 +349,9 @@ TEST(ObservationConverter, everyBadFrameHasItsText)
     using testing::HasSubstr;
     const double nan = std::numeric_limits<double>::quiet_NaN();
     EXPECT_EQ(with([](Scan& s) { s.hasRangeImage = false; }), "observation has no range image");
+    EXPECT_THAT(
+        with([](Scan& s) { s.hasRangeImage = !(s.hasPoints3D = true); }),
+        HasSubstr("observation has no range image, but points alone: the program that"));
     EXPECT_THAT(
         with([](Scan& s) { s.timestamp = INVALID_TIMESTAMP; }), HasSubstr("has no time stamp"));
     EXPECT_THAT(

@@ -442,6 +442,12 @@ TEST(OdometryFailures, imagesThatDoNotFitTheCamera)
     frame = good(kBad);
     frame.gray = frame.gray.rowRange(0, 100).clone();
     expectLost(frame, "intensity image (320x100)");
+    const int sizes[] = {240, 320, 2};
+    frame = good(kBad);
+    frame.gray = cv::Mat(3, sizes, CV_8UC1, cv::Scalar(90));
+    expectLost(frame, "intensity image is not CV_8UC1");
+    frame.depth = cv::Mat(3, sizes, CV_32FC1, cv::Scalar(1));
+    expectLost(frame, "depth image is not CV_32FC1");
 }
 
 TEST(OdometryFailures, blackAndSaturatedImagesLeaveThePlanes)

@@ -236,6 +236,23 @@ TEST(PointDetector, orientedSurfSurvivesAQuarterTurn)
     EXPECT_LT(rightShare[1], 0.2);
 }
 
+/** OpenCV halves an image until nothing is left, and throws. */
+TEST(PointDetector, imagesOfOneRowOrColumnHaveNoPoint)
+{
+    PointDetector::TParams params;
+    for (const char* detector : {"surf", "orb", "akaze", "sift", "fast"})
+    {
+        params.detector = detector;
+        const PointDetector points(params);
+        for (const cv::Size size : {cv::Size(1, 1), cv::Size(1, 240), cv::Size(320, 1)})
+        {
+            cv::Mat gray(size, CV_8UC1);
+            cv::randu(gray, 0, 255);
+            EXPECT_TRUE(points.detect(gray).uv_px.empty()) << detector;
+        }
+    }
+}
+
 TEST(PointDetector, checkNamesTheKey)
 {
     EXPECT_THROW(PointDetector{paramsOf("brisk")}, std::invalid_argument);

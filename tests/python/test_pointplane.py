@@ -80,6 +80,32 @@ class Rawlogs(unittest.TestCase):
         ):
             list(pointplane.read_rawlog(RAWLOG, "typo"))
 
+    def test_a_camera_without_a_label_is_not_mixed_with_another(self):
+        label = struct.pack("<I", 4) + b"RGBD"
+        with gzip.open(RAWLOG) as file:
+            parts = file.read().split(label)
+        with tempfile.TemporaryDirectory() as folder:
+            with gzip.open(folder + "/two.rawlog", "wb") as file:
+                file.write(parts[0])
+                for number, part in enumerate(parts[1:]):
+                    file.write((struct.pack("<I", 0) if number % 2 == 0 else label) + part)
+            every = [frame.stamp for frame in pointplane.read_rawlog(RAWLOG)]
+            frames = list(pointplane.read_rawlog(folder + "/two.rawlog"))
+            self.assertEqual([frame.stamp for frame in frames], every[::2])
+
+    def test_a_frame_that_cannot_be_used_has_no_camera(self):
+        with gzip.open(RAWLOG) as file:
+            content = file.read()
+        label = struct.pack("<I", 4) + b"RGBD"
+        end = content.index(label)
+        with tempfile.TemporaryDirectory() as folder:
+            with gzip.open(folder + "/unstamped.rawlog", "wb") as file:
+                file.write(content[: end - 8] + bytes(8) + content[end:])
+            frame = next(iter(pointplane.read_rawlog(folder + "/unstamped.rawlog")))
+        self.assertRegex(frame.problem, "time stamp")
+        self.assertIsNone(frame.depth)
+        self.assertIsNone(frame.camera)
+
     def test_a_rawlog_without_a_camera_is_no_recording_of_zero_frames(self):
         with tempfile.TemporaryDirectory() as folder:
             path = folder + "/comment.rawlog"
@@ -219,8 +245,8 @@ class Odometry(unittest.TestCase):
         self.assertGreater(np.abs(poses[0] - poses[1]).max(), 0)
         odometry.set_mask(mask[:, :8])
         self.assertIn("the mask", odometry.process(frames[0]).reason)
-        with self.assertRaises(TypeError):
-            odometry.set_mask(mask.astype(np.float32))
+        with self.assertRaisesRegex(TypeError, "^mask: expected uint8, 0 where .*; it is bool$"):
+            odometry.set_mask(mask > 0)
         for value, word in ((0, "black"), (1, "white"), (255, "white")):
             with self.assertRaisesRegex(ValueError, f"^the mask is {word} everywhere; it must be"):
                 odometry.set_mask(np.full_like(mask, value))
@@ -242,10 +268,12 @@ class Odometry(unittest.TestCase):
         odometry = pointplane.VisualOdometry()
         for kind in (np.float64, ">f4", np.int32, np.uint8):
             with self.assertRaisesRegex(
-                TypeError, "^depth: expected float32 in metres, or uint16 in units of depth_unit$"
+                TypeError,
+                "^depth: expected float32 in metres, or uint16 in units of depth_unit; it is "
+                f"{np.dtype(kind)}$",
             ):
                 odometry.process(np.zeros((48, 64), kind), None, frame.camera, 1.0)
-        with self.assertRaisesRegex(TypeError, "^colour: expected uint8, gray or RGB$"):
+        with self.assertRaisesRegex(TypeError, "^colour: expected uint8, gray or RGB; it is int32$"):
             odometry.process(frame.depth, frame.gray.astype(np.int32), frame.camera, 1.0)
         rgb = np.zeros((*frame.gray.shape, 3), np.uint8)
         for view in (frame.gray[:, ::2], frame.gray.T, rgb[:, :, ::-1], rgb[:, ::2]):

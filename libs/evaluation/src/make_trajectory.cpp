@@ -23,22 +23,29 @@ void warn(
     }
 }
 
-/** Numbers poses in the order of their file, and removes those of lost frames whose stamp is not
- * after that of the pose before: where the camera was at that time, they do not tell. */
+/** Numbers poses in the order of their file, and removes those whose stamp is no number, and those
+ * of lost frames whose stamp is not after that of the pose before: where the camera was at that
+ * time, they do not tell. */
 void removeLate(std::vector<StampedPose>& poses, Trajectory& out)
 {
     std::vector<StampedPose> kept;
+    std::size_t withoutStamp = 0;
     for (std::size_t i = 0; i < poses.size(); ++i)
     {
         poses[i].number = i;
-        if (kept.empty() || poses[i].status != FrameStatus::Lost ||
-            poses[i].stamp > kept.back().stamp)
+        const bool isLost = poses[i].status == FrameStatus::Lost;
+        const bool isAfter = kept.empty() || poses[i].stamp > kept.back().stamp;
+        if (std::isfinite(poses[i].stamp) && (isAfter || !isLost))
         {
             kept.push_back(std::move(poses[i]));
         }
+        else
+        {
+            ++(isLost ? out.lostWithoutTime : withoutStamp);
+        }
     }
-    out.lostWithoutTime = poses.size() - kept.size();
     poses = std::move(kept);
+    warn(out, withoutStamp, "pose", " without a time stamp left out");
     warn(
         out,
         out.lostWithoutTime,

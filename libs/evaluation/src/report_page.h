@@ -35,6 +35,7 @@ pre{overflow-x:auto;font-size:.8rem;white-space:pre-wrap;overflow-wrap:anywhere}
 #reading{position:fixed;pointer-events:none;background:var(--ink);color:var(--card);font-size:.8rem;
 padding:.1rem .4rem;border-radius:4px;display:none}
 @media(max-width:900px){section,section.small{grid-column:1/-1}}
+@media screen and (max-width:560px){section{overflow-x:auto}section:not(.small)>svg.plot{min-width:580px}}
 @media(min-width:560px) and (max-width:900px){section.small{grid-column:span 3}}
 @media screen and (prefers-color-scheme:dark){:root{--ink:#e8ecf0;--muted:#9aa5b1;--page:#14191f;
 --card:#1d242c;--edge:#333d47}}

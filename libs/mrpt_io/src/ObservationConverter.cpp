@@ -152,7 +152,12 @@ void ObservationConverter::Impl::fill(
     requireUsable(
         scan.timestamp != INVALID_TIMESTAMP,
         "has no time stamp (MRPT's INVALID_TIMESTAMP); the program that recorded it must set it");
-    requireUsable(scan.hasRangeImage, "observation has no range image");
+    requireUsable(
+        scan.hasRangeImage,
+        std::string("observation has no range image") +
+            (scan.hasPoints3D ? ", but points alone: the program that recorded it must keep the "
+                                "range image"
+                              : ""));
     const Eigen::Isometry3d T_robot_body = fromMrpt(scan.sensorPose);
     requirePose(T_robot_body, "sensorPose");
     const PinholeCamera depthCamera = cameraOf(scan.cameraParams, "cameraParams");

@@ -5,6 +5,8 @@
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/mrpt_poses.h>
 
+#include <mrpt/system/datetime.h>
+
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
@@ -104,6 +106,10 @@ mrpt::math::CMatrixDouble66 optimizerInformation(const mrpt::poses::CPose3DPDFGa
 
 double toSeconds(mrpt::Clock::time_point stamp)
 {
+    if (stamp == INVALID_TIMESTAMP)
+    {
+        return std::numeric_limits<double>::quiet_NaN();
+    }
     return static_cast<double>(ticksSince1970(stamp)) / static_cast<double>(kTicksPerSecond);
 }
 
@@ -131,8 +137,9 @@ std::string stampText(mrpt::Clock::time_point stamp)
 
 namespace
 {
-/** For digits that are as many as those of another unit since 1970 (2001 to 2286). */
-[[nodiscard]] std::string otherUnitOf(const std::string& digits)
+/** For digits that are as many as those of another unit since 1970 (2001 to 2286), and those
+ * behind their point. */
+[[nodiscard]] std::string otherUnitOf(const std::string& digits, const std::string& fraction)
 {
     constexpr std::size_t kSeconds = 10;
     const std::pair<std::size_t, const char*> units[] = {
@@ -142,7 +149,7 @@ namespace
         if (digits.size() == kSeconds + more)
         {
             return std::string("; if it is in ") + unit + ", write " + digits.substr(0, kSeconds) +
-                   "." + digits.substr(kSeconds);
+                   "." + digits.substr(kSeconds) + fraction;
         }
     }
     return "";
@@ -161,7 +168,7 @@ mrpt::Clock::time_point stampFromText(const std::string& text)
     {
         throw InputError(
             "'" + text + "' is not a time stamp in seconds" +
-            (isDigits(text) ? otherUnitOf(text) : ""));
+            (isDigits(whole) && isDigits(fraction) ? otherUnitOf(whole, fraction) : ""));
     }
     const bool roundUp = fraction.size() > kTickDigits && fraction[kTickDigits] >= '5';
     fraction.resize(kTickDigits, '0');

@@ -37,11 +37,11 @@ std::string problemOf(const RgbdFrame& frame, const cv::Size& maskSize)
     {
         out << "there is no depth image";
     }
-    else if (frame.depth.type() != CV_32FC1)
+    else if (frame.depth.type() != CV_32FC1 || frame.depth.dims != 2)
     {
         out << "the depth image is not CV_32FC1";
     }
-    else if (!frame.gray.empty() && frame.gray.type() != CV_8UC1)
+    else if (!frame.gray.empty() && (frame.gray.type() != CV_8UC1 || frame.gray.dims != 2))
     {
         out << "the intensity image is not CV_8UC1";
     }

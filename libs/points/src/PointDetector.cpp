@@ -183,9 +183,9 @@ const PointDetector::TParams& PointDetector::params() const { return impl_->para
 DetectedPoints PointDetector::detect(const cv::Mat& gray, const cv::Mat& mask) const
 {
     DetectedPoints out;
-    if (gray.empty())
+    if (std::min(gray.cols, gray.rows) < 2)
     {
-        return out;
+        return out;  // no image, or one that has no half: OpenCV's pyramids throw
     }
     POINTPLANE_CHECK(gray.type() == CV_8UC1, "key points need an 8-bit gray image");
     POINTPLANE_CHECK(

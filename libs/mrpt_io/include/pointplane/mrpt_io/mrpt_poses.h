@@ -45,7 +45,7 @@ namespace pointplane
 [[nodiscard]] mrpt::math::CMatrixDouble66 optimizerInformation(
     const mrpt::poses::CPose3DPDFGaussian& edge);
 
-/** Seconds since 1970, UTC. */
+/** Seconds since 1970, UTC; NaN for MRPT's INVALID_TIMESTAMP. */
 [[nodiscard]] double toSeconds(mrpt::Clock::time_point stamp);
 [[nodiscard]] mrpt::Clock::time_point fromSeconds(double seconds);
 
