@@ -21,13 +21,13 @@ apt-get -q install --yes --no-install-recommends /packages/*.deb
 pointplane-simulate corner -o in.rawlog --duration 1 --size 320x240 --quiet
 pointplane-odometry -c /usr/share/pointplane/config.ini in.rawlog -o out.rawlog --trajectory out.txt --quiet
 pointplane-eval ate in.groundtruth.txt out.txt --max-rmse 0.02
-# A TUM folder, by the commands of README.
+# A TUM folder, by the commands of its tutorial.
 if [[ -d /data/tum_fr1_xyz_part ]]; then
     ln -s /data/tum_fr1_xyz_part rgbd_dataset_freiburg1_xyz
     while read -r command; do
         echo "\$ $command"
         bash -c "$command" </dev/null
-    done < <(sed -nE '/TUM sequence/,/My camera/s/^    (pointplane-.*)/\1/p' /clone/README.md)
+    done < <(sed -nE ':a; /\\$/{N; s/\\\n//; ba}; s/^    (pointplane-.*)/\1/p' /clone/docs/tutorials/tum_sequence.md)
 fi
 if [[ -e /usr/lib/python3/dist-packages/pointplane.$(python3 -c 'import sysconfig
 print(sysconfig.get_config_var("SOABI"))' 2>/dev/null).so ]]; then
