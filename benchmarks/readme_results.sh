@@ -72,9 +72,9 @@ group() { # yes, other seeds or no; heading
     echo
     echo "| RPE over 1 s [mm] | config.ini | config-fast.ini | best peer | ahead | NEES |"
     echo "|---|---|---|---|---|---|"
-    group yes "used for tuning"
-    group "other seeds" "with other seeds"
-    group no "not used for tuning"
+    group yes "recordings used for tuning"
+    group "other seeds" "scenes, tuned on other seeds"
+    group no "recordings not used for tuning"
     echo
 } >"$work/results"
 replace README.md results "$work/results"

@@ -1,6 +1,7 @@
 #!/bin/sh
 # A page as Doxygen wants it: headings with the anchors that GitHub gives them, links to these,
-# pictures by their bare names, and links out of the documents as text. Called by Doxygen.
+# pictures by their bare names, and links out of the documents as text. Doxygen takes no mark and no
+# end of a line in the text of a link, and two backquotes around code with a quote. Called by Doxygen.
 # usage: site_filter.sh FILE.md
 exec awk -v file="$1" '
     function pageOf(path) { sub(/^.*\//, "", path); sub(/\.md$/, "", path); return path }
@@ -8,7 +9,7 @@ exec awk -v file="$1" '
     function linked(line,    out, target, end, place) {
         out = ""
         while ((place = index(line, "](")) > 0) {
-            out = out substr(line, 1, place)
+            out = out unmarked(substr(line, 1, place))
             line = substr(line, place + 2)
             end = index(line, ")")
             target = substr(line, 1, end - 1)
@@ -24,6 +25,22 @@ exec awk -v file="$1" '
             else out = unlinked(out)
         }
         return out line
+    }
+    function unmarked(text,    place, label) {
+        for (place = length(text); place > 0 && substr(text, place, 1) != "["; --place) {}
+        label = substr(text, place + 1)
+        gsub(/[`*]/, "", label)
+        return substr(text, 1, place) label
+    }
+    function quoted(line,    part, n, i, mark, out) {
+        n = split(line, part, "`")
+        if (n % 2 == 0 || line ~ /``/) return line
+        out = part[1]
+        for (i = 2; i < n; i += 2) {
+            mark = part[i] ~ /\047/ ? "``" : "`"
+            out = out mark part[i] mark part[i + 1]
+        }
+        return out
     }
     function unlinked(text,    place) {
         text = substr(text, 1, length(text) - 1)  # ]
@@ -46,4 +63,11 @@ exec awk -v file="$1" '
         print $0 " {#" pageOf(file) "-" label "}"
         next
     }
-    { print linked($0) }' "$1"
+    {
+        line = $0
+        if (begun != "") sub(/^ +/, "", line)
+        line = begun line
+        begun = line ~ /\[[^]]*$/ ? line " " : ""
+        if (begun == "") print quoted(linked(line))
+    }
+    END { if (begun != "") print begun }' "$1"

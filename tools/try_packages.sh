@@ -21,11 +21,11 @@ apt-get -q install --yes --no-install-recommends /packages/*.deb
 pointplane-simulate corner -o in.rawlog --duration 1 --size 320x240 --quiet
 pointplane-odometry -c /usr/share/pointplane/config.ini in.rawlog -o out.rawlog --trajectory out.txt --quiet
 pointplane-eval ate in.groundtruth.txt out.txt --max-rmse 0.02
-# A TUM folder, by the commands of README.
+# A TUM folder, by the commands of its tutorial.
 if [[ -d /data/tum_fr1_xyz_part ]]; then
     ln -s /data/tum_fr1_xyz_part rgbd_dataset_freiburg1_xyz
-    mapfile -t commands < <(sed -nE '/^    pointplane-convert tum/,/^$/s/^    (pointplane-.*)/\1/p' /clone/README.md)
-    ((${#commands[@]} == 3)) || die "README has ${#commands[@]} commands for a TUM sequence; 3 were expected"
+    mapfile -t commands < <(sed -nE ':a; /\\$/{N; s/\\\n//; ba}; s/^    (pointplane-.*)/\1/p' /clone/docs/tutorials/tum_sequence.md)
+    ((${#commands[@]} > 2)) || die "docs/tutorials/tum_sequence.md has ${#commands[@]} commands; at least 3 were expected"
     for command in "${commands[@]}"; do
         echo "\$ $command"
         bash -c "$command" </dev/null

@@ -12,7 +12,7 @@ namespace pointplane
 namespace
 {
 const char* const kNotAtHand = "not at hand";
-const char* const kNotInPaper = "not in the paper";
+const char* const kNotInPaper = "-";
 
 bool isAbsent(const Reproduction& result, const std::string& sequence)
 {
@@ -53,6 +53,54 @@ std::string changeText(
         std::max(ends[0], ends[1]),
         behind->excludesZero() ? "" : " chance");
 }
+
+/** The paper's Tables 1 and 2, with our figures beside its own. */
+struct PaperTables
+{
+    ReproductionTable first{
+        "Table 1: points, unweighted and weighted by their uncertainty (config-paper.ini)",
+        {"sequence", "unweighted", "paper", "weighted", "paper"},
+        {}};
+    ReproductionTable second{
+        "Table 2: points, and points and planes (config-paper.ini)",
+        {"sequence", "points", "paper", "points and planes", "paper", "best named by the paper"},
+        {}};
+
+    /** Adds a sequence. \param ours(variant) our figures */
+    template <class Ours>
+    void add(const std::string& name, const PublishedFigures& p, const Ours& ours)
+    {
+        const std::string points = ours("points");
+        if (!p.deterministic.empty())
+        {
+            // structure_notexture_far and cabinet are in Table 2 only.
+            const bool isInFirst = p.deterministic != kNotInPaper;
+            first.rows.push_back(
+                {name,
+                 ours("points, unweighted"),
+                 p.deterministic,
+                 points,
+                 isInFirst ? p.points : kNotInPaper});
+        }
+        second.rows.push_back(
+            {name,
+             points,
+             p.points,
+             ours("points and planes"),
+             p.pointsAndPlanes,
+             p.stateOfTheArt});
+    }
+};
+
+/** With a dash where the paper has no figure. */
+PublishedFigures withoutGaps(PublishedFigures p)
+{
+    for (std::string* cell : {&p.deterministic, &p.points, &p.pointsAndPlanes, &p.stateOfTheArt})
+    {
+        *cell = cell->empty() ? kNotInPaper : *cell;
+    }
+    return p;
+}
 }  // namespace
 
 PublishedFigures publishedOf(const std::string& name)
@@ -69,56 +117,22 @@ PublishedFigures publishedOf(const std::string& name)
 
 std::vector<ReproductionTable> paperTables(const Reproduction& result)
 {
-    ReproductionTable first{
-        "Table 1: points, unweighted and weighted by their uncertainty (config-paper.ini)",
-        {"sequence", "unweighted", "paper", "weighted", "paper"},
-        {}};
-    ReproductionTable second{
-        "Table 2: points, and points and planes (config-paper.ini)",
-        {"sequence", "points", "paper", "points and planes", "paper", "best named by the paper"},
-        {}};
-    const auto addRows = [&](const std::string& name, const PublishedFigures& p, const auto& ours)
-    {
-        const std::string points = ours("points");
-        if (!p.deterministic.empty())
-        {
-            first.rows.push_back(
-                {name, ours("points, unweighted"), p.deterministic, points, p.points});
-        }
-        second.rows.push_back(
-            {name,
-             points,
-             p.points,
-             ours("points and planes"),
-             p.pointsAndPlanes,
-             p.stateOfTheArt});
-    };
+    PaperTables tables;
     for (const PublishedFigures& p : publishedFigures())
     {
         if (isAbsent(result, p.sequence))
         {
-            addRows(p.sequence, p, [](const char*) { return std::string(kNotAtHand); });
+            tables.add(p.sequence, p, [](const char*) { return std::string(kNotAtHand); });
         }
     }
     for (std::size_t s = 0; s < result.sequences.size(); ++s)
     {
-        PublishedFigures p = publishedOf(result.sequences[s].name);
-        for (std::string* cell : {&p.points, &p.pointsAndPlanes, &p.stateOfTheArt})
-        {
-            *cell = cell->empty() ? kNotInPaper : *cell;
-        }
-        // structure_notexture_far and cabinet are in Table 2 only.
-        p.deterministic = p.deterministic.empty() ? kNotInPaper : p.deterministic;
-        addRows(
+        tables.add(
             displayName(result.sequences[s]),
-            p,
+            withoutGaps(publishedOf(result.sequences[s].name)),
             [&](const char* variant) { return result.text(s, "tables", variant); });
-        if (p.deterministic == kNotInPaper)
-        {
-            first.rows.back().back() = kNotInPaper;
-        }
     }
-    return {first, second};
+    return {tables.first, tables.second};
 }
 
 ReproductionTable chanceTable(const Reproduction& result)

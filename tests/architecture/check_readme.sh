@@ -27,7 +27,7 @@ anchorsOf() {
 }
 
 lines=$(wc -l <README.md)
-((lines <= 90)) || problem "README.md has $lines lines; 90 are two screens of 900x800"
+((lines <= 80)) || problem "README.md has $lines lines; 80 are one and a half screens of 1280x900"
 
 for page in README.md CONTRIBUTING.md docs/*.md docs/tutorials/*.md benchmarks/README.md; do
     while read -r link; do

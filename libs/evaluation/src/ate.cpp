@@ -21,13 +21,14 @@ Eigen::Isometry3d alignPoints(const Eigen::Matrix3Xd& points_a, const Eigen::Mat
     return T;
 }
 
-AteResult absoluteTrajectoryError(
+namespace
+{
+/** \return indices of ground truth and estimate
+ * \throws std::runtime_error if there are not two pairs */
+std::vector<std::pair<std::size_t, std::size_t>> pairsOf(
     const Trajectory& groundTruth, const Trajectory& estimate, const AteOptions& options)
 {
-    checkOverlap(groundTruth, estimate, options.offset);
-    checkPositions(groundTruth);
-    checkPositions(estimate, options.scale);
-    const auto pairs =
+    auto pairs =
         associate(groundTruth.stamps, estimate.stamps, options.offset, options.maxDifference);
     if (pairs.size() < 2)
     {
@@ -37,6 +38,17 @@ AteResult absoluteTrajectoryError(
             std::to_string(options.maxDifference) +
             " s; at least two are needed (--max-difference, --offset)");
     }
+    return pairs;
+}
+}  // namespace
+
+AteResult absoluteTrajectoryError(
+    const Trajectory& groundTruth, const Trajectory& estimate, const AteOptions& options)
+{
+    checkOverlap(groundTruth, estimate, options.offset);
+    checkPositions(groundTruth);
+    checkPositions(estimate, options.scale);
+    const auto pairs = pairsOf(groundTruth, estimate, options);
     const auto n = static_cast<Eigen::Index>(pairs.size());
     Eigen::Matrix3Xd truth(3, n);
     Eigen::Matrix3Xd estimated(3, n);

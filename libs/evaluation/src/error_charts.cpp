@@ -84,6 +84,20 @@ std::vector<Chart> errorHistograms(const RpeOptions& options, const RpeResult& r
     return charts;
 }
 
+namespace
+{
+Chart chartOverInterval(const std::string& what, const std::string& unit, const ChartSeries& series)
+{
+    Chart chart;
+    chart.title = "Relative error over intervals: " + what;
+    chart.xLabel = "interval [s]";
+    chart.yLabel = "RMSE [" + unit + "]";
+    chart.logX = chart.yFromZero = true;
+    chart.series = {series};
+    return chart;
+}
+}  // namespace
+
 std::vector<Chart> errorOverInterval(
     const Trajectory& groundTruth, const Trajectory& estimate, const RpeOptions& options)
 {
@@ -122,18 +136,8 @@ std::vector<Chart> errorOverInterval(
     {
         return {};
     }
-    std::vector<Chart> charts(2);
-    charts[0].title = "Relative error over intervals: translation";
-    charts[0].yLabel = "RMSE [mm]";
-    charts[0].series = {translation};
-    charts[1].title = "Relative error over intervals: rotation";
-    charts[1].yLabel = "RMSE [deg]";
-    charts[1].series = {rotation};
-    for (Chart& chart : charts)
-    {
-        chart.xLabel = "interval [s]";
-        chart.logX = chart.yFromZero = true;
-    }
-    return charts;
+    return {
+        chartOverInterval("translation", "mm", translation),
+        chartOverInterval("rotation", "deg", rotation)};
 }
 }  // namespace pointplane

@@ -104,6 +104,34 @@ Matrix6d incrementCovariance(const Trajectory& estimate, std::size_t i, std::siz
     return propagate(Ad, (estimate.covs[j] - estimate.covs[i]).eval());
 }
 
+namespace
+{
+/** \throws UntoldCovariance if that of the increment is not positive definite */
+Matrix6d definiteCovariance(const Trajectory& estimate, std::size_t i, std::size_t j)
+{
+    const Matrix6d cov = incrementCovariance(estimate, i, j);
+    if (!isPositiveDefinite(cov))
+    {
+        char stamps[128];
+        std::snprintf(
+            stamps, sizeof stamps, "%.6f to %.6f s", estimate.stamps[i], estimate.stamps[j]);
+        throw UntoldCovariance(
+            "'" + estimate.name + "': the covariance of the increment from " + stamps +
+            " is not positive definite");
+    }
+    return cov;
+}
+
+/** Covariance of a pose of the ground truth (left perturbation in the body's frame). */
+Matrix6d truthCovariance(const NeesOptions& options)
+{
+    Vector6d variances;
+    variances.head<3>().setConstant(std::pow(options.truthSigmaTranslation, 2));
+    variances.tail<3>() = options.truthSigmaRotation.cwiseAbs2();
+    return propagate(adjoint(options.T_truth_body.inverse()), Matrix6d(variances.asDiagonal()));
+}
+}  // namespace
+
 std::vector<NeesIncrement> neesIncrements(
     const Trajectory& groundTruth,
     const Trajectory& estimate,
@@ -122,12 +150,8 @@ std::vector<NeesIncrement> neesIncrements(
     const SampledTruth truth =
         sampleTruth(groundTruth, estimate.stamps, options.offset, options.truthAt);
 
-    Vector6d variances;
-    variances.head<3>().setConstant(std::pow(options.truthSigmaTranslation, 2));
-    variances.tail<3>() = options.truthSigmaRotation.cwiseAbs2();
     const Eigen::Isometry3d& T_truth_body = options.T_truth_body;
-    const Matrix6d N = propagate(adjoint(T_truth_body.inverse()), Matrix6d(variances.asDiagonal()));
-
+    const Matrix6d N = truthCovariance(options);
     std::vector<NeesIncrement> out;
     for (const auto& [i, j] : endsOf(estimate, interval))
     {
@@ -142,17 +166,7 @@ std::vector<NeesIncrement> neesIncrements(
         const Eigen::Isometry3d T_truth =
             (truth.poses[i] * T_truth_body).inverse() * (truth.poses[j] * T_truth_body);
         increment.error = se3Log(T_truth * T_estimate.inverse());
-        const Matrix6d cov = incrementCovariance(estimate, i, j);
-        if (!isPositiveDefinite(cov))
-        {
-            char stamps[128];
-            std::snprintf(
-                stamps, sizeof stamps, "%.6f to %.6f s", estimate.stamps[i], estimate.stamps[j]);
-            throw UntoldCovariance(
-                "'" + estimate.name + "': the covariance of the increment from " + stamps +
-                " is not positive definite");
-        }
-        increment.cov = cov + N + propagate(adjoint(T_truth), N);
+        increment.cov = definiteCovariance(estimate, i, j) + N + propagate(adjoint(T_truth), N);
         increment.nees = increment.error.dot(increment.cov.llt().solve(increment.error));
         out.push_back(increment);
     }

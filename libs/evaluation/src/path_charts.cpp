@@ -167,9 +167,38 @@ std::vector<Eigen::Vector2d> positionEllipse(
     return out;
 }
 
+namespace
+{
+/** The paths, and then what of them was not compared. */
+std::vector<ChartSeries> pathsIn(const PathView& view, const std::vector<DrawnPath>& paths)
+{
+    const bool isSingle = paths.size() == 1;
+    std::vector<ChartSeries> out, remainders;
+    for (const DrawnPath& path : paths)
+    {
+        PathSeries series = pathSeries(path, view);
+        series.remainder.colour = isSingle ? "muted" : "c" + std::to_string(out.size() % 8);
+        if (!isSingle)
+        {
+            series.compared.level.clear();
+        }
+        if (!series.remainder.x.empty())
+        {
+            series.remainder.name = remainders.empty() ? series.remainder.name : "";
+            remainders.push_back(std::move(series.remainder));
+        }
+        out.push_back(std::move(series.compared));
+    }
+    out.insert(out.end(), remainders.begin(), remainders.end());
+    return out;
+}
+}  // namespace
+
 std::vector<Chart> pathCharts(const Trajectory& groundTruth, const std::vector<DrawnPath>& paths)
 {
     using Style = ChartSeries::Style;
+    const DrawnPath& first = paths.front();
+    const bool isSingle = paths.size() == 1;
     std::vector<Chart> charts;
     for (const bool above : {true, false})
     {
@@ -179,26 +208,7 @@ std::vector<Chart> pathCharts(const Trajectory& groundTruth, const std::vector<D
         chart.xLabel = "x [m]";
         chart.yLabel = above ? "y [m]" : "z [m]";
         chart.equalScales = true;
-        const bool isSingle = paths.size() == 1;
-        std::vector<ChartSeries> remainders;
-        for (const DrawnPath& path : paths)
-        {
-            PathSeries series = pathSeries(path, view);
-            series.remainder.colour =
-                isSingle ? "muted" : "c" + std::to_string(chart.series.size() % 8);
-            if (!isSingle)
-            {
-                series.compared.level.clear();
-            }
-            if (!series.remainder.x.empty())
-            {
-                series.remainder.name = remainders.empty() ? series.remainder.name : "";
-                remainders.push_back(std::move(series.remainder));
-            }
-            chart.series.push_back(std::move(series.compared));
-        }
-        chart.series.insert(chart.series.end(), remainders.begin(), remainders.end());
-        const DrawnPath& first = paths.front();
+        chart.series = pathsIn(view, paths);
         if (isSingle)
         {
             chart.levelLabel = "position error [mm]";

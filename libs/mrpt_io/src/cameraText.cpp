@@ -52,6 +52,41 @@ constexpr const char* kMark = "pointplane-camera";
     }
     return out;
 }
+
+/** Sets what a key of the comment tells. */
+void set(CameraComment& comment, const std::string& key, const std::string& value)
+{
+    if (key == "label")
+    {
+        comment.label = unescaped(value);
+        return;
+    }
+    if (key == "intrinsics")
+    {
+        if (value != "nominal" && value != "calibrated")
+        {
+            throw problem("intrinsics is '" + value + "', not nominal or calibrated");
+        }
+        comment.isNominal = value == "nominal";
+        return;
+    }
+    double* target = key == "readoutColour"  ? &comment.shutter.readoutColour
+                     : key == "readoutDepth" ? &comment.shutter.readoutDepth
+                     : key == "depthDelay"   ? &comment.shutter.depthDelay
+                                             : nullptr;
+    if (target == nullptr)
+    {
+        throw problem(
+            "unknown key '" + key +
+            "' (known: label, intrinsics, readoutColour, readoutDepth, depthDelay)");
+    }
+    const auto number = parseFinite(value);
+    if (!number)
+    {
+        throw problem("'" + value + "' is not a number of seconds (key " + key + ")");
+    }
+    *target = *number;
+}
 }  // namespace
 
 std::optional<CameraComment> parseCameraComment(const std::string& text)
@@ -66,38 +101,8 @@ std::optional<CameraComment> parseCameraComment(const std::string& text)
     while (words >> word)
     {
         const std::size_t equals = word.find('=');
-        const std::string key = word.substr(0, equals);
         const std::string value = equals == std::string::npos ? "" : word.substr(equals + 1);
-        if (key == "label")
-        {
-            out.label = unescaped(value);
-            continue;
-        }
-        if (key == "intrinsics")
-        {
-            if (value != "nominal" && value != "calibrated")
-            {
-                throw problem("intrinsics is '" + value + "', not nominal or calibrated");
-            }
-            out.isNominal = value == "nominal";
-            continue;
-        }
-        double* target = key == "readoutColour"  ? &out.shutter.readoutColour
-                         : key == "readoutDepth" ? &out.shutter.readoutDepth
-                         : key == "depthDelay"   ? &out.shutter.depthDelay
-                                                 : nullptr;
-        if (target == nullptr)
-        {
-            throw problem(
-                "unknown key '" + key +
-                "' (known: label, intrinsics, readoutColour, readoutDepth, depthDelay)");
-        }
-        const auto number = parseFinite(value);
-        if (!number)
-        {
-            throw problem("'" + value + "' is not a number of seconds (key " + key + ")");
-        }
-        *target = *number;
+        set(out, word.substr(0, equals), value);
     }
     if (out.label.empty())
     {

@@ -197,6 +197,54 @@ void checkInput(const Positions& points, const cv::Mat& descriptors, const char*
         static_cast<int>(points.size()) == descriptors.rows,
         name << ": " << points.size() << " points but " << descriptors.rows << " descriptors");
 }
+
+void checkTypes(const cv::Mat& refDescriptors, const cv::Mat& curDescriptors)
+{
+    POINTPLANE_CHECK(
+        refDescriptors.type() == curDescriptors.type() &&
+            refDescriptors.cols == curDescriptors.cols &&
+            (refDescriptors.type() == CV_8UC1 || refDescriptors.type() == CV_32FC1),
+        "descriptors of the two frames are of different or unknown types");
+}
+
+/** The current points that a reference point may be. */
+struct Candidates
+{
+    const PointMatcher::TParams& params;
+    const cv::Mat& refDescriptors;
+    const Positions& cur_px;
+    const cv::Mat& curDescriptors;
+    PointGrid grid{cur_px, params.searchRadiusPx};
+
+    /** \param centre where the reference point is expected \param use (const PointMatch&) */
+    template <class Use>
+    void each(int ref, const Eigen::Vector2d& centre, const Use& use) const
+    {
+        const double radius = params.searchRadiusPx;
+        const auto consider = [&](int cur)
+        {
+            const auto c = static_cast<size_t>(cur);
+            // [P17, section Matching]: the circle around p.
+            if (!((cur_px[c] - centre).squaredNorm() <= radius * radius))
+            {
+                return;
+            }
+            use({ref, cur, descriptorDistance(refDescriptors, ref, curDescriptors, cur)});
+        };
+        if (params.neighbours > 0)
+        {
+            for (const int cur :
+                 nearestDescriptors(refDescriptors, ref, curDescriptors, params.neighbours))
+            {
+                consider(cur);
+            }
+        }
+        else
+        {
+            grid.around(centre, consider);
+        }
+    }
+};
 }  // namespace
 
 void PointMatcher::TParams::check() const
@@ -220,44 +268,19 @@ std::vector<PointMatch> PointMatcher::match(
     {
         return {};
     }
-    POINTPLANE_CHECK(
-        refDescriptors.type() == curDescriptors.type() &&
-            refDescriptors.cols == curDescriptors.cols &&
-            (refDescriptors.type() == CV_8UC1 || refDescriptors.type() == CV_32FC1),
-        "descriptors of the two frames are of different or unknown types");
-
-    const double radius = params_.searchRadiusPx;
-    const PointGrid grid(cur_px, radius);
+    checkTypes(refDescriptors, curDescriptors);
+    const Candidates candidates{params_, refDescriptors, cur_px, curDescriptors};
     std::vector<PointMatch> best;  // per reference point
     Claims claims(cur_px.size());  // of all reference points
     for (int ref = 0; ref < refDescriptors.rows; ++ref)
     {
-        const Eigen::Vector2d& centre = predicted_px[static_cast<size_t>(ref)];
         TwoNearest nearest;
-        const auto consider = [&](int cur)
+        const auto add = [&](const PointMatch& candidate)
         {
-            const auto c = static_cast<size_t>(cur);
-            // [P17, section Matching]: the circle around p.
-            if (!((cur_px[c] - centre).squaredNorm() <= radius * radius))
-            {
-                return;
-            }
-            const float distance = descriptorDistance(refDescriptors, ref, curDescriptors, cur);
-            nearest.add(cur, distance);
-            claims.add({ref, cur, distance});
+            nearest.add(candidate.cur, candidate.distance);
+            claims.add(candidate);
         };
-        if (params_.neighbours > 0)
-        {
-            for (const int cur :
-                 nearestDescriptors(refDescriptors, ref, curDescriptors, params_.neighbours))
-            {
-                consider(cur);
-            }
-        }
-        else
-        {
-            grid.around(centre, consider);
-        }
+        candidates.each(ref, predicted_px[static_cast<size_t>(ref)], add);
         if (nearest.cur >= 0 && nearest.isDistinct(params_.maxRatio))
         {
             best.push_back({ref, nearest.cur, nearest.distance});

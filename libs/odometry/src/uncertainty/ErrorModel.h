@@ -14,37 +14,42 @@
 
 namespace pointplane
 {
-/** Where errors of a measured pose come from, and how large they are. To first order, with names as
+/** Error budget of a measured pose: how the covariance of a pose comes about. Start here.
+ *
+ * The solver's estimate is linearised in all that it was made from. The error of the new pose and
+ * velocity is then linear in errors that last from frame to frame, which JointCovariance holds as
+ * one Gaussian state (stochastic cloning), and in noise that is new. To first order, with names as
  * in docs/theory.md, section Window,
  *
  *     (xi, nu) = sum_r (K_r (xi_r, nu_r) + K_r (zeta - zeta_r) + P_r (eta - eta_r) + C_r s_r)
  *                + C s + K_0 (xi, nu)_prev + B k + e + p
  *
- * The factors K_r, P_r (by points), C_r, C, K_0 and B say how the solution follows each term: they
- * are members of Sensitivity. The terms:
+ * The factors K_r, P_r (by points), C_r, C, K_0 and B are the Jacobians of the solution: members of
+ * Sensitivity. xi, nu, eta, zeta, s and k are states; e and p are white. The terms:
  *
  * - xi_r, nu_r: errors of pose and velocity of reference r. A rolling shutter has moved its
  *   features by the velocity.
  * - eta, eta_r: what all points of this frame, and of reference r, err by together, because depth,
- *   lens and scene are not quite what they are modelled as. A Gaussian field over views:
+ *   lens and scene are not quite what they are modelled as. A Gaussian process over views:
  *   view_errors. Its size follows how far references contradict each other: commonAngle().
- * - zeta, zeta_r: what the planes of this frame, and of reference r, err by together, because they
- *   are bent and cut out as the view is. A field like eta; it moves the pose as the noise of planes
- *   does. Its size is learnt from how residuals grow between unlike views: ErrorsByView.
+ * - zeta, zeta_r: what the planes of this frame, and of reference r, err by together, because their
+ *   bends and outlines depend on the view. A process like eta; it moves the pose as the noise of
+ *   planes does. Its size is learnt from how residuals grow between unlike views: ErrorsByView.
  * - s, s_r: smooth error of the depth images, by which neighbouring points err together: a scale of
- *   depth in each patch. A part of it is new in each image, the rest is a field like zeta:
+ *   depth in each patch. A part of it is new in each image, the rest is a process like zeta:
  *   ErrorsByView. None with structured light.
  * - (xi, nu)_prev: errors of the previous pose and velocity, where the predicted motion begins.
  * - p: what white acceleration adds to the predicted motion: MotionModel, which Track owns.
  * - k: errors of the camera that all frames share: vignetting, principal point, focal length,
- *   radial distortion, scale of depth, and the shutter. All are considered: camera_errors. The
- *   shutter's are learnt, and those of a lens that nobody calibrated: CameraCalibrator.
+ *   radial distortion, scale of depth, and the shutter. All are consider states (Schmidt):
+ *   camera_errors. The shutter's are also estimated, and those of a lens that nobody calibrated:
+ *   CameraCalibrator.
  * - e: noise of the frame's own points and planes, a part of what their residuals show:
  *   NoiseScale, ErrorsByView. And acceleration while the images are exposed: exposure_errors.
  *
  * e and eta are larger in a frame whose image pulls the pose apart: NoiseScale::ofFrame().
  *
- * JointCovariance makes the covariance of all poses from these. How to calibrate it is in
+ * JointCovariance propagates the covariance of all poses from these. How to calibrate it is in
  * docs/consistency.md. */
 class ErrorModel
 {

@@ -6,11 +6,11 @@
 
 namespace pointplane
 {
-/** Whether the intrinsics that a recording states are those of its camera.
+/** Hypothesis test: are the intrinsics that a recording states those of its camera?
  *
- * Each frame tells how far the lens is off, as it does of nominal intrinsics. What frames tell is
- * summed, and compared with what a calibration may err by. Derivation: docs/theory.md, Learning the
- * camera. */
+ * Each frame tells how far the lens is off, as it does for nominal intrinsics. The information of
+ * all frames is summed. The errors that it shows are compared with those that a calibration may
+ * have. Derivation: docs/theory.md, Learning the camera. */
 class CalibrationCheck
 {
  public:
@@ -25,7 +25,7 @@ class CalibrationCheck
     /** \param others variances of what is not stated of the lens, like that of bent depth */
     [[nodiscard]] bool isContradicted(const CameraVector& others) const;
 
-    /** Of the lens, had its intrinsics been nominal; others zero. */
+    /** Estimate of the lens's errors, had its intrinsics been nominal; others zero. */
     [[nodiscard]] CameraVector errors() const { return -cov() * sum_.gradient; }
     [[nodiscard]] CameraMatrix cov() const;
 

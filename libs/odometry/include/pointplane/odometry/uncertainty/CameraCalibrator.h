@@ -15,8 +15,9 @@ namespace pointplane
  * (CalibrationCheck).
  *
  * Errors of the camera are constants with a Gaussian prior. The residuals at the estimated pose
- * depend on them. What they say of the errors, once the motion is eliminated (CameraInformation),
- * is summed over frames. Features are then corrected to first order; the images are not.
+ * depend on them. The motion is eliminated from what they tell (Schur complement,
+ * CameraInformation), and the rest is summed over frames as in an information filter. Features are
+ * then corrected to first order; the images are not.
  *
  * Of images that were turned, the last row may be exposed first. Until that is known, the readout
  * is taken for zero, with an error of its own size: motions that are corrected in the wrong
@@ -72,7 +73,8 @@ class CameraCalibrator
             v("varianceFactor",
               varianceFactor,
               "-",
-              "so many frames count as one when shutter and lens are learnt, because neighbouring "
+              "this many frames count as one when shutter and lens are learnt, because "
+              "neighbouring "
               "frames have the same errors");
         }
         /** \throws std::invalid_argument naming the key */

@@ -8,13 +8,13 @@
 
 namespace pointplane
 {
-/** Learns how large errors of a depth image are, as variances over those that are expected: of its
- * planes (w_C and w_zeta in docs/theory.md, section Window), or of the scale of depth in its
- * patches.
+/** Learns how large errors of a depth image are, as ratios of their variance to the expected one:
+ * errors of its planes (w_C and w_zeta in docs/theory.md, section Window), or of the scale of depth
+ * in its patches.
  *
- * Depth images are bent, and a plane is cut out differently from elsewhere. While the camera
- * stands, a part of this error stays the same. It shows in the residuals against a reference that
- * saw the scene from elsewhere. So residuals grow with how unlike two views are:
+ * Depth images are bent, and the outline of a plane depends on the view. While the camera stands, a
+ * part of this error stays the same. It shows in the residuals against a reference that saw the
+ * scene from elsewhere. So residuals grow with how unlike two views are:
  *
  *     E(variance) = own + byView (1 - correlation of the views)
  *
@@ -27,7 +27,7 @@ class ErrorsByView
     explicit ErrorsByView(double timeConstant) : timeConstant_(timeConstant) {}
 
     /** Learns from a measured frame, `dt` [s] after the one before.
-     * \param residuals over the expected variance
+     * \param residuals variance of the residuals over the expected one, by reference
      * \param correlation of the views of frame and reference, by the reference's id
      * \param followed PlaneResiduals::followed; own() is at least this. A pose that nothing but
      * planes tells follows them, and their residuals are small whatever their errors are */

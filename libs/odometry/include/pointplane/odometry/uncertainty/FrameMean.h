@@ -5,7 +5,8 @@
 
 namespace pointplane
 {
-/** Running mean of a value per frame: at first of all frames alike, later mostly of the latest. */
+/** Running mean of a value per frame: at first the plain mean of all frames, later exponentially
+ * weighted. */
 class FrameMean
 {
  public:

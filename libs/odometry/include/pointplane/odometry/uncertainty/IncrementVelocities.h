@@ -9,8 +9,8 @@ namespace pointplane
 {
 /** Velocities and accelerations of a camera from its latest two motions, by finite differences.
  *
- * They go by poses alone. So they do not wander, as velocities do that go by the rows of a rolling
- * shutter; but they miss what a jerk does between two frames. */
+ * They use poses alone. So they do not drift, as velocities from the rows of a rolling shutter do;
+ * but they miss what a jerk does between two frames. */
 class IncrementVelocities
 {
  public:

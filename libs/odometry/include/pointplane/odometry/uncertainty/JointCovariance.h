@@ -14,12 +14,14 @@
 
 namespace pointplane
 {
-/** One Gaussian of all errors that go on from frame to frame: those of the latest poses, of the
- * velocity, of the camera, and of the views and depth images of the references.
+/** Joint covariance of the error state: errors that last from frame to frame, of the latest poses
+ * (clones), of velocities, of the camera, and of the views and depth images of the references.
  *
  * Frames are compared with the same references again and again. So their errors do not add up as
  * those of independent increments would. The method is stochastic cloning (Roumeliotis and Burdick
- * 2002), with one common error per frame (view_errors.h) instead of one per feature.
+ * 2002), with one common error per frame (view_errors.h) instead of one per feature. Each frame is
+ * a step of linear covariance propagation, A Sigma A^T + Q: measure() or predict(). There is no
+ * Kalman update, because the solver has already fused all that a frame tells.
  *
  * Errors of poses are left perturbations in the world frame [m, rad]; that of the velocity is in
  * the body frame [m/s, rad/s]. Derivation: docs/theory.md, Window. */
@@ -48,13 +50,13 @@ class JointCovariance
             v("noise",
               noise,
               "-",
-              "which part of the variance of the points' residuals is noise of this frame; the "
+              "fraction of the variance of the points' residuals that is noise of this frame; the "
               "rest is noise of the references");
             v("viewNoise",
               viewNoise,
               "-",
-              "the error that all points of a frame share is this many times what its references "
-              "contradict each other by. A larger value gives larger covariances");
+              "how large the error is that all points of a frame share, as a multiple of how far "
+              "the references contradict each other; larger = larger covariances");
             v("vignetting",
               vignetting,
               "-",
@@ -94,9 +96,9 @@ class JointCovariance
         Eigen::MatrixXd ofPatches{Eigen::MatrixXd::Identity(1, 1)};
     };
 
-    /** What the error of a measured frame comes from: of its pose (left perturbation in the
-     * previous measured frame) and velocity. Letters are those of docs/theory.md, section Window.
-     */
+    /** Linear model of the error of a measured frame: of its pose (left perturbation in the
+     * previous measured frame) and velocity. A factor is the Jacobian with respect to an error.
+     * Letters are those of docs/theory.md, section Window. */
     struct Measurement
     {
         std::map<int, Matrix12d> references;            //!< by id: factor of xi_r and nu_r
@@ -130,7 +132,7 @@ class JointCovariance
     struct Prediction
     {
         DecayedVelocities after;                  //!< what became of the velocity before it
-        Matrix6d motion{Matrix6d::Zero()};        //!< covariance of the motion if that is known
+        Matrix6d motion{Matrix6d::Zero()};        //!< covariance of the motion, given that velocity
         Matrix6d velocity{Matrix6d::Zero()};      //!< covariance of the velocity before it
         Vector6d velocityGain{Vector6d::Zero()};  //!< what its variance gains on the way
     };
@@ -140,7 +142,7 @@ class JointCovariance
      * motion and the velocity are left perturbations in its frame) */
     void predict(int frame, const Eigen::Isometry3d& T_world_latest, const Prediction& prediction);
 
-    /** The error of the velocity is a new one in the next frame that is not measured. */
+    /** In the next frame that is not measured, the error of the velocity is a new one. */
     void endCoasting() { dropCoasting(); }
 
     /** Makes a known frame the previous one and the only reference.

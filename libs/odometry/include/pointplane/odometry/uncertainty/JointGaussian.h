@@ -44,14 +44,14 @@ class JointGaussian
     [[nodiscard]] Eigen::Index size() const { return cov_.rows(); }
     [[nodiscard]] const Eigen::MatrixXd& cov() const { return cov_; }
 
-    /** Adds blocks in front, whose errors are A times those of all so far plus noise of covariance
-     * Q. */
+    /** Augments the state: adds blocks in front, whose errors are A times those of all so far plus
+     * noise of covariance Q. */
     void prepend(
         const std::vector<Block>& blocks, const Eigen::MatrixXd& A, const Eigen::MatrixXd& Q);
 
-    /** Adds the block of one more frame, whose errors are of unit variance. Those of the others
-     * predict a part of them (kriging); the rest is new. \param added index of the frame in
-     * `frames` \param C correlation of the errors of `frames`, the same in each component */
+    /** Adds the block of one more frame, a value of a Gaussian process with unit variance: its
+     * distribution given those of the other frames. \param added index of the frame in `frames`
+     * \param C correlation of the errors of `frames`, the same in each component */
     void prependAlike(
         Kind kind, const std::vector<int>& frames, std::size_t added, const Eigen::MatrixXd& C);
 

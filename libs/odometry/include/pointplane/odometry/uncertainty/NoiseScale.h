@@ -7,10 +7,11 @@
 
 namespace pointplane
 {
-/** Learns the variance of points and planes, over the propagated one.
+/** Learns the noise of points and planes: the ratio of their variance to the propagated one
+ * (variance factors).
  *
- * Residuals tell how large errors are that differ between features; sensors differ by more than a
- * factor of ten in this. Errors that the features of a frame have in common do not show in
+ * Residuals show the errors that are independent between features. Sensors differ by more than a
+ * factor of ten in these. Errors that the features of a frame have in common do not show in
  * residuals. They show where reference frames contradict each other about the pose (docs/theory.md,
  * Noise of features). And some frames are worse than others: there, the parts of the image pull the
  * pose apart.
@@ -45,11 +46,11 @@ class NoiseScale
         void check() const;
     };
 
-    /** Variances of residuals, over the propagated one, that noise can have. More, and features are
-     * not where the motion puts them. */
+    /** Variance factors that noise can have. If it is more, features are not where the motion puts
+     * them. */
     static constexpr double kLeastVariance = 0.1, kMostVariance = 100;
 
-    /** The nearest such variance: a few odd frames must neither make features certain nor
+    /** Clamps a variance factor to these: a few odd frames must neither make features certain nor
      * worthless. */
     [[nodiscard]] static double plausible(double variance);
 

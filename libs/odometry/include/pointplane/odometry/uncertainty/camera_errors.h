@@ -18,12 +18,12 @@ namespace pointplane
 [[nodiscard]] CameraVector calibrationVariances(
     const JointCovariance::TParams& calibration, const PinholeCamera& camera);
 
-/** How a point moves with errors of the calibration by which it was lifted. (If the true focal
+/** Jacobian of a point by errors of the calibration by which it was lifted. (If the true focal
  * length is larger, the point is nearer to the optical axis.) \param p_cam point in the camera [m]
  * \return [m] per error; zero for vignetting, which moves tracks, and for the shutter */
 [[nodiscard]] ByCamera pointByCamera(const Eigen::Vector3d& p_cam, const PinholeCamera& camera);
 
-/** How a plane moves with errors of the calibration by which it was fitted to inverse depths.
+/** Jacobian of a plane by errors of the calibration by which it was fitted to inverse depths.
  * \param theta_m plane in the camera [1/m]
  * \return [1/m] per error; zero for vignetting, the shutter, and radial distortion, which bends it
  */

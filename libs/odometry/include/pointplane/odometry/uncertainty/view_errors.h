@@ -6,12 +6,12 @@
 
 namespace pointplane
 {
-/** How alike the points of two frames err by where the camera stands (eta in docs/theory.md).
+/** Kernel of the error that all points of a frame share (eta in docs/theory.md).
  *
  * Depth, lens and scene are not quite what they are modelled as. So all points of a frame err
  * together, as if the camera stood elsewhere. Frames that see the scene alike err alike, and
- * nothing of it shows when they are compared; frames far apart err independently. This is a
- * stationary Gaussian field over views.
+ * nothing of it shows when they are compared; frames far apart err independently. So the error is
+ * a stationary Gaussian process whose input is the view.
  * \param motion between the two frames
  * \param distance of the features [m]: a translation moves them in view like a turn by its part of
  * that
@@ -21,8 +21,8 @@ namespace pointplane
     const Eigen::Isometry3d& motion, double distance, double viewAngle);
 
 /** The same of planes (zeta). A turn by a part of the view puts them into another part of the
- * image, where they are cut out differently. \return exp(-3 (translation / distance + turn) /
- * viewAngle) */
+ * image, where their outlines differ. \return exp(-3 (translation / distance + turn) / viewAngle)
+ */
 [[nodiscard]] double planeViewCorrelation(
     const Eigen::Isometry3d& motion, double distance, double viewAngle);
 
