@@ -293,10 +293,10 @@ TEST(CameraCalibrator, findsOutWhichRowIsTheFirst)
         out.second = out.first.update(frameOf(said));
         return out;
     };
-    EXPECT_LT(after(0.004).first.complete({}).readoutColour, 0.004) << "two standard deviations";
+    EXPECT_LT(after(0.008).first.complete({}).readoutColour, 0.008) << "four standard deviations";
     for (const double direction : {1, -1})
     {
-        const auto [learnt, change] = after(direction * 0.01);
+        const auto [learnt, change] = after(direction * 0.012);
         EXPECT_NEAR(learnt.complete({}).readoutColour, direction * 0.02, 1e-15);
         EXPECT_NEAR(learnt.complete({}).readoutDepth, direction * 0.03, 1e-15);
         const Eigen::Vector3d variances = Eigen::Vector3d::Constant(1e-4);
@@ -323,6 +323,27 @@ TEST(CameraCalibrator, lensAndShutterAreToldByDifferentResiduals)
     (void)alone.update(frame);
     EXPECT_LT(alone.errors().segment<4>(kPrincipalPointX).maxCoeff(), 0);
     EXPECT_TRUE(alone.errors().tail<3>().isZero(0));
+}
+
+/** Half of what is told is noise of the velocities: so the times are half as well known. */
+TEST(CameraCalibrator, timesAreToldAsWellAsVelocitiesAreKnown)
+{
+    CameraInformation said = asMuchAsBefore();
+    said.gradient = -0.001 * said.information.diagonal();
+    const CameraVector before = calibratorOf(nominal()).cov().diagonal();
+    CameraCalibrator calibrator = calibratorOf(nominal());
+    (void)calibrator.update(
+        frameOf(said), 0, 1, Eigen::Matrix3d(10 * said.information.bottomRightCorner<3, 3>()));
+    for (const int time : {6, 7, 8})
+    {
+        EXPECT_NEAR(calibrator.cov()(time, time), before[time] / 1.5, 1e-12);
+        EXPECT_NEAR(calibrator.errors()[time], 0.001 / 3, 1e-12);
+    }
+    EXPECT_NEAR(calibrator.cov()(1, 1), before[1] / 2, 1e-9) << "they say nothing of the lens";
+
+    CameraCalibrator unmoved = calibratorOf(nominal());
+    (void)unmoved.update({}, 0, 1, Eigen::Matrix3d::Identity());
+    EXPECT_EQ(CameraVector(unmoved.cov().diagonal()), before);
 }
 
 TEST(CameraCalibrator, aCalibrationIsBelieved)
@@ -413,6 +434,48 @@ TEST(CameraCalibrator, framesAddUp)
     EXPECT_THAT(learntOf(calibrator.cov()), test::IsMatrixNear(cov, 1e-9));
     EXPECT_THAT(
         learntOf(calibrator.errors()), test::IsMatrixNear(Eigen::MatrixXd(cov * slope), 1e-9));
+}
+
+/** Its covariance is that of its errors, also if velocities err that have moved the features. */
+TEST(CameraCalibrator, errorsOfVelocitiesAreAccountedFor)
+{
+    constexpr int kRuns = 2000;
+    test::GaussianSampler sampler(17);
+    CameraCalibrator::TShutter p = shutter();
+    p.varianceFactor = 1;
+    double nees = 0, unaware = 0;
+    for (int run = 0; run < kRuns; ++run)
+    {
+        CameraCalibrator knows = calibratorOf(nominal(), p), ignores = knows;
+        const CameraVector truth = knows.cov().diagonal().cwiseSqrt().cwiseProduct(
+            CameraVector(sampler.vector<kNumCameraErrors>()));
+        for (int i = 0; i < 5; ++i)
+        {
+            const Residuals residuals(sampler);
+            const Eigen::Matrix<double, 16, 1> noise = sampler.vector<16>();
+            const Eigen::Matrix3d root = 500 * Eigen::Matrix3d::Identity();
+            const Eigen::Vector3d byVelocity = root * sampler.vector<3>();
+            const auto said = [&](const CameraCalibrator& calibrator)
+            {
+                CameraInformation out = residuals.about(truth - calibrator.errors(), noise);
+                out.gradient.tail<3>() += byVelocity;
+                return frameOf(out);
+            };
+            (void)knows.update(said(knows), 0, 1, root * root.transpose());
+            (void)ignores.update(said(ignores));
+        }
+        const auto of = [&](const CameraCalibrator& calibrator)
+        {
+            return test::squaredMahalanobis(
+                       Eigen::VectorXd((truth - calibrator.errors()).tail<3>()),
+                       Eigen::MatrixXd(calibrator.cov().bottomRightCorner<3, 3>())) /
+                   (3 * kRuns);
+        };
+        nees += of(knows);
+        unaware += of(ignores);
+    }
+    EXPECT_NEAR(nees, 1, 0.06);  // three standard deviations
+    EXPECT_GT(unaware, 2) << "else this tests nothing";
 }
 
 /** Its covariance is that of its errors, if frames err independently, and also if ten of them err

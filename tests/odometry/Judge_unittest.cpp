@@ -120,7 +120,9 @@ TEST(Judge, planesAreDoubtedWherePointsShouldAgree)
     {
         const Alignment doubted = judged(sigma, 300, 700);
         EXPECT_FALSE(doubted.holds) << "neither points nor surfaces agree";
-        EXPECT_THAT(doubted.reason, testing::HasSubstr("agree with the motion: only 0 of 300, "));
+        EXPECT_THAT(
+            doubted.reason,
+            testing::HasSubstr("only 0 of 300 points in view agree with the motion, 0.5"));
         EXPECT_THAT(doubted.reason, testing::HasSubstr("0.5 s after"));
         EXPECT_TRUE(judged(sigma, 300, 800).holds);
         EXPECT_TRUE(judged(sigma, 0, 700).holds) << "no points to ask";

@@ -334,6 +334,43 @@ TEST(Sensitivity, theCameraIsToldByTheResiduals)
     EXPECT_GT(errors.norm(), 0.01);
 }
 
+/** A wrong velocity of a reference looks like an error of the camera. */
+TEST(Sensitivity, whatIsToldOfTheCameraChangesWithTheVelocityOfTheReferences)
+{
+    PoseProblem problem = makeProblem(93);
+    test::GaussianSampler sampler(94);
+    const auto random = [&] {
+        return ByCamera(
+            0.02 * sampler.vector<3>() * sampler.vector<kNumCameraErrors>().transpose());
+    };
+    for (PointPair& pair : problem.points)
+    {
+        pair.dRef_dCamera = random();
+        pair.dCur_dCamera = random();
+    }
+    for (PlanePair& pair : problem.planes)
+    {
+        pair.dCur_dCamera = random();
+    }
+    const PoseAnalysis before = solve(problem).analysis;
+    ASSERT_EQ(before.cameraByVelocity.size(), 2U);
+    const Vector6d dV = 0.01 * Vector6d::LinSpaced(0.5, 1);
+    PoseProblem moved = problem;
+    for (PointPair& pair : moved.points)
+    {
+        pair.ref.mean += pair.reference == 2 ? (pair.dRef_dV * dV).eval() : Eigen::Vector3d::Zero();
+    }
+    for (PlanePair& pair : moved.planes)
+    {
+        pair.ref.theta_m +=
+            pair.reference == 2 ? (pair.dRef_dV * dV).eval() : Eigen::Vector3d::Zero();
+    }
+    const CameraVector expected = before.cameraByVelocity.at(2) * dV;
+    const CameraVector change = solve(moved).analysis.camera.gradient - before.camera.gradient;
+    EXPECT_LT((change - expected).norm(), 0.02 * expected.norm());
+    EXPECT_GT(expected.norm(), 1);
+}
+
 /** Each reference has a pose that errs in its own way. Together they say nothing right of the
  * camera; each with a motion of its own does. */
 TEST(Sensitivity, theCameraIsToldByReferencesThatAreWrong)

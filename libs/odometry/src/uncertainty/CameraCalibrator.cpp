@@ -32,6 +32,31 @@ Eigen::Vector3d timesOf(const CameraCalibrator::TShutter& shutter)
 {
     return {shutter.readoutColour, shutter.readoutDepth, shutter.depthDelay};
 }
+
+/** What a frame says, over the variance of its residuals; of the times, also over what errors of
+ * the velocities do to them. */
+CameraInformation weighed(
+    const PoseAnalysis& frame, double factor, const Eigen::Matrix3d& byVelocities)
+{
+    CameraInformation learnt;
+    const CameraInformation& ofLens = frame.cameraByReference;
+    learnt.information.block<kNumLensErrors, kNumLensErrors>(kPrincipalPointX, kPrincipalPointX) =
+        ofLens.information.block<kNumLensErrors, kNumLensErrors>(
+            kPrincipalPointX, kPrincipalPointX) /
+        factor;
+    learnt.gradient.segment<kNumLensErrors>(kPrincipalPointX) =
+        ofLens.gradient.segment<kNumLensErrors>(kPrincipalPointX) / factor;
+    // Its gradient has the covariance factor * ofTimes + byVelocities, not ofTimes.
+    const Eigen::Matrix3d ofTimes = frame.camera.information.bottomRightCorner<3, 3>();
+    const Eigen::Matrix3d weight =
+        (factor * Eigen::Matrix3d::Identity() +
+         byVelocities * ofTimes.completeOrthogonalDecomposition().pseudoInverse())
+            .inverse();
+    const Eigen::Matrix3d information = weight * ofTimes;
+    learnt.information.bottomRightCorner<3, 3>() = 0.5 * (information + information.transpose());
+    learnt.gradient.tail<3>() = weight * frame.camera.gradient.tail<3>();
+    return learnt;
+}
 }  // namespace
 
 std::string describe(const LearntLens& lens)
@@ -113,10 +138,7 @@ CameraVector CameraCalibrator::priorVariances(double bend) const
 }
 
 CameraCalibrator::Change CameraCalibrator::update(
-    const PoseAnalysis& frame,
-    double bend,
-    double variance,
-    const Eigen::Matrix3d& byVelocities)
+    const PoseAnalysis& frame, double bend, double variance, const Eigen::Matrix3d& byVelocities)
 {
     // The kind of depth camera shows in its images only.
     const CameraVector prior = prior_.cwiseMax(priorVariances(bend));
@@ -124,22 +146,7 @@ CameraCalibrator::Change CameraCalibrator::update(
     prior_ = prior;
     // Frames repeat each other's residuals: each counts as a fraction of one.
     const double factor = shutter_.varianceFactor * variance;
-    CameraInformation learnt;
-    const auto add = [&](const CameraInformation& from, int first, int end)
-    {
-        const int size = end - first;
-        learnt.information.block(first, first, size, size) =
-            from.information.block(first, first, size, size) / factor;
-        learnt.gradient.segment(first, size) = from.gradient.segment(first, size) / factor;
-    };
-    add(frame.cameraByReference, kPrincipalPointX, kDepthScale);
-    const Eigen::Matrix3d times = frame.camera.information.bottomRightCorner<3, 3>();
-    const Eigen::Matrix3d weight =
-        times *
-        (factor * times + byVelocities).completeOrthogonalDecomposition().pseudoInverse();
-    learnt.information.bottomRightCorner<3, 3>() = weight * times;
-    learnt.gradient.tail<3>() = weight * frame.camera.gradient.tail<3>();
-
+    const CameraInformation learnt = weighed(frame, factor, byVelocities);
     checkCalibration(learnt);
     Change out;
     const CameraMatrix before = cov_ + widening;

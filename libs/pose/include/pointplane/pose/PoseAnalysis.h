@@ -79,8 +79,8 @@ struct PoseAnalysis
     /** The same by each reference with a motion of its own, averaged over the references: poses of
      * references that were estimated with a wrong camera would confirm it. */
     CameraInformation cameraByReference;
-    /** Change of the gradient of `camera` with the velocity of each reference, by which its features
-     * were moved (rolling shutter). */
+    /** Change of the gradient of `camera` with the velocity of each reference, by which its
+     * features were moved (rolling shutter). */
     std::map<int, CameraByVelocity> cameraByVelocity;
     /** Variance of the residuals of points that count, over the propagated one; 0 = none. */
     double pointVariance{0};

@@ -22,7 +22,7 @@ enum CameraError : int
 };
 using CameraVector = Eigen::Matrix<double, kNumCameraErrors, 1>;
 using CameraMatrix = Eigen::Matrix<double, kNumCameraErrors, kNumCameraErrors>;
-using ByCamera = Eigen::Matrix<double, 3, kNumCameraErrors>;         //!< of a feature or residual
+using ByCamera = Eigen::Matrix<double, 3, kNumCameraErrors>;  //!< of a feature or residual
 using CameraByVelocity = Eigen::Matrix<double, kNumCameraErrors, 6>;
 using MotionByCamera = Eigen::Matrix<double, 12, kNumCameraErrors>;  //!< of pose and velocity
 
