@@ -122,8 +122,7 @@ TEST(Judge, planesAreDoubtedWherePointsShouldAgree)
         EXPECT_FALSE(doubted.holds) << "neither points nor surfaces agree";
         EXPECT_THAT(
             doubted.reason,
-            testing::HasSubstr("only 0 of 300 points in view agree with the motion, 0.5"));
-        EXPECT_THAT(doubted.reason, testing::HasSubstr("0.5 s after"));
+            testing::StartsWith("only 0 of 300 points in view agree with the motion, 0.500 s "));
         EXPECT_TRUE(judged(sigma, 300, 800).holds);
         EXPECT_TRUE(judged(sigma, 0, 700).holds) << "no points to ask";
     }
