@@ -173,6 +173,22 @@ TEST(Judge, farFromThePredictionOnlyWhatConvincesIsBelieved)
     }
 }
 
+/** Directions that are predicted cannot be far from the prediction. */
+TEST(Judge, onlyMeasuredDirectionsTellHowFarThatIs)
+{
+    for (const int measured : {1, 2, 6})
+    {
+        Alignment a = makeAlignment(kCertain);
+        a.estimate.infoPoints.setZero();
+        a.estimate.infoPoints.diagonal().head(measured).setConstant(1e6);
+        a.estimate.motion.mean.T_prev_cur.translation().x() = 6 * kCertain;
+        const Judge judge{OdometryParams{}};
+        judge.judge(a);
+        ASSERT_EQ(a.observableDirections, measured);
+        EXPECT_EQ(Judge::isSurprising(a), measured == 1) << "6, 4.2 and 2.4 standard deviations";
+    }
+}
+
 /** Whether the first of two alignments is kept, whatever their order. */
 bool isBetter(const Alignment& one, const Alignment& other)
 {
