@@ -89,6 +89,12 @@ void bend(
     }
 }
 
+/** How a feature changes with errors of the camera: along one direction. */
+ByCamera randomByCamera(test::GaussianSampler& sampler)
+{
+    return 0.02 * sampler.vector<3>() * sampler.vector<kNumCameraErrors>().transpose();
+}
+
 /** Where the estimate goes when the problem changes. */
 Vector12d change(const PoseEstimate& before, const PoseEstimate& after)
 {
@@ -314,14 +320,10 @@ TEST(Sensitivity, theCameraIsToldByTheResiduals)
     PoseProblem problem = makeProblem(87);
     test::GaussianSampler sampler(88);
     const CameraVector errors = 0.01 * sampler.vector<kNumCameraErrors>();
-    const auto random = [&] {
-        return ByCamera(
-            0.02 * sampler.vector<3>() * sampler.vector<kNumCameraErrors>().transpose());
-    };
     for (PointPair& pair : problem.points)
     {
-        pair.dRef_dCamera = random();
-        pair.dCur_dCamera = random();
+        pair.dRef_dCamera = randomByCamera(sampler);
+        pair.dCur_dCamera = randomByCamera(sampler);
         pair.ref.mean += pair.dRef_dCamera * errors;
         pair.cur.mean += pair.dCur_dCamera * errors;
     }
@@ -339,18 +341,14 @@ TEST(Sensitivity, whatIsToldOfTheCameraChangesWithTheVelocityOfTheReferences)
 {
     PoseProblem problem = makeProblem(93);
     test::GaussianSampler sampler(94);
-    const auto random = [&] {
-        return ByCamera(
-            0.02 * sampler.vector<3>() * sampler.vector<kNumCameraErrors>().transpose());
-    };
     for (PointPair& pair : problem.points)
     {
-        pair.dRef_dCamera = random();
-        pair.dCur_dCamera = random();
+        pair.dRef_dCamera = randomByCamera(sampler);
+        pair.dCur_dCamera = randomByCamera(sampler);
     }
     for (PlanePair& pair : problem.planes)
     {
-        pair.dCur_dCamera = random();
+        pair.dCur_dCamera = randomByCamera(sampler);
     }
     const PoseAnalysis before = solve(problem).analysis;
     ASSERT_EQ(before.cameraByVelocity.size(), 2U);
@@ -379,16 +377,12 @@ TEST(Sensitivity, theCameraIsToldByReferencesThatAreWrong)
     test::GaussianSampler sampler(92);
     const CameraVector errors = 0.01 * sampler.vector<kNumCameraErrors>();
     const Eigen::Isometry3d wrong = se3Exp(0.01 * sampler.vector<6>());
-    const auto random = [&] {
-        return ByCamera(
-            0.02 * sampler.vector<3>() * sampler.vector<kNumCameraErrors>().transpose());
-    };
     problem.planes.clear();
     for (PointPair& pair : problem.points)
     {
         pair.dCur_dV.setZero();
-        pair.dRef_dCamera = random();
-        pair.dCur_dCamera = random();
+        pair.dRef_dCamera = randomByCamera(sampler);
+        pair.dCur_dCamera = randomByCamera(sampler);
         pair.ref.mean += pair.dRef_dCamera * errors;
         pair.cur.mean += pair.dCur_dCamera * errors;
         if (pair.reference == 2)

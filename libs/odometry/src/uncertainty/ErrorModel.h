@@ -94,8 +94,11 @@ class ErrorModel
 
     /** Standard deviation of eta, as a turn [rad]: in proportion to how far references contradict
      * each other by more than the frame's own noise makes them. */
-    [[nodiscard]] Eigen::Matrix3d timesByVelocities(const Measured& frame) const;
     [[nodiscard]] double commonAngle() const;
+
+    /** Covariance that errors of the velocities give to what the frame tells of the times of the
+     * shutter: S in docs/theory.md, section Learning the camera. */
+    [[nodiscard]] Eigen::Matrix3d timesByVelocities(const Measured& frame) const;
 
     JointCovariance::TParams params_;
     NoiseScale::TParams noiseParams_;

@@ -33,8 +33,8 @@ class PairBuilder
         std::vector<PointPair>& points,
         std::vector<PlanePair>& planes) const;
 
-    /** Adds how the pairs change with errors of the camera, once the motion is known. References'
-     * velocities then move their features for as long as the shutter may take.
+    /** Adds how the pairs change with errors of the camera, once the motion is known. From
+     * then on, dRef_dV is that of CameraCalibrator::rootMeanSquare().
      * \param points, planes that build() has made of the same associations */
     void addCameraErrors(
         const std::vector<Association>& associations,

@@ -74,8 +74,7 @@ class CameraCalibrator
               varianceFactor,
               "-",
               "this many frames count as one when shutter and lens are learnt, because "
-              "neighbouring "
-              "frames have the same errors");
+              "neighbouring frames have the same errors");
         }
         /** \throws std::invalid_argument naming the key */
         void check() const;
@@ -122,8 +121,8 @@ class CameraCalibrator
      * (PoseAnalysis::camera), of the lens by each alone (PoseAnalysis::cameraByReference).
      * \param bend smooth error of depth, as a fraction of it (DepthNoise::sigmaRelative)
      * \param variance of its features, over the one by which the solver weighed them
-     * \param byVelocities covariance of the gradient for the times of the shutter, by errors of the
-     * velocities: these tell as little of the times as they are known themselves */
+     * \param byVelocities covariance that errors of the velocities add to the gradient for the
+     * times of the shutter: a wrong velocity looks like a wrong time */
     Change update(
         const PoseAnalysis& frame,
         double bend = 0,
@@ -144,7 +143,8 @@ class CameraCalibrator
      * stamps is a part of the true one: the estimate is added. All zero if `correct` is off. */
     [[nodiscard]] ShutterModel complete(const ShutterModel& source) const;
 
-    /** Likewise, each estimated time as its root mean square: so much may be moved. */
+    /** complete(), but with the root mean square of each time that is estimated, by its mean and
+     * its variance: a time that may be long moves features, even if its mean is zero. */
     [[nodiscard]] ShutterModel rootMeanSquare(const ShutterModel& source) const;
 
     /** Whether it is known which of the rows is exposed first. */
