@@ -69,6 +69,8 @@ TEST(Judge, fewPointsMayAgreeByChance)
     EXPECT_TRUE(mayBeChance(kCertain, 1, 300));
     EXPECT_FALSE(mayBeChance(kCertain, 3, 3)) << "no other point is in view";
     EXPECT_FALSE(mayBeChance(kCertain, 7, 12)) << "most points in view agree";
+    EXPECT_FALSE(mayBeChance(kCertain, 6, 18)) << "a third of the points in view agrees";
+    EXPECT_TRUE(mayBeChance(kCertain, 5, 18));
 }
 
 /** Planes that slide along themselves hide it from the surfaces. */

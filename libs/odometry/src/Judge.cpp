@@ -32,6 +32,10 @@ constexpr double kConvincingRise = 4;
  * world and that of what moves. */
 constexpr double kNoMotionRise = kConvincingRise * kConvincingRise;
 
+/** Of wrong points, chance lets hardly one in twenty agree. So a larger share than this is no
+ * chance, even of few points. */
+constexpr double kMostByChance = 1.0 / 3;
+
 /** How many directions the measurements know better than the motion model does. */
 int observableDirections(const Matrix6d& information, const Matrix6d& priorCovariance)
 {
@@ -84,11 +88,11 @@ double evidence(const Alignment& alignment, const NoiseFactors& usual)
 /** Most points in view do not agree on a wrong motion. */
 bool mostPointsAgree(const Alignment& a) { return pointShare(a) > 0.5; }
 
-/** Whether points in view should agree, and do not. */
+/** Whether points in view should agree, and no more do than chance may let. */
 bool hardlyAnyPointAgrees(const Alignment& a)
 {
     return a.numSought >= kFewPoints && a.estimate.numPointInliers < kFewPoints &&
-           !mostPointsAgree(a);
+           pointShare(a) < kMostByChance;
 }
 
 /** Whether it rests on planes that may be others. */
