@@ -10,6 +10,7 @@
 #include <ostream>
 
 #include "mostly_predicted.h"
+#include "stamp_check.h"
 
 namespace pointplane
 {
@@ -17,6 +18,10 @@ void RunSummary::add(const OutputItem& item)
 {
     const RobotMotion& motion = item.frame->motion;
     ++numFrames;
+    if (motion.status != TrackingStatus::Lost)
+    {
+        stamps.push_back(item.source.converted->frame.stamp);
+    }
     hasMotion = hasMotion || motion.status == TrackingStatus::Tracked;
     switch (motion.status)
     {
@@ -125,6 +130,14 @@ void RunSummary::printCalibration(std::ostream& out) const
     }
 }
 
+void RunSummary::printStamps(std::ostream& out) const
+{
+    if (const std::string problem = problemOfStamps(stamps); !problem.empty())
+    {
+        out << "stamps: " << problem << "\n";
+    }
+}
+
 void RunSummary::printLearnt(std::ostream& out) const
 {
     if (numTracked > 0)
@@ -163,6 +176,7 @@ void RunSummary::print(std::ostream& out, bool profile) const
     {
         out << note << "\n";
     }
+    printStamps(out);
     printLearnt(out);
     if (profile)
     {

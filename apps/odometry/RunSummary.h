@@ -28,6 +28,7 @@ struct RunSummary
     double pathLength{0};                          //!< of the robot [m]
     double seconds{0};                 //!< wall time, without that of frames that were skipped
     FrameDiagnostics sum;              //!< of the times per stage; the latest noise and lens
+    std::vector<double> stamps;        //!< of the frames that are not lost [s]
     std::vector<std::string> notes;    //!< lines about the input
     std::string damage;                //!< where the input ended early, or empty
     std::vector<std::string> outputs;  //!< descriptions
@@ -50,6 +51,7 @@ struct RunSummary
     void printFrames(std::ostream& out) const;
     void printAttached(std::ostream& out) const;
     void printCalibration(std::ostream& out) const;
+    void printStamps(std::ostream& out) const;
     void printLearnt(std::ostream& out) const;  //!< of the camera
     void printTimes(std::ostream& out) const;
     [[nodiscard]] bool isMostlyUnmeasured() const;

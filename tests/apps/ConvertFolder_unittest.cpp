@@ -771,7 +771,7 @@ TEST_F(ConvertFolder, aTownInThePathIsNoCamera)
 
 TEST(ProblemOfStamps, saysWhatIsWrong)
 {
-    std::vector<double> even, rounded, repeated, jittering, back, gaps;
+    std::vector<double> even, rounded, repeated, jittering, back, gaps, slowComputer;
     for (int i = 0; i < 60; ++i)
     {
         const double t = 1000 + i / 30.0;
@@ -784,10 +784,15 @@ TEST(ProblemOfStamps, saysWhatIsWrong)
         {
             gaps.push_back(t);
         }
+        if (i % 9 == 0 || i % 9 == 2 || i % 9 == 5)
+        {
+            slowComputer.push_back(t);
+        }
     }
     EXPECT_EQ(problemOfStamps({}), "");
     EXPECT_EQ(problemOfStamps(even), "");
     EXPECT_EQ(problemOfStamps(gaps), "");
+    EXPECT_EQ(problemOfStamps(slowComputer), "") << "2, 3 or 4 frames after another";
     EXPECT_THAT(problemOfStamps(rounded), HasSubstr("rounded to 0.01 s"));
     EXPECT_THAT(problemOfStamps(jittering), HasSubstr("jitter"));
     EXPECT_THAT(problemOfStamps(repeated), HasSubstr("40 of them repeat the one before"));

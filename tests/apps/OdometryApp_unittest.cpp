@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -916,6 +917,27 @@ TEST_F(OdometryApp, picturesOfLostFramesAreAsLargeAsOthers)
     EXPECT_EQ(size.width, 64);
     EXPECT_EQ(cv::imread(dir_ / "pictures/000000.jpg").size(), size);
     EXPECT_EQ(cv::imread(dir_ / "pictures/000002.jpg").size(), size);
+}
+
+/** Velocities come from stamps. A rawlog need not be one that pointplane-convert has checked. */
+TEST_F(OdometryApp, stampsThatJitterAreTold)
+{
+    for (const bool jitter : {false, true})
+    {
+        RawlogWriter writer(in_);
+        for (int i = 0; i < 20; ++i)
+        {
+            const auto scan = sampleScan(i);
+            const double shift = jitter ? 0.01 * std::sin(7.0 * i) : 0;
+            scan->timestamp += std::chrono::duration_cast<mrpt::Clock::duration>(
+                std::chrono::duration<double>(shift));
+            writer.write(*scan);
+        }
+        writer.close();
+        const Outcome outcome = run({in_, "--trajectory", dir_ / (jitter ? "b.txt" : "a.txt")});
+        EXPECT_EQ(outcome.out.find("stamps: they jitter by ") != std::string::npos, jitter)
+            << outcome.out;
+    }
 }
 
 TEST_F(OdometryApp, oneOfAKindIsNotToldAsMany)

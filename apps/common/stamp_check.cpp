@@ -21,6 +21,9 @@ constexpr double kTolerated = 0.1;
 constexpr double kRoundings[] = {1, 0.1, 0.01};
 constexpr double kEpsilon = 1e-5;
 
+constexpr char kEvenStamps[] = " (pointplane-convert tum and folder have --even-stamps)";
+constexpr char kConsequence[] = "; velocities from them err as much, which covariances do not tell";
+
 [[nodiscard]] bool areMultiples(const std::vector<double>& stamps, double step)
 {
     return std::all_of(
@@ -42,8 +45,7 @@ constexpr double kEpsilon = 1e-5;
     else if (numRepeated > 0)
     {
         out << numRepeated << " of them " << (numRepeated == 1 ? "repeats" : "repeat")
-            << " the one before: odometry cannot use such frames (tum and folder have "
-               "--even-stamps)";
+            << " the one before: odometry cannot use such frames" << kEvenStamps;
     }
     return out.str();
 }
@@ -74,32 +76,41 @@ constexpr double kEpsilon = 1e-5;
         if (step > kTolerated * median && !isEven && areMultiples(stamps, step))
         {
             out << "rounded to " << step << " s, " << std::lround(100 * step / median)
-                << " % of the time between frames; velocities from them err as much (tum and "
-                   "folder have --even-stamps)";
+                << " % of the time between frames" << kConsequence << kEvenStamps;
             break;
         }
     }
     return out.str();
 }
 
-[[nodiscard]] std::string problemOfJitter(const std::vector<double>& intervals, double median)
+/** Of intervals that should be whole numbers of frames [s]. */
+[[nodiscard]] double jitterAbout(const std::vector<double>& intervals, double perFrame)
 {
-    // Frames that are missing make whole intervals more.
     std::vector<double> deviations;
     for (const double interval : intervals)
     {
-        const double frames = std::max(1.0, std::round(interval / median));
-        deviations.push_back(std::abs(interval - frames * median));
+        const double frames = std::max(1.0, std::round(interval / perFrame));
+        deviations.push_back(std::abs(interval - frames * perFrame));
     }
-    const double jitter = 1.4826 * quantile(deviations, 0.5);
-    std::ostringstream out;
-    if (jitter > kTolerated * median)
+    return 1.4826 * quantile(deviations, 0.5);
+}
+
+[[nodiscard]] std::string problemOfJitter(const std::vector<double>& intervals, double median)
+{
+    // A slow computer leaves frames out: the median may be several of them.
+    constexpr int kMostFrames = 5;
+    for (int frames = 1; frames <= kMostFrames; ++frames)
     {
-        out << "they jitter by " << std::lround(1e3 * jitter) << " ms about a frame every "
-            << std::lround(1e3 * median)
-            << " ms, like a host's; velocities from them err as much (tum and folder have "
-               "--even-stamps)";
+        const double perFrame = median / frames;
+        if (jitterAbout(intervals, perFrame) <= kTolerated * perFrame)
+        {
+            return "";
+        }
     }
+    std::ostringstream out;
+    out << "they jitter by " << std::lround(1e3 * jitterAbout(intervals, median))
+        << " ms about a frame every " << std::lround(1e3 * median) << " ms, like a host's"
+        << kConsequence << kEvenStamps;
     return out.str();
 }
 }  // namespace
