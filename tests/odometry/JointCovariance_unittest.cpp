@@ -29,7 +29,7 @@ const Eigen::Isometry3d kAtRest = Eigen::Isometry3d::Identity();
 JointCovariance::Prediction independent(double variance)
 {
     JointCovariance::Prediction out;
-    out.motion = variance * Matrix6d::Identity();
+    out.noise.topLeftCorner<6, 6>() = variance * Matrix6d::Identity();
     return out;
 }
 
@@ -367,7 +367,7 @@ TEST(JointCovariance, predictedFramesFollowAVelocityThatDecays)
     JointCovariance::Prediction step;
     step.after.translation = step.after.rotation = {0.1, 0.5, 0, 0, 0};
     step.velocity = 4 * Matrix6d::Identity();
-    step.motion = 0.01 * Matrix6d::Identity();
+    step.noise.topLeftCorner<6, 6>() = 0.01 * Matrix6d::Identity();
     joint.predict(2, kAtRest, step);
     joint.predict(3, kAtRest, step);
     EXPECT_THAT(joint.relative(1, kAtRest), isTimesIdentity(0.15 * 0.15 * 4 + 2 * 0.01));
@@ -382,7 +382,7 @@ TEST(JointCovariance, predictedFramesShareTheErrorOfTheVelocity)
     JointCovariance::Prediction step;
     step.after.translation.reach = step.after.rotation.reach = 0.1;
     step.velocity = 4 * Matrix6d::Identity();
-    step.motion = 0.01 * Matrix6d::Identity();
+    step.noise.topLeftCorner<6, 6>() = 0.01 * Matrix6d::Identity();
     for (int frame = 2; frame <= 11; ++frame)
     {
         joint.predict(frame, kAtRest, step);
@@ -401,10 +401,33 @@ TEST(JointCovariance, predictedFramesShareTheErrorOfTheVelocity)
 
     // What the velocity gains on the way moves later frames only.
     JointCovariance gaining = started();
-    step.velocityGain.setConstant(1);
+    step.noise.bottomRightCorner<6, 6>().setIdentity();
     gaining.predict(2, kAtRest, step);
     gaining.predict(3, kAtRest, step);
     EXPECT_THAT(gaining.relative(2, kAtRest), isTimesIdentity(0.01 * (4 + 1) + 0.01));
+}
+
+/** How often nothing is measured does not change how far the camera may have got. */
+TEST(JointCovariance, twoPredictedFramesAreAsUncertainAsOneOfBothTimes)
+{
+    const auto predicted = [](int frames, double seconds)
+    {
+        JointCovariance joint = started();
+        JointCovariance::Prediction step;
+        step.after.translation = step.after.rotation = decayedVelocity(seconds, 0.5);
+        step.velocity = 4 * Matrix6d::Identity();
+        step.noise.topLeftCorner<6, 6>().diagonal() = step.after.pose();
+        step.noise.topRightCorner<6, 6>().diagonal() = step.after.together();
+        step.noise.bottomLeftCorner<6, 6>().diagonal() = step.after.together();
+        step.noise.bottomRightCorner<6, 6>().diagonal() = step.after.velocity();
+        for (int frame = 0; frame < frames; ++frame)
+        {
+            joint.predict(2 + frame, kAtRest, step);
+        }
+        return joint.latest();
+    };
+    EXPECT_TRUE(predicted(2, 0.2).isApprox(predicted(1, 0.4), 1e-9));
+    EXPECT_TRUE(predicted(8, 0.05).isApprox(predicted(1, 0.4), 1e-9));
 }
 
 TEST(JointCovariance, predictedFramesAndANewWindow)

@@ -108,6 +108,11 @@ Alignment Aligner::align(
     if (restsOnChance(out))
     {
         distrustPoints(scene, out);
+        if (!out.isOfDoubtedPoints)
+        {
+            verify(scene, out);
+            judge_.contradict(out, errors.usual());
+        }
     }
     tell(out, diagnostics);
     diagnostics.msMatching = watch.ms() - diagnostics.msPose;

@@ -260,7 +260,7 @@ void Odometry::Impl::measure(const Features& current, Alignment& alignment, Odom
          dt,
          track.motionNoise(dt),
          track.acceleration2(),
-         errors.camera().complete(current.frame.shutter),
+         errors.camera().rootMeanSquare(current.frame.shutter),
          current.bend,
          !alignment.isOfDoubtedPoints,
          track.velocityCovs()});

@@ -16,7 +16,7 @@ PoseHistory::PoseHistory(const JointCovariance::TParams& params)
 void PoseHistory::predict(const PoseGaussian& increment)
 {
     JointCovariance::Prediction errors;
-    errors.motion = increment.cov;
+    errors.noise.topLeftCorner<6, 6>() = increment.cov;
     predict(increment.mean, errors);
     joint_.endCoasting();
 }

@@ -92,9 +92,12 @@ bool ReferenceWindow::needsKeyframe(const Eigen::Isometry3d& T_world_cam, double
 void ReferenceWindow::refinePreviousVelocity(const Vector6d& velocity)
 {
     previous_.velocity = velocity;
-    if (!keyframes_.empty() && keyframes_.back().id == previous_.id)
+    for (Reference& keyframe : keyframes_)
     {
-        keyframes_.back().velocity = velocity;
+        if (keyframe.id == previous_.id)
+        {
+            keyframe.velocity = velocity;
+        }
     }
 }
 

@@ -213,7 +213,7 @@ PoseGaussian Track::stay(double stamp)
     increment.cov =
         strictlyPositive(Matrix6d(way.cov + motion_.jerk(dt) + mean * mean.transpose()));
     JointCovariance::Prediction errors;
-    errors.motion = increment.cov;
+    errors.noise.topLeftCorner<6, 6>() = increment.cov;
     errors.velocity = motion_.velocityCov();
     errors.after = motion_.after(0);
     history_.predict(increment.mean, errors);
@@ -230,10 +230,9 @@ PoseGaussian Track::coast(double stamp)
         forgetVelocity();
     }
     PoseGaussian increment = motion_.predict(dt).pose();
-    errors.motion = motion_.unforeseen(dt);
+    errors.noise = motion_.unforeseen(dt);
     errors.velocity = motion_.velocityCov();
     increment.cov = strictlyPositive(Matrix6d(increment.cov + motion_.jerk(dt)));
-    errors.velocityGain = motion_.velocityGain(dt);
     errors.after = motion_.after(dt);
     motion_.coast(dt);
     if (std::isfinite(stamp))

@@ -18,7 +18,8 @@ double medianVariance(std::vector<double>& relativeNorms)
     const auto middle =
         relativeNorms.begin() + static_cast<std::ptrdiff_t>(relativeNorms.size() / 2);
     std::nth_element(relativeNorms.begin(), middle, relativeNorms.end());
-    return *middle;
+    const bool isOdd = relativeNorms.size() % 2 == 1;
+    return isOdd ? *middle : 0.5 * (*middle + *std::max_element(relativeNorms.begin(), middle));
 }
 
 double medianVariance(std::vector<std::pair<double, double>>& normsAndWeights)
@@ -29,12 +30,17 @@ double medianVariance(std::vector<std::pair<double, double>>& normsAndWeights)
     {
         left += weight / 2;
     }
-    for (const auto& [norm, weight] : normsAndWeights)
+    for (std::size_t i = 0; i < normsAndWeights.size(); ++i)
     {
+        const auto& [norm, weight] = normsAndWeights[i];
         left -= weight;
-        if (left <= 0)
+        if (left < 0 || i + 1 == normsAndWeights.size())
         {
             return norm;
+        }
+        if (left == 0)
+        {
+            return 0.5 * (norm + normsAndWeights[i + 1].first);
         }
     }
     return 0;

@@ -78,7 +78,7 @@ class ErrorModel
         double dt;                                 //!< [s] since the previous one
         Matrix12d motionNoise;                     //!< MotionModel::processNoise()
         Vector6d acceleration2{Vector6d::Zero()};  //!< MotionModel::acceleration2()
-        ShutterModel shutter{0, 0, 0};             //!< CameraCalibrator::complete()
+        ShutterModel shutter{0, 0, 0};             //!< CameraCalibrator::rootMeanSquare()
         double bend{0};                            //!< DepthNoise::sigmaRelative
         /** The estimate minimises the residuals of its pairs. Else these do not tell their noise.
          */

@@ -57,7 +57,7 @@ void ErrorsByView::fit()
     if (byView_ < 0)
     {
         byView_ = 0;
-        own_ = y / n;
+        own_ = NoiseScale::plausible(y / n);
     }
 }
 }  // namespace pointplane

@@ -66,10 +66,10 @@ void JointCovariance::predict(
     A.block<kSize, kSize>(0, newest()).setIdentity();
     A.block<kSize, kSize>(0, velocity) = Ad * prediction.after.reach().asDiagonal();
     A.block<kSize, kSize>(kSize, velocity) = prediction.after.kept().asDiagonal();
-    Eigen::MatrixXd Q = Eigen::MatrixXd::Zero(2 * kSize, 2 * kSize);
-    Q.topLeftCorner<kSize, kSize>() = propagate(Ad, prediction.motion);
-    Q.bottomRightCorner<kSize, kSize>() = prediction.velocityGain.asDiagonal();
-    errors_.prepend({{Kind::Pose, frame}, {Kind::Coasting, 0}}, A, Q);
+    Matrix12d toWorld = Matrix12d::Identity();
+    toWorld.topLeftCorner<kSize, kSize>() = Ad;
+    errors_.prepend(
+        {{Kind::Pose, frame}, {Kind::Coasting, 0}}, A, propagate(toWorld, prediction.noise));
     latest_ = frame;
     dropCoasting(1);
 }

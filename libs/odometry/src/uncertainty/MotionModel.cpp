@@ -116,9 +116,11 @@ MotionGaussian MotionModel::predictFrom(
         propagate(transition(end), cov) + noise};
 }
 
-Matrix6d MotionModel::unforeseen(double dt) const
+Matrix12d MotionModel::unforeseen(double dt) const
 {
-    return predictFrom(Vector6d::Zero(), Matrix12d::Zero(), dt).pose().cov + jerk(dt);
+    Matrix12d out = predictFrom(Vector6d::Zero(), Matrix12d::Zero(), dt).cov;
+    out.topLeftCorner<6, 6>() += jerk(dt);
+    return out;
 }
 
 Matrix6d MotionModel::jerk(double dt) const

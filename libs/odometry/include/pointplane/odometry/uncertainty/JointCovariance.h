@@ -131,10 +131,10 @@ class JointCovariance
     /** The motion of a frame that was not measured. */
     struct Prediction
     {
-        DecayedVelocities after;                  //!< what became of the velocity before it
-        Matrix6d motion{Matrix6d::Zero()};        //!< covariance of the motion, given that velocity
-        Matrix6d velocity{Matrix6d::Zero()};      //!< covariance of the velocity before it
-        Vector6d velocityGain{Vector6d::Zero()};  //!< what its variance gains on the way
+        DecayedVelocities after;              //!< what became of the velocity before it
+        Matrix6d velocity{Matrix6d::Zero()};  //!< covariance of the velocity before it
+        /** Covariance of the motion and of the velocity after it, given that velocity. */
+        Matrix12d noise{Matrix12d::Zero()};
     };
 
     /** Adds a frame that was not measured. The error of the velocity stays that of the frame

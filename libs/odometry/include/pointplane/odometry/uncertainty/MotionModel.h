@@ -86,9 +86,6 @@ class MotionModel
     /** Covariance of velocity() [m/s, rad/s]. */
     [[nodiscard]] Matrix6d velocityCov() const;
 
-    /** Variance that the velocity gains in `dt` [s]. */
-    [[nodiscard]] Vector6d velocityGain(double dt) const;
-
     /** What becomes of pose and velocity in `dt` [s]. */
     [[nodiscard]] DecayedVelocities after(double dt) const;
 
@@ -102,9 +99,9 @@ class MotionModel
      * an acceleration lasts, the pose tells the velocity better than white acceleration would. */
     [[nodiscard]] Matrix12d processNoise(double dt) const;
 
-    /** Covariance of the pose after `dt` [s] if the velocity is known: by white acceleration and by
-     * a sudden one. */
-    [[nodiscard]] Matrix6d unforeseen(double dt) const;
+    /** Covariance of pose and velocity after `dt` [s] if the velocity before is known: by white
+     * acceleration and, of the pose, by a sudden one. */
+    [[nodiscard]] Matrix12d unforeseen(double dt) const;
 
     /** Covariance of the pose by a sudden acceleration, over `dt` [s]. */
     [[nodiscard]] Matrix6d jerk(double dt) const;
@@ -145,6 +142,8 @@ class MotionModel
     void reset();
 
  private:
+    /** Variance that the velocity gains in `dt` [s]. */
+    [[nodiscard]] Vector6d velocityGain(double dt) const;
     [[nodiscard]] MotionGaussian predictFrom(
         const Vector6d& velocity, const Matrix12d& cov, double dt) const;
     void learn(const Vector6d& square, double dt, Vector6d& meanSquare) const;
