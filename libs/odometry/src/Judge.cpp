@@ -88,6 +88,9 @@ double evidence(const Alignment& alignment, const NoiseFactors& usual)
 /** Most points in view do not agree on a wrong motion. */
 bool mostPointsAgree(const Alignment& a) { return pointShare(a) > 0.5; }
 
+/** Fewer samples may agree by chance, as points may. */
+bool showsSurfaces(const Alignment& a) { return a.agreement.seen() >= kFewPoints; }
+
 /** Whether points in view should agree, and no more do than chance may let. */
 bool hardlyAnyPointAgrees(const Alignment& a)
 {
@@ -122,7 +125,7 @@ bool Judge::isUncertain(const PoseGaussian& predicted) const
 
 bool Judge::isConfirmed(const Alignment& a)
 {
-    return (!a.isUnforeseen && a.agreement.seen() > 0) || mostPointsAgree(a);
+    return (!a.isUnforeseen && showsSurfaces(a)) || mostPointsAgree(a);
 }
 
 bool Judge::mayBeChance(const Alignment& a) { return !isConfirmed(a) || hardlyAnyPointAgrees(a); }
@@ -159,7 +162,7 @@ bool Judge::isConvincing(const Alignment& a, const NoiseFactors& usual)
     const int worth =
         a.estimate.numPointInliers + PlanePair::dof() * static_cast<int>(a.problem.planes.size());
     const bool isSeen =
-        a.agreement.seen() > 0 ? a.agreement.fraction() > kConvincingSurfaces : mostPointsAgree(a);
+        showsSurfaces(a) ? a.agreement.fraction() > kConvincingSurfaces : mostPointsAgree(a);
     return a.holds && worth >= kFewPoints && (isConfirmed(a) || a.numSought < kFewPoints) &&
            isSeen && a.estimate.pointChi2PerDof < kConvincingRise * usual.points &&
            a.estimate.planeChi2PerDof < kConvincingRise * usual.planes;
@@ -261,7 +264,7 @@ void Judge::contradict(Alignment& alignment, const NoiseFactors& usual) const
     {
         reason << alignment.unsettled;
     }
-    else if (alignment.agreement.seen() > 0 && agreement < params_.leastAgreement)
+    else if (showsSurfaces(alignment) && agreement < params_.leastAgreement)
     {
         reason << "the depth image shows only " << std::lround(100 * agreement)
                << " % of the surfaces where the motion puts them; points and planes it comes from: "
@@ -275,9 +278,7 @@ void Judge::contradict(Alignment& alignment, const NoiseFactors& usual) const
                << alignment.numSought << ", of the surfaces " << std::lround(100 * agreement)
                << " %";
     }
-    else if (
-        alignment.estimate.planeChi2PerDof >
-        NoiseScale::kMostVariance * std::max(1.0, usual.planes))
+    else if (alignment.estimate.planeChi2PerDof > NoiseScale::kMostVariance * usual.planes)
     {
         reason << "planes are " << std::lround(std::sqrt(alignment.estimate.planeChi2PerDof))
                << " standard deviations from where the motion puts them";

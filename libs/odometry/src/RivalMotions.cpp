@@ -163,7 +163,7 @@ std::optional<Rivalry> findRivalry(
     const NoiseFactors& usual)
 {
     const double limit2 = solver.tukeySigmas() * solver.tukeySigmas();
-    const Limits limits{limit2 * std::max(1.0, usual.points), limit2 * std::max(1.0, usual.planes)};
+    const Limits limits{limit2 * usual.points, limit2 * usual.planes};
     Rivalry out;
     out.first = estimate.motion.mean;
     const auto second =
@@ -201,8 +201,8 @@ std::optional<Rivalry> findRivalry(
     out.first = first.motion.mean;
     out.second = other.motion.mean;
     split();
-    if (!areTwo() || std::max(first.pointChi2PerDof, other.pointChi2PerDof) >
-                         kMostVariance * std::max(1.0, usual.points))
+    if (!areTwo() ||
+        std::max(first.pointChi2PerDof, other.pointChi2PerDof) > kMostVariance * usual.points)
     {
         return {};
     }

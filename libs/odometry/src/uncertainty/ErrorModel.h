@@ -9,6 +9,7 @@
 #include <pointplane/odometry/uncertainty/NoiseScale.h>
 #include <pointplane/pose/PoseSolver.h>
 
+#include <algorithm>
 #include <map>
 #include <vector>
 
@@ -59,8 +60,12 @@ class ErrorModel
     /** Variance of the features, for the solver. */
     [[nodiscard]] NoiseFactors noise() const { return noise_.factors(); }
 
-    /** Variance of the residuals so far, over the propagated one. */
-    [[nodiscard]] NoiseFactors usual() const { return noise_.residuals(); }
+    /** Variance of the residuals so far, over the propagated one, which they may have at least. */
+    [[nodiscard]] NoiseFactors usual() const
+    {
+        const NoiseFactors residuals = noise_.residuals();
+        return {std::max(1.0, residuals.points), std::max(1.0, residuals.planes)};
+    }
 
     /** What was learnt of the camera. */
     [[nodiscard]] const CameraCalibrator& camera() const { return camera_; }

@@ -17,9 +17,9 @@ namespace
  * times as large. But where hands shake, the velocity by two increments errs, too. */
 constexpr double kWander = 0.01;
 
-/** Square root of the density before that is learnt [m/s, rad/s, per root of a second]. Hands with
- * a Kinect have 0.3 to 0.4 and 0.9 to 1.2; an unknown camera may have more. */
-constexpr double kFirstChange = 0.45, kFirstTurn = 2.25;
+/** Change of the velocity before that is learnt, over the least one. Hands with a Kinect have 3 to
+ * 4 and, of rotations, about 2; an unknown camera may have more. */
+constexpr double kFirstRise = 4.5;
 
 /** From the errors of pose and velocity before to those after: F in docs/theory.md. */
 Matrix12d transition(const DecayedVelocities& after)
@@ -257,7 +257,7 @@ void MotionModel::reset()
     velocity_.setZero();
     increments_.interrupt();
     elapsed_ = 0;
-    learntDensity_ = learntDensity_.cwiseMax(perAxis(kFirstChange, kFirstTurn).cwiseAbs2());
+    learntDensity_ = learntDensity_.cwiseMax(kFirstRise * kFirstRise * smallestDensity());
     speed2_ = speed2_.cwiseMax((params_.accelerationTime * sudden()).cwiseAbs2());
     cov_.setZero();
     cov_.bottomRightCorner<6, 6>() = speed2_.asDiagonal();
