@@ -56,14 +56,10 @@ Features FrontEnd::extract(const RgbdFrame& frame, FrameDiagnostics& diagnostics
 {
     Features out;
     out.frame = frame;
-    if (camera_ && !sameCamera(*camera_, frame.camera))
-    {
-        depthNoise_.reset();
-        attached_ = {};
-        marks_.forget();
-    }
-    camera_ = frame.camera;
-    depthNoise_.update(frame.depth);
+    forgetOtherCamera(frame.camera);
+    learnNoise(frame.depth);
+    diagnostics.depthNoise = depthNoise_.noise();
+    out.bend = depthNoise_.noise().sigmaRelative;
     out.depthIsNoise = isNoise(frame.depth, depthNoise_.noise());
     if (out.depthIsNoise)
     {
@@ -72,17 +68,37 @@ Features FrontEnd::extract(const RgbdFrame& frame, FrameDiagnostics& diagnostics
     }
     leaveOutAttached(out.frame, diagnostics);
     out.hasDepth = hasDepth(out.frame);
+    findFeatures(out, diagnostics);
+    return out;
+}
+
+void FrontEnd::forgetOtherCamera(const PinholeCamera& camera)
+{
+    if (camera_ && !sameCamera(*camera_, camera))
+    {
+        depthNoise_.reset();
+        attached_ = {};
+        marks_.forget();
+    }
+    camera_ = camera;
+}
+
+void FrontEnd::learnNoise(const cv::Mat& depth)
+{
+    depthNoise_.update(depth);
     planeExtractor_.setNoise(depthNoise_.noise());
     pointStage_.setNoise(depthNoise_.noise());
     imageAligner_.setNoise(depthNoise_.noise());
-    diagnostics.depthNoise = depthNoise_.noise();
-    out.bend = depthNoise_.noise().sigmaRelative;
+}
+
+void FrontEnd::findFeatures(Features& features, FrameDiagnostics& diagnostics)
+{
     const auto points = [&]
     {
         const Stopwatch watch;
         if (params_.usePoints)
         {
-            out.points = pointStage_.prepare(out.frame);
+            features.points = pointStage_.prepare(features.frame);
         }
         return watch.ms();
     };
@@ -91,12 +107,11 @@ Features FrontEnd::extract(const RgbdFrame& frame, FrameDiagnostics& diagnostics
     const Stopwatch watch;
     if (params_.usePlanes)
     {
-        out.planes = planeExtractor_.extract(out.frame.depth, frame.camera);
+        features.planes = planeExtractor_.extract(features.frame.depth, features.frame.camera);
     }
     diagnostics.msPlanes = watch.ms();
     diagnostics.msPoints = pointsMs.get();
-    diagnostics.numPlanes = static_cast<int>(out.planes.planes.size());
-    return out;
+    diagnostics.numPlanes = static_cast<int>(features.planes.planes.size());
 }
 
 void FrontEnd::leaveOutAttached(RgbdFrame& frame, FrameDiagnostics& diagnostics)

@@ -28,14 +28,9 @@ class FrontEnd
 
     [[nodiscard]] Features extract(const RgbdFrame& frame, FrameDiagnostics& diagnostics);
 
-    /** The points by which later frames are compared with this one. Takes time. */
-    [[nodiscard]] PointReference pointReference(const Features& features) const
-    {
-        return pointReference(features, features.frame);
-    }
-
-    /** The same, of what this part of the frame has depth of; key points that are matched are
-     * all of them. */
+    /** The points by which later frames are compared with this one. Takes time.
+     * \param part of the frame: corners are taken where it has depth, key points that are matched
+     * everywhere */
     [[nodiscard]] PointReference pointReference(
         const Features& features, const RgbdFrame& part) const;
 
@@ -87,6 +82,14 @@ class FrontEnd
     }
 
  private:
+    /** What is learnt of one camera is not of another. */
+    void forgetOtherCamera(const PinholeCamera& camera);
+
+    void learnNoise(const cv::Mat& depth);
+
+    /** Planes, and images that are ready for points. */
+    void findFeatures(Features& features, FrameDiagnostics& diagnostics);
+
     /** A frame without depth where marks are: no point is taken there. */
     [[nodiscard]] RgbdFrame withoutMarks(const RgbdFrame& frame) const;
 

@@ -34,15 +34,19 @@ struct Odometry::Impl
 
     OdometryResult process(const RgbdFrame& frame);
     void place(const RgbdFrame& frame, OdometryResult& result);
+    void follow(const RgbdFrame& frame, const Features& current, OdometryResult& result);
     [[nodiscard]] std::string whyUnusable(const RgbdFrame& frame);
     [[nodiscard]] std::string whyNoDepth(const RgbdFrame& frame, const Features& current) const;
-    [[nodiscard]] Reference newReference(const Features& current);
     [[nodiscard]] Alignment align(const Features& current, FrameDiagnostics& diagnostics);
+    [[nodiscard]] Reference newReference(const Features& current, const RgbdFrame& part);
     void restart(const Features& current, OdometryResult& result);
     void measure(const Features& current, Alignment& alignment, OdometryResult& result);
     [[nodiscard]] PoseAnalysis analyse(const Features& current, Alignment& alignment) const;
+    [[nodiscard]] JointCovariance::Measurement learnErrors(
+        const Features& current, const Alignment& alignment, const PoseAnalysis& analysis);
+    [[nodiscard]] bool needsKeyframe(const Features& current, const Alignment& alignment) const;
     void predict(const Features& current, OdometryResult& result);
-    void lose(double stamp, const std::string& reason, OdometryResult& result);
+    void extrapolate(TrackingStatus status, double stamp, OdometryResult& result);
 
     OdometryParams params;
     FrontEnd frontEnd;
@@ -88,42 +92,46 @@ OdometryResult Odometry::Impl::process(const RgbdFrame& frame)
     return result;
 }
 
-/** The paper's Fig. 1: extraction, matching, pose estimation, validation. */
+/** The paper's Fig. 1: extraction, then, in follow(), matching, pose estimation, validation. */
 void Odometry::Impl::place(const RgbdFrame& frame, OdometryResult& result)
 {
-    if (const std::string problem = whyUnusable(frame); !problem.empty())
+    result.reason = whyUnusable(frame);
+    if (!result.reason.empty())
     {
-        return lose(frame.stamp, problem, result);
+        return extrapolate(TrackingStatus::Lost, frame.stamp, result);
     }
     RgbdFrame own = frame;
     own.camera.isNominal = own.camera.isNominal || params.lens.nominal;
     result.reason = images.renew(own);
-    if (!track.isEmpty() && !result.reason.empty() && own.gray.empty() && !hasDepth(own))
+    const bool isFirst = track.isEmpty();
+    if (!isFirst && !result.reason.empty() && own.gray.empty() && !hasDepth(own))
     {
         // Nothing was measured: the camera, or what carries its images, has stopped.
-        result.status = TrackingStatus::Predicted;
-        result.increment = track.predict(frame.stamp);
-        return;
+        return extrapolate(TrackingStatus::Predicted, frame.stamp, result);
     }
     const Features current = frontEnd.extract(own, result.diagnostics);
     addReason(current.depthIsNoise ? "its depth image is noise" : "", result);
     shown = shownPlanes(current);
-    if (track.isEmpty() && !current.hasDepth)
+    if (isFirst && !current.hasDepth)
     {
         addReason(whyNoDepth(frame, current), result);
         addReason(
             result.reason.empty() ? "nearly all of its depth is of the robot itself" : "", result);
         addReason("a path cannot begin without depth", result);
-        return lose(frame.stamp, result.reason, result);
+        return extrapolate(TrackingStatus::Lost, frame.stamp, result);
     }
-    const std::string interruption =
-        track.isEmpty() ? "" : track.interruption(frame.stamp, frame.camera);
+    const std::string interruption = isFirst ? "" : track.interruption(frame.stamp, frame.camera);
     addReason(interruption, result);
-    if (track.isEmpty() || !interruption.empty())
+    if (isFirst || !interruption.empty())
     {
         return restart(current, result);
     }
+    follow(frame, current, result);
+}
 
+/** A frame that is compared with those before. \param frame as it came, for the reasons */
+void Odometry::Impl::follow(const RgbdFrame& frame, const Features& current, OdometryResult& result)
+{
     Alignment alignment = align(current, result.diagnostics);
     if (frontEnd.marks().learn(alignment.associations, alignment.marks, frame.camera))
     {
@@ -211,11 +219,12 @@ Reference referenceOf(const Features& current)
 }
 }  // namespace
 
-/** With all that later frames are compared by, but for what the track adds. */
-Reference Odometry::Impl::newReference(const Features& current)
+/** With all that later frames are compared by, but for what the track adds. \param part of the
+ * frame that points are taken from */
+Reference Odometry::Impl::newReference(const Features& current, const RgbdFrame& part)
 {
     Reference out = referenceOf(current);
-    out.points = frontEnd.pointReference(current);
+    out.points = frontEnd.pointReference(current, part);
     out.images = frontEnd.keyframeImages(current);
     showNewPoints(out.points, shown);
     return out;
@@ -225,7 +234,7 @@ Reference Odometry::Impl::newReference(const Features& current)
 void Odometry::Impl::restart(const Features& current, OdometryResult& result)
 {
     result.status = track.isEmpty() ? TrackingStatus::First : TrackingStatus::Predicted;
-    Reference reference = newReference(current);
+    Reference reference = newReference(current, current.frame);
     if (reference.points.points.empty())
     {
         addReason(frontEnd.whyNoPoint(current.frame), result);
@@ -243,7 +252,6 @@ void Odometry::Impl::restart(const Features& current, OdometryResult& result)
 void Odometry::Impl::measure(const Features& current, Alignment& alignment, OdometryResult& result)
 {
     result.status = TrackingStatus::Tracked;
-    const double dt = alignment.predicted.dt;
     const MotionGaussian& motion = alignment.estimate.motion;
     if (alignment.observableDirections == 6 && !alignment.isOfDoubtedPoints)
     {
@@ -253,43 +261,22 @@ void Odometry::Impl::measure(const Features& current, Alignment& alignment, Odom
             {track.fromWorld(motion.mean.T_prev_cur), inverse(motion.pose()).cov});
     }
     const PoseAnalysis analysis = analyse(current, alignment);
-    const JointCovariance::Measurement measurement = errors.learn(
-        {track.references(),
-         alignment.estimate,
-         analysis,
-         dt,
-         track.motionNoise(dt),
-         track.acceleration2(),
-         errors.camera().rootMeanSquare(current.frame.shutter),
-         current.bend,
-         !alignment.isOfDoubtedPoints,
-         track.velocityCovs()});
+    const JointCovariance::Measurement measurement = learnErrors(current, alignment, analysis);
     showPairs(alignment.associations, &analysis, shown);
     shown.moving = frontEnd.findMoving(
         current, earlierViews(track, current.frame, motion.mean, errors.camera()));
-    // Without depth, it shows nothing that others could be compared with.
-    shown.isKeyframe = current.hasDepth && (track.needsKeyframe(
-                                                motion.mean.T_prev_cur,
-                                                track.overlap(alignment.associations, current)) ||
-                                            Judge::needsNewView(alignment, shown.moving));
-    Reference reference = referenceOf(current);
+    shown.isKeyframe = needsKeyframe(current, alignment);
+    Reference reference =
+        shown.isKeyframe
+            ? newReference(current, stillPart(current, shown.moving, analysis.surfaces))
+            : referenceOf(current);
     reference.surfaces = analysis.surfaces;
-    if (shown.isKeyframe)
-    {
-        reference.images = frontEnd.keyframeImages(current);
-    }
-    if (shown.isKeyframe && params.pipeline.usePoints)
-    {
-        reference.points =
-            frontEnd.pointReference(current, stillPart(current, shown.moving, analysis.surfaces));
-        showNewPoints(reference.points, shown);
-    }
     track.measure(
         {std::move(reference),
          shown.isKeyframe,
          Judge::isSurprising(alignment),
          motion,
-         dt,
+         alignment.predicted.dt,
          measurement,
          alignment.associations});
 }
@@ -307,11 +294,37 @@ PoseAnalysis Odometry::Impl::analyse(const Features& current, Alignment& alignme
     return out;
 }
 
+JointCovariance::Measurement Odometry::Impl::learnErrors(
+    const Features& current, const Alignment& alignment, const PoseAnalysis& analysis)
+{
+    const double dt = alignment.predicted.dt;
+    return errors.learn(
+        {track.references(),
+         alignment.estimate,
+         analysis,
+         dt,
+         track.motionNoise(dt),
+         track.acceleration2(),
+         errors.camera().rootMeanSquare(current.frame.shutter),
+         current.bend,
+         !alignment.isOfDoubtedPoints,
+         track.velocityCovs()});
+}
+
+bool Odometry::Impl::needsKeyframe(const Features& current, const Alignment& alignment) const
+{
+    // Without depth, it shows nothing that others could be compared with.
+    return current.hasDepth && (track.needsKeyframe(
+                                    alignment.estimate.motion.mean.T_prev_cur,
+                                    track.overlap(alignment.associations, current)) ||
+                                Judge::needsNewView(alignment, shown.moving));
+}
+
 /** A usable frame that could not be measured. */
 void Odometry::Impl::predict(const Features& current, OdometryResult& result)
 {
     result.status = TrackingStatus::Predicted;
-    std::optional<Reference> unmatched = newReference(current);
+    std::optional<Reference> unmatched = newReference(current, current.frame);
     // [P17, section Matching]: consecutive frames, whatever became of the one before.
     const bool isAdjacent = params.reference.isAdjacent();
     if (!isAdjacent && unmatched->planes.planes.empty() && unmatched->points.points.empty())
@@ -325,10 +338,10 @@ void Odometry::Impl::predict(const Features& current, OdometryResult& result)
     }
 }
 
-void Odometry::Impl::lose(double stamp, const std::string& reason, OdometryResult& result)
+/** A frame that measures nothing and leaves no reference. */
+void Odometry::Impl::extrapolate(TrackingStatus status, double stamp, OdometryResult& result)
 {
-    result.status = TrackingStatus::Lost;
-    result.reason = reason;
+    result.status = status;
     result.increment = track.predict(stamp);
 }
 

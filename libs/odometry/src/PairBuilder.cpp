@@ -142,6 +142,66 @@ struct FusedPoint
     }
     Eigen::Vector3d inPrevious, inCurrent;
 };
+
+/** The frame's motion, and what its features change by with errors of the camera. */
+struct CurrentErrors
+{
+    const Features& features;
+    const Motion& motion;
+    const ShutterCorrection shutter;
+    const Eigen::Matrix3d estimated;  //!< 1 where a time of the shutter is learnt
+};
+
+/** A reference, what its features change by with errors of the camera, and where they go. */
+struct ReferenceErrors
+{
+    const Reference& reference;
+    const ShutterCorrection shutter;
+    const ShutterCorrection rootMeanSquare;
+    const Eigen::Matrix3d estimated;
+    const Eigen::Isometry3d T_prev_ref;
+    const Vector6d velocity;
+};
+
+void addPlaneErrors(
+    const ReferenceErrors& past,
+    const CurrentErrors& current,
+    const PlaneMatch& match,
+    PlanePair& pair)
+{
+    const PinholeCamera& camera = current.features.frame.camera;
+    const PlaneFeature& ref = past.reference.planes.planes[static_cast<size_t>(match.ref)];
+    const PlaneFeature& cur = current.features.planes.planes[static_cast<size_t>(match.cur)];
+    const Eigen::Vector3d theta_m =
+        ref.plane_cam.theta_m + past.shutter.planeJacobian(ref) * past.velocity;
+    ByCamera ofRef = planeByCamera(theta_m, camera);
+    ofRef.rightCols<3>() = past.shutter.planeByShutter(ref, past.velocity) * past.estimated;
+    const Eigen::Matrix3d toPrevious = transformJacobian(past.T_prev_ref, theta_m);
+    pair.dRef_dV = toPrevious * past.rootMeanSquare.planeJacobian(ref);
+    pair.dRef_dCamera = toPrevious * ofRef;
+    pair.dCur_dCamera = planeByCamera(cur.plane_cam.theta_m, camera);
+    pair.dCur_dCamera.rightCols<3>() =
+        current.shutter.planeByShutter(cur, current.motion.velocity) * current.estimated;
+}
+
+void addPointErrors(
+    const ReferenceErrors& past,
+    const CurrentErrors& current,
+    const PointTrack& track,
+    PointPair& pair)
+{
+    const PinholeCamera& camera = current.features.frame.camera;
+    const PointFeature& ref = past.reference.points.points[static_cast<size_t>(track.ref)];
+    const FusedPoint fused(pair, current.motion);
+    ByCamera ofRef = pointByCamera(past.T_prev_ref.inverse() * fused.inPrevious, camera);
+    ofRef.rightCols<3>() = past.shutter.pointByShutter(ref, past.velocity) * past.estimated;
+    pair.dRef_dV = past.T_prev_ref.linear() * past.rootMeanSquare.pointJacobian(ref);
+    pair.dRef_dCamera = past.T_prev_ref.linear() * ofRef;
+    pair.dCur_dCamera = pointByCamera(fused.inCurrent, camera);
+    pair.dCur_dCamera.col(kVignetting) = track.cur.ofVignetting_m;
+    pair.dCur_dCamera.rightCols<3>() =
+        current.shutter.pointByShutter(track.cur, current.motion.velocity) * current.estimated;
+}
 }  // namespace
 
 void PairBuilder::build(
@@ -182,50 +242,31 @@ void PairBuilder::addCameraErrors(
     std::vector<PointPair>& points,
     std::vector<PlanePair>& planes) const
 {
-    const PinholeCamera& camera = current_.frame.camera;
-    const ShutterCorrection current(learnt_.complete(current_.frame.shutter), sizeOf(camera));
-    const Eigen::Matrix3d ofCurrent = learnt_.estimated(current_.frame.shutter).asDiagonal();
+    const cv::Size size = sizeOf(current_.frame.camera);
+    const CurrentErrors current{
+        current_,
+        motion,
+        {learnt_.complete(current_.frame.shutter), size},
+        learnt_.estimated(current_.frame.shutter).asDiagonal()};
     auto point = points.begin();
     auto plane = planes.begin();
     for (const Association& association : associations)
     {
         const Reference& reference = *association.reference;
-        const ShutterCorrection past(learnt_.complete(reference.shutter), sizeOf(camera));
-        const ShutterCorrection most(learnt_.rootMeanSquare(reference.shutter), sizeOf(camera));
-        const Eigen::Matrix3d ofReference = learnt_.estimated(reference.shutter).asDiagonal();
-        const Eigen::Isometry3d T_prev_ref =
-            previous_.T_world_cam.inverse() * reference.T_world_cam;
-        const Eigen::Isometry3d T_ref_prev = T_prev_ref.inverse();
-        const Vector6d velocity = reference.velocity.value_or(motion.velocity);
+        const ReferenceErrors past{
+            reference,
+            {learnt_.complete(reference.shutter), size},
+            {learnt_.rootMeanSquare(reference.shutter), size},
+            learnt_.estimated(reference.shutter).asDiagonal(),
+            previous_.T_world_cam.inverse() * reference.T_world_cam,
+            reference.velocity.value_or(motion.velocity)};
         for (const PlaneMatch& match : association.planes)
         {
-            const PlaneFeature& ref = reference.planes.planes[static_cast<size_t>(match.ref)];
-            const PlaneFeature& cur = current_.planes.planes[static_cast<size_t>(match.cur)];
-            const Eigen::Vector3d theta_m =
-                ref.plane_cam.theta_m + past.planeJacobian(ref) * velocity;
-            ByCamera ofRef = planeByCamera(theta_m, camera);
-            ofRef.rightCols<3>() = past.planeByShutter(ref, velocity) * ofReference;
-            const Eigen::Matrix3d toPrevious = transformJacobian(T_prev_ref, theta_m);
-            plane->dRef_dV = toPrevious * most.planeJacobian(ref);
-            plane->dRef_dCamera = toPrevious * ofRef;
-            plane->dCur_dCamera = planeByCamera(cur.plane_cam.theta_m, camera);
-            plane->dCur_dCamera.rightCols<3>() =
-                current.planeByShutter(cur, motion.velocity) * ofCurrent;
-            ++plane;
+            addPlaneErrors(past, current, match, *plane++);
         }
         for (const PointTrack& track : association.points)
         {
-            const PointFeature& ref = reference.points.points[static_cast<size_t>(track.ref)];
-            const FusedPoint fused(*point, motion);
-            ByCamera ofRef = pointByCamera(T_ref_prev * fused.inPrevious, camera);
-            ofRef.rightCols<3>() = past.pointByShutter(ref, velocity) * ofReference;
-            point->dRef_dV = T_prev_ref.linear() * most.pointJacobian(ref);
-            point->dRef_dCamera = T_prev_ref.linear() * ofRef;
-            point->dCur_dCamera = pointByCamera(fused.inCurrent, camera);
-            point->dCur_dCamera.col(kVignetting) = track.cur.ofVignetting_m;
-            point->dCur_dCamera.rightCols<3>() =
-                current.pointByShutter(track.cur, motion.velocity) * ofCurrent;
-            ++point;
+            addPointErrors(past, current, track, *point++);
         }
     }
 }

@@ -90,6 +90,29 @@ std::vector<Side> sides(
     return out;
 }
 
+/** Finds out which pairs go with which of the two motions. */
+void takeSides(
+    const PoseSolver& solver, const PoseProblem& problem, const Limits& limits, Rivalry& rivalry)
+{
+    const PairNorms first = solver.norms(problem, rivalry.first);
+    const PairNorms second = solver.norms(problem, rivalry.second);
+    rivalry.points = sides(first.points, second.points, limits.points);
+    rivalry.planes = sides(first.planes, second.planes, limits.planes);
+}
+
+/** One of the two motions, by all pairs that agree with it. */
+PoseEstimate refined(
+    const PoseSolver& solver, const PoseProblem& problem, const Rivalry& rivalry, Side own)
+{
+    const auto goes = [own](Side side) { return side == own || side == Side::Both; };
+    const PoseProblem ofOwn{
+        chosen(problem.points, [&](size_t i) { return goes(rivalry.points[i]); }),
+        chosen(problem.planes, [&](size_t i) { return goes(rivalry.planes[i]); }),
+        problem.prior,
+        problem.noise};
+    return solver.solve(ofOwn, own == Side::First ? rivalry.first : rivalry.second);
+}
+
 /** Whether a reference tells two motions apart, by enough of its points that agree with any. Both
  * motions need points there: else it is the reference's own pose that is off. */
 bool areDistinct(const std::vector<PointPair>& points, const std::vector<Side>& sides)
@@ -164,44 +187,26 @@ std::optional<Rivalry> findRivalry(
 {
     const double limit2 = solver.tukeySigmas() * solver.tukeySigmas();
     const Limits limits{limit2 * usual.points, limit2 * usual.planes};
-    Rivalry out;
-    out.first = estimate.motion.mean;
     const auto second =
         limit2 > 0 ? secondMotion(solver, problem, estimate, limits.points) : std::nullopt;
     if (!second)
     {
         return {};
     }
+    Rivalry out;
+    out.first = estimate.motion.mean;
     out.second = *second;
-    const auto split = [&]
-    {
-        const PairNorms first = solver.norms(problem, out.first);
-        const PairNorms other = solver.norms(problem, out.second);
-        out.points = sides(first.points, other.points, limits.points);
-        out.planes = sides(first.planes, other.planes, limits.planes);
-    };
-    const auto refined = [&](Side own, const Motion& start)
-    {
-        const auto goes = [own](Side side) { return side == own || side == Side::Both; };
-        const PoseProblem ofOwn{
-            chosen(problem.points, [&](size_t i) { return goes(out.points[i]); }),
-            chosen(problem.planes, [&](size_t i) { return goes(out.planes[i]); }),
-            problem.prior,
-            problem.noise};
-        return solver.solve(ofOwn, start);
-    };
-    const auto areTwo = [&] { return areDistinct(problem.points, out.points); };
-    split();
-    if (!areTwo())
+    takeSides(solver, problem, limits, out);
+    if (!areDistinct(problem.points, out.points))
     {
         return {};
     }
-    const PoseEstimate first = refined(Side::First, out.first);
-    const PoseEstimate other = refined(Side::Second, out.second);
+    const PoseEstimate first = refined(solver, problem, out, Side::First);
+    const PoseEstimate other = refined(solver, problem, out, Side::Second);
     out.first = first.motion.mean;
     out.second = other.motion.mean;
-    split();
-    if (!areTwo() ||
+    takeSides(solver, problem, limits, out);
+    if (!areDistinct(problem.points, out.points) ||
         std::max(first.pointChi2PerDof, other.pointChi2PerDof) > kMostVariance * usual.points)
     {
         return {};

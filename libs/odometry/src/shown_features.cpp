@@ -62,6 +62,38 @@ void keepEachOnce(std::vector<FrameFeatures::Point>& points)
     }
     points.erase(end, points.end());
 }
+
+/** Of what several references tell of a plane, the most holds. */
+void showPlane(const PlaneMatch& match, FeatureUse use, FrameFeatures& shown)
+{
+    FeatureUse& most = shown.planeUses.at(static_cast<size_t>(match.cur));
+    most = std::min(most, use);
+}
+
+void showPoint(const PointTrack& track, FeatureUse use, FrameFeatures& shown)
+{
+    shown.points.push_back({track.cur.uv_px, use});
+}
+
+/** What was found again, but the pose does not depend on. */
+void showLeftOut(const Association& association, FrameFeatures& shown)
+{
+    for (const PlaneMatch& match : association.movingPlanes)
+    {
+        showPlane(match, FeatureUse::Rejected, shown);
+    }
+    for (const auto* rejected : {&association.movingPoints, &association.fixedPoints})
+    {
+        for (const PointTrack& track : *rejected)
+        {
+            showPoint(track, FeatureUse::Rejected, shown);
+        }
+    }
+    for (const PointTrack& track : association.doubtedPoints)
+    {
+        showPoint(track, FeatureUse::Doubted, shown);
+    }
+}
 }  // namespace
 
 FrameFeatures shownPlanes(const Features& current)
@@ -86,34 +118,17 @@ void showPairs(
     {
         for (const PlaneMatch& match : association.planes)
         {
-            FeatureUse& use = shown.planeUses.at(static_cast<size_t>(match.cur));
-            use = std::min(
-                use,
-                analysis ? useOf(analysis->planeWeights.at(j++) / bestPlane)
-                         : FeatureUse::Rejected);
+            const FeatureUse use =
+                analysis ? useOf(analysis->planeWeights.at(j++) / bestPlane) : FeatureUse::Rejected;
+            showPlane(match, use, shown);
         }
         for (const PointTrack& track : association.points)
         {
-            shown.points.push_back(
-                {track.cur.uv_px,
-                 analysis ? useOf(analysis->pointWeights.at(i++)) : FeatureUse::Rejected});
+            const FeatureUse use =
+                analysis ? useOf(analysis->pointWeights.at(i++)) : FeatureUse::Rejected;
+            showPoint(track, use, shown);
         }
-        for (const PlaneMatch& match : association.movingPlanes)
-        {
-            FeatureUse& use = shown.planeUses.at(static_cast<size_t>(match.cur));
-            use = std::min(use, FeatureUse::Rejected);
-        }
-        for (const auto* rejected : {&association.movingPoints, &association.fixedPoints})
-        {
-            for (const PointTrack& track : *rejected)
-            {
-                shown.points.push_back({track.cur.uv_px, FeatureUse::Rejected});
-            }
-        }
-        for (const PointTrack& track : association.doubtedPoints)
-        {
-            shown.points.push_back({track.cur.uv_px, FeatureUse::Doubted});
-        }
+        showLeftOut(association, shown);
     }
     keepEachOnce(shown.points);
 }
