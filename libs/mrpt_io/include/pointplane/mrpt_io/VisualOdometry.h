@@ -21,10 +21,8 @@ namespace pointplane
  *     std::cout << r.pose << pointplane::toString(r.status);
  *
  * One object per camera, observations in order of time: those of another sensorLabel than the first
- * one's are Lost. Not thread-safe. A frame that cannot be
- * used is Lost with a reason, never an exception. Logs at LVL_DEBUG per frame, LVL_WARN when not
- * tracked.
- */
+ * one's are Lost. A frame that cannot be used is Lost with a reason, never an exception. Not
+ * thread-safe. Logs at LVL_DEBUG per frame, LVL_WARN when not tracked. */
 class VisualOdometry : public mrpt::system::COutputLogger
 {
  public:

@@ -45,7 +45,7 @@ struct LearntLens
 /** What happened inside one frame. */
 struct FrameDiagnostics
 {
-    int numPoints{0};               //!< points with depth, found again or new, each once
+    int numPoints{0};               //!< points found again, or new ones with depth, each once
     int numPlanes{0};               //!< planes extracted
     int numPointPairs{0};           //!< matched to a reference
     int numPlanePairs{0};           //!< matched to a reference

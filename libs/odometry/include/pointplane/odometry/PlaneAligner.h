@@ -38,6 +38,6 @@ class PlaneAligner
     /** @} */
 
  private:
-    double angle_, distance_;
+    double angle_, distance_;  //!< [rad], [m]
 };
 }  // namespace pointplane

@@ -12,7 +12,7 @@ namespace pointplane
  *
  * The camera moves as T_world_cam(t) = T_world_cam(stamp) exp((t - stamp) V), V = [rho; omega] in
  * the camera frame [m/s, rad/s], constant over the readout. A pixel is exposed at s =
- * delay + f readout with f = readoutFraction(), v/h - 1/2 in row v of height h. */
+ * delay + f readout with f = readoutFraction(). */
 class ShutterCorrection
 {
  public:

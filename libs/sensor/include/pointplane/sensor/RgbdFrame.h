@@ -10,8 +10,9 @@
 
 namespace pointplane
 {
-/** When pixels of both images are exposed: at stamp + delay + readoutFraction() * readout, which is
- * v / height - 1/2 in row v. delay = 0 for colour. NaN = not known. */
+/** When pixels of both images are exposed: at stamp + delay + f readout with f = readoutFraction(),
+ * which is v / height - 1/2 in row v unless images are upright. delay = 0 for colour. NaN = not
+ * known. */
 struct ShutterModel
 {
     static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
