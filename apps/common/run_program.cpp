@@ -130,6 +130,20 @@ void runOnOwnStack(Call& call)
     return text;
 }
 
+/** Whole numbers are whole, and nothing is empty. */
+void checkValues(CLI::App& command)
+{
+    for (CLI::Option* option : command.get_options())
+    {
+        const std::string type = option->get_type_name();
+        if (type.rfind("INT", 0) == 0 || type.rfind("UINT", 0) == 0)
+        {
+            option->transform(isWhole(type[0] == 'I'));
+        }
+        option->check(isNotEmpty());
+    }
+}
+
 /** Of the current exception. \return the exit code */
 int report(const std::string& program, std::ostream& err)
 {
@@ -196,15 +210,7 @@ int runCommand(
     for (CLI::App* command : commands)
     {
         command->formatter(std::make_shared<HelpFormatter>(columns));
-        for (CLI::Option* option : command->get_options())
-        {
-            const std::string type = option->get_type_name();
-            if (type.rfind("INT", 0) == 0 || type.rfind("UINT", 0) == 0)
-            {
-                option->transform(isWhole(type[0] == 'I'));
-            }
-            option->check(isNotEmpty());
-        }
+        checkValues(*command);
     }
     try
     {

@@ -89,6 +89,35 @@ int convertTum(
     }
     return report(summary, output, notes, out, err);
 }
+
+int convertByCommand(
+    const CLI::App& app, const ConvertOptions& options, std::ostream& out, std::ostream& err)
+{
+    OutputGuard guard;
+    if (app.got_subcommand("folder"))
+    {
+        FolderRecording recording(options.folder);
+        guard.addInputFolder(options.folder.folder);
+        guard.addInput(options.folder.camera);
+        return convert(recording, options.output, guard, out, err);
+    }
+    if (app.got_subcommand("klg"))
+    {
+        KlgRecording recording(options.klg);
+        guard.addInput(options.klg.file);
+        guard.addInput(options.klg.camera);
+        return convert(recording, options.output, guard, out, err);
+    }
+    if (app.got_subcommand("bag"))
+    {
+        const auto recording = openBag(options.bag);
+        guard.addInput(options.bag.file);
+        guard.addInput(options.bag.camera);
+        return convert(*recording, options.output, guard, out, err);
+    }
+    TumRecording recording(options.tum);
+    return convertTum(recording, options.output, out, err);
+}
 }  // namespace
 
 int runConvert(const std::vector<std::string>& args, std::ostream& out, std::ostream& err)
@@ -98,38 +127,7 @@ int runConvert(const std::vector<std::string>& args, std::ostream& out, std::ost
     app.require_subcommand(1);
     ConvertOptions options;
     addConvertCommands(app, options);
-    const RecordingOutput& output = options.output;
     return runCommand(
-        app,
-        args,
-        out,
-        err,
-        [&]
-        {
-            OutputGuard guard;
-            if (app.got_subcommand("folder"))
-            {
-                FolderRecording recording(options.folder);
-                guard.addInputFolder(options.folder.folder);
-                guard.addInput(options.folder.camera);
-                return convert(recording, output, guard, out, err);
-            }
-            if (app.got_subcommand("klg"))
-            {
-                KlgRecording recording(options.klg);
-                guard.addInput(options.klg.file);
-                guard.addInput(options.klg.camera);
-                return convert(recording, output, guard, out, err);
-            }
-            if (app.got_subcommand("bag"))
-            {
-                const auto recording = openBag(options.bag);
-                guard.addInput(options.bag.file);
-                guard.addInput(options.bag.camera);
-                return convert(*recording, output, guard, out, err);
-            }
-            TumRecording recording(options.tum);
-            return convertTum(recording, output, out, err);
-        });
+        app, args, out, err, [&] { return convertByCommand(app, options, out, err); });
 }
 }  // namespace pointplane

@@ -4,7 +4,6 @@
 #include <pointplane/mrpt_io/ScanWriter.h>
 #include <pointplane/mrpt_io/errors.h>
 
-#include <cstddef>
 #include <limits>
 #include <optional>
 #include <string>

@@ -18,6 +18,16 @@ namespace
 {
     return text.find(part) != std::string::npos;
 }
+
+[[nodiscard]] bool isInfrared(const ImageTopic& topic)
+{
+    return contains(topic.name, "nfra") || contains(topic.name, "/ir/");
+}
+
+[[nodiscard]] bool isNamedColour(const ImageTopic& topic)
+{
+    return contains(topic.name, "color") || contains(topic.name, "rgb");
+}
 }  // namespace
 
 bool ImageTopic::isRegistered() const
@@ -72,12 +82,10 @@ ImageTopic chosenTopic(
         {
             return topic;
         }
-        const bool isInfrared = contains(topic.name, "nfra") || contains(topic.name, "/ir/");
-        if (topic.kind == kind && !isInfrared)
+        if (topic.kind == kind && !isInfrared(topic))
         {
             candidates.push_back(topic);
-            if (isDepth ? topic.isRegistered()
-                        : contains(topic.name, "color") || contains(topic.name, "rgb"))
+            if (isDepth ? topic.isRegistered() : isNamedColour(topic))
             {
                 preferred.push_back(topic);
             }

@@ -5,7 +5,6 @@
 
 #include <filesystem>
 #include <optional>
-#include <vector>
 
 #include "tum_camera.h"
 #include <nlohmann/json_fwd.hpp>

@@ -61,8 +61,8 @@ const std::string kRight = "_RIGHT";
     return out;
 }
 
-/** One line: fx fy cx cy k1 k2 p1 p2 k3 width height unitsPerMetre. Nothing if it is not that. */
-[[nodiscard]] std::optional<TumCamera> fromLine(const std::string& path)
+/** All numbers of a text, in which # begins a comment. Nothing if another word is in it. */
+[[nodiscard]] std::optional<std::vector<double>> numbersIn(const std::string& path)
 {
     std::ifstream file(path);
     skipByteOrderMark(file);
@@ -83,10 +83,18 @@ const std::string kRight = "_RIGHT";
         }
     }
     requireRead(file, path);
-    if (numbers.size() != 12)
+    return numbers;
+}
+
+/** One line: fx fy cx cy k1 k2 p1 p2 k3 width height unitsPerMetre. Nothing if it is not that. */
+[[nodiscard]] std::optional<TumCamera> fromLine(const std::string& path)
+{
+    const auto read = numbersIn(path);
+    if (!read || read->size() != 12)
     {
         return {};
     }
+    const std::vector<double>& numbers = *read;
     constexpr double kLargest = 65535;
     for (const double side : {numbers[9], numbers[10]})
     {

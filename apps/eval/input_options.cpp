@@ -8,7 +8,6 @@
 #include <pointplane/evaluation/units.h>
 
 #include <algorithm>
-#include <cmath>
 #include <ostream>
 #include <sstream>
 #include <stdexcept>

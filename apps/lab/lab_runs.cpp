@@ -108,6 +108,39 @@ double sizeOf(const std::string& path)
     return error ? 1.0 : 1.0 + static_cast<double>(bytes);
 }
 
+/** The runs that no earlier one is like, as processes. */
+struct LabJobs
+{
+    std::vector<std::size_t> runs;
+    std::vector<std::string> trajectories;  //!< that they write
+    std::vector<ProcessJob> processes;
+    double bytes{0};  //!< sizeOf() all
+};
+
+/** \param sameAs firstAlike() of the runs */
+LabJobs jobsOf(
+    const std::vector<LabRun>& runs,
+    const std::vector<std::size_t>& sameAs,
+    const std::string& program,
+    const WorkDirectory& work)
+{
+    LabJobs out;
+    for (std::size_t k = 0; k < runs.size(); ++k)
+    {
+        if (sameAs[k] == k)
+        {
+            const std::string base = fileName(k, runs[k].name);
+            out.runs.push_back(k);
+            out.trajectories.push_back(work.fileAt(base + ".txt"));
+            out.processes.push_back(
+                {odometryCommand(program, runs[k], out.trajectories.back()),
+                 work.fileAt(base + ".log")});
+            out.bytes += sizeOf(runs[k].rawlog);
+        }
+    }
+    return out;
+}
+
 std::string temporaryFolder()
 {
     std::error_code error;
@@ -226,41 +259,30 @@ std::vector<LabScore> LabRunner::run(
     std::ostream& err) const
 {
     const std::vector<std::size_t> sameAs = firstAlike(runs);
-    std::vector<std::size_t> made;  // runs that no earlier one is like
-    std::vector<ProcessJob> processes;
-    std::vector<std::string> trajectories;
-    double bytesLeft = 0;
-    for (std::size_t k = 0; k < runs.size(); ++k)
-    {
-        if (sameAs[k] == k)
-        {
-            const std::string base = fileName(k, runs[k].name);
-            made.push_back(k);
-            trajectories.push_back(work.fileAt(base + ".txt"));
-            processes.push_back(
-                {odometryCommand(program(), runs[k], trajectories.back()),
-                 work.fileAt(base + ".log")});
-            bytesLeft += sizeOf(runs[k].rawlog);
-        }
-    }
-
+    const LabJobs made = jobsOf(runs, sameAs, program(), work);
     std::vector<LabScore> scores(runs.size());
-    const double bytes = bytesLeft;
+    double bytesLeft = made.bytes;
     std::size_t done = 0;
     const auto start = std::chrono::steady_clock::now();
     runProcesses(
-        processes,
+        made.processes,
         parallel(),
         [&](std::size_t job, int exitCode)
         {
-            const LabRun& run = runs[made[job]];
-            LabScore& score = scores[made[job]];
-            score = scoreOf(run, trajectories[job], processes[job].logPath, exitCode, rpe);
+            const LabRun& run = runs[made.runs[job]];
+            LabScore& score = scores[made.runs[job]];
+            score =
+                scoreOf(run, made.trajectories[job], made.processes[job].logPath, exitCode, rpe);
             ++done;
             bytesLeft -= sizeOf(run.rawlog);
             const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-            const double left = elapsed.count() * bytesLeft / std::max(1.0, bytes - bytesLeft);
-            err << format("[%zu/%zu, %.0f s left] %s: ", done, made.size(), left, run.name.c_str())
+            const double left = elapsed.count() * bytesLeft / std::max(1.0, made.bytes - bytesLeft);
+            err << format(
+                       "[%zu/%zu, %.0f s left] %s: ",
+                       done,
+                       made.runs.size(),
+                       left,
+                       run.name.c_str())
                 << scoreText(score) << (score.rpe ? "" : " (" + score.failure + ")") << std::endl;
         });
     for (std::size_t k = 0; k < runs.size(); ++k)

@@ -191,31 +191,34 @@ SourceItem FrameSource::item(const mrpt::obs::CObservation::Ptr& observation)
         }
         return out;
     }
-    const auto scan = std::dynamic_pointer_cast<CObservation3DRangeScan>(observation);
-    if (!scan)
+    if (const auto scan = std::dynamic_pointer_cast<CObservation3DRangeScan>(observation))
     {
-        return out;
+        addFrame(*scan, out);
     }
-    if (makeExternalsAbsolute(*scan, reader_->externalsDirectory()))
+    return out;
+}
+
+void FrameSource::addFrame(CObservation3DRangeScan& scan, SourceItem& out)
+{
+    if (makeExternalsAbsolute(scan, reader_->externalsDirectory()))
     {
         out.record.reset();
     }
-    checkExternals(*scan);
-    ++framesOf_[scan->sensorLabel];
+    checkExternals(scan);
+    ++framesOf_[scan.sensorLabel];
     if (label_.empty() && numFrames_ == 0)
     {
-        label_ = scan->sensorLabel;
+        label_ = scan.sensorLabel;
     }
-    if (scan->sensorLabel == label_)
+    if (scan.sensorLabel == label_)
     {
         out.frameIndex = numFrames_++;
         if (out.frameIndex >= options_.first)
         {
-            out.converted = converter_.convert(*scan);
+            out.converted = converter_.convert(scan);
             isNominal_ = isNominal_ || out.converted->frame.camera.isNominal;
         }
     }
-    return out;
 }
 
 bool FrameSource::hasAllFrames() const

@@ -65,6 +65,8 @@ class FrameSource
     [[nodiscard]] static bool isMark(const mrpt::obs::CObservation& observation);
     [[nodiscard]] bool isOfEarlierRun(const mrpt::obs::CObservation& observation) const;
     [[nodiscard]] SourceItem item(const mrpt::obs::CObservation::Ptr& observation);
+    /** Converts the scan, if it is of the camera in question and not before the first frame. */
+    void addFrame(mrpt::obs::CObservation3DRangeScan& scan, SourceItem& out);
     [[nodiscard]] bool hasAllFrames() const;
     void skip(SourceItem item);
     void deliver(SourceItem item);

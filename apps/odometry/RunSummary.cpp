@@ -14,6 +14,18 @@
 
 namespace pointplane
 {
+namespace
+{
+void addTimes(const FrameDiagnostics& frame, FrameDiagnostics& sum)
+{
+    sum.msPoints += frame.msPoints;
+    sum.msPlanes += frame.msPlanes;
+    sum.msMatching += frame.msMatching;
+    sum.msPose += frame.msPose;
+    sum.msTotal += frame.msTotal;
+}
+}  // namespace
+
 void RunSummary::add(const OutputItem& item)
 {
     const RobotMotion& motion = item.frame->motion;
@@ -46,11 +58,7 @@ void RunSummary::add(const OutputItem& item)
     attachedShare = std::max(attachedShare, motion.diagnostics.attachedShare);
     pathLength += motion.increment.mean.norm();
     const FrameDiagnostics& d = motion.diagnostics;
-    sum.msPoints += d.msPoints;
-    sum.msPlanes += d.msPlanes;
-    sum.msMatching += d.msMatching;
-    sum.msPose += d.msPose;
-    sum.msTotal += d.msTotal;
+    addTimes(d, sum);
     if (isMeasured(motion.status))
     {
         if (d.lens.isContradicted && !firstContradicted)

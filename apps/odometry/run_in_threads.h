@@ -19,6 +19,20 @@ struct Closer
 template <class T>
 Closer(BoundedQueue<T>&) -> Closer<T>;
 
+/** Passes items on until there is none, or none is taken any more.
+ * \param next () -> std::optional<Item> \param take (Item) -> bool */
+template <class Next, class Take>
+void passOn(const Next& next, const Take& take)
+{
+    while (auto item = next())
+    {
+        if (!take(std::move(*item)))
+        {
+            return;
+        }
+    }
+}
+
 /** Each of the three in a thread of its own, item after item. The first that throws ends the
  * others, and its exception is thrown here.
  * \param read () -> std::optional<In>, nothing at the end \param work (In) -> Out
@@ -36,13 +50,7 @@ void runInThreads(const Read& read, const Work& work, const Write& write)
         [&]
         {
             const Closer closer{waiting};
-            while (auto item = read())
-            {
-                if (!waiting.push(std::move(*item)))
-                {
-                    return;
-                }
-            }
+            passOn(read, [&](In item) { return waiting.push(std::move(item)); });
         });
     const Closer endsReader{waiting};  // where there is no memory for another thread
     auto writer = std::async(
@@ -62,13 +70,9 @@ void runInThreads(const Read& read, const Work& work, const Write& write)
         {
             const Closer closesOut{done};
             const Closer closesIn{waiting};
-            while (auto item = waiting.pop())
-            {
-                if (!done.push(work(std::move(*item))))
-                {
-                    return;
-                }
-            }
+            passOn(
+                [&] { return waiting.pop(); },
+                [&](In item) { return done.push(work(std::move(item))); });
         });
     worker.wait();
     reader.wait();

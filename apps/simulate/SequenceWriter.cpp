@@ -109,6 +109,22 @@ void writeMasks(const SimulatedSequence& sequence, const std::string& folder)
     return text;
 }
 
+/** Before anything is written. */
+void guardOutputs(const SequenceOutput& output, const std::string& truth)
+{
+    OutputGuard guard;
+    guard.addRawlog("-o", output.path);
+    guard.addGroundTruth(output.path, truth);
+    if (output.external)
+    {
+        guard.addFolderBeside("images of -o", output.path, imagesFolderOf(output.path));
+    }
+    if (output.masks)
+    {
+        guard.addFolderBeside("masks of -o", output.path, masksFolderOf(output.path));
+    }
+}
+
 /** Where masks go, if they are asked for. After the rawlog: who writes that has them to himself. */
 [[nodiscard]] std::unique_ptr<ImagesFolder> openMasks(
     const SequenceOutput& output, ScanWriter& writer)
@@ -166,18 +182,8 @@ std::string masksFolderOf(const std::string& rawlog)
 void writeSequence(
     const SimulatedSequence& sequence, const SequenceOutput& output, std::ostream& progress)
 {
-    OutputGuard guard;
-    guard.addRawlog("-o", output.path);
     const std::string truth = groundTruthText(sequence, output);
-    guard.addGroundTruth(output.path, truth);
-    if (output.external)
-    {
-        guard.addFolderBeside("images of -o", output.path, imagesFolderOf(output.path));
-    }
-    if (output.masks)
-    {
-        guard.addFolderBeside("masks of -o", output.path, masksFolderOf(output.path));
-    }
+    guardOutputs(output, truth);
     ScanWriter writer(output.path, output.label, output.external);
     const std::unique_ptr<ImagesFolder> masks = openMasks(output, writer);
     try

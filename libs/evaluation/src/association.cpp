@@ -23,6 +23,81 @@ Eigen::Isometry3d interpolated(
                        .toRotationMatrix();
     return out;
 }
+
+struct Candidate
+{
+    double difference;  //!< of the stamps [s]
+    std::size_t first, second;
+
+    [[nodiscard]] bool operator<(const Candidate& other) const
+    {
+        return std::tie(difference, first, second) <
+               std::tie(other.difference, other.first, other.second);
+    }
+};
+
+/** All pairs of stamps that are near enough, the nearest first. */
+std::vector<Candidate> candidatesOf(
+    const std::vector<double>& first,
+    const std::vector<double>& second,
+    double offset,
+    double maxDifference)
+{
+    std::vector<Candidate> out;
+    std::size_t begin = 0;
+    for (std::size_t i = 0; i < first.size(); ++i)
+    {
+        while (begin < second.size() && second[begin] + offset <= first[i] - maxDifference)
+        {
+            ++begin;
+        }
+        // One step further to each side: the comparison that counts is the script's own, below.
+        for (std::size_t j = begin > 0 ? begin - 1 : 0; j < second.size(); ++j)
+        {
+            const double difference = std::abs(first[i] - (second[j] + offset));
+            if (difference < maxDifference)
+            {
+                out.push_back({difference, i, j});
+            }
+            else if (second[j] + offset > first[i] + maxDifference)
+            {
+                break;
+            }
+        }
+    }
+    std::sort(out.begin(), out.end());
+    return out;
+}
+
+/** Puts the truth at a stamp in the place of the nearest one, if it is known before and after.
+ * \param i of the stamp in `out` */
+void interpolate(
+    const Trajectory& groundTruth,
+    const std::vector<bool>& holes,
+    double stamp,
+    std::size_t i,
+    SampledTruth& out)
+{
+    const std::vector<double>& truth = groundTruth.stamps;
+    const auto after = std::upper_bound(truth.begin(), truth.end(), stamp);
+    if (after == truth.begin() || after == truth.end())
+    {
+        out.valid[i] = 0;
+        return;
+    }
+    const auto k = static_cast<std::size_t>(after - truth.begin());
+    if (holes[k])
+    {
+        out.valid[i] = std::abs(out.stamps[i] - stamp) <= kSameTime ? 1 : 0;
+        return;
+    }
+    out.stamps[i] = stamp;
+    out.isOfOtherTime[i] = 0;
+    out.poses[i] = interpolated(
+        groundTruth.poses[k - 1],
+        groundTruth.poses[k],
+        (stamp - truth[k - 1]) / (truth[k] - truth[k - 1]));
+}
 }  // namespace
 
 std::size_t nearestIndex(const std::vector<double>& sorted, double value)
@@ -63,34 +138,10 @@ std::vector<std::pair<std::size_t, std::size_t>> associate(
     double offset,
     double maxDifference)
 {
-    std::vector<std::tuple<double, std::size_t, std::size_t>> candidates;
-    std::size_t begin = 0;
-    for (std::size_t i = 0; i < first.size(); ++i)
-    {
-        while (begin < second.size() && second[begin] + offset <= first[i] - maxDifference)
-        {
-            ++begin;
-        }
-        // One step further to each side: the comparison that counts is the script's own, below.
-        for (std::size_t j = begin > 0 ? begin - 1 : 0; j < second.size(); ++j)
-        {
-            const double difference = std::abs(first[i] - (second[j] + offset));
-            if (difference < maxDifference)
-            {
-                candidates.emplace_back(difference, i, j);
-            }
-            else if (second[j] + offset > first[i] + maxDifference)
-            {
-                break;
-            }
-        }
-    }
-    std::sort(candidates.begin(), candidates.end());
-
     std::vector<char> firstUsed(first.size(), 0);
     std::vector<char> secondUsed(second.size(), 0);
     std::vector<std::pair<std::size_t, std::size_t>> pairs;
-    for (const auto& [difference, i, j] : candidates)
+    for (const auto& [difference, i, j] : candidatesOf(first, second, offset, maxDifference))
     {
         if (firstUsed[i] == 0 && secondUsed[j] == 0)
         {
@@ -122,28 +173,10 @@ SampledTruth sampleTruth(
         out.valid[i] = std::abs(truth[nearest] - stamp) <= out.maxTimeDifference ? 1 : 0;
         out.isOfOtherTime[i] =
             std::abs(truth[nearest] - stamp) > 0.5 * out.maxTimeDifference - kSameTime ? 1 : 0;
-        if (at == TruthAt::NearestStamp || out.valid[i] == 0 || truth[nearest] == stamp)
+        if (at != TruthAt::NearestStamp && out.valid[i] != 0 && truth[nearest] != stamp)
         {
-            continue;
+            interpolate(groundTruth, holes, stamp, i, out);
         }
-        const auto after = std::upper_bound(truth.begin(), truth.end(), stamp);
-        if (after == truth.begin() || after == truth.end())
-        {
-            out.valid[i] = 0;
-            continue;
-        }
-        const auto k = static_cast<std::size_t>(after - truth.begin());
-        if (holes[k])
-        {
-            out.valid[i] = std::abs(truth[nearest] - stamp) <= kSameTime ? 1 : 0;
-            continue;
-        }
-        out.stamps[i] = stamp;
-        out.isOfOtherTime[i] = 0;
-        out.poses[i] = interpolated(
-            groundTruth.poses[k - 1],
-            groundTruth.poses[k],
-            (stamp - truth[k - 1]) / (truth[k] - truth[k - 1]));
     }
     return out;
 }

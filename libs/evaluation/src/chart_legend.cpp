@@ -12,51 +12,50 @@ using svg::line;
 using svg::number;
 using svg::turned;
 
+namespace
+{
+/** What stands for a series: 16 wide. \param x its left end \param y its middle */
+std::string symbolOf(const ChartSeries& series, const std::string& colour, double x, double y)
+{
+    using Style = ChartSeries::Style;
+    const auto is = [&](Style style) { return series.style == style; };
+    if (is(Style::Band) || is(Style::Bars))
+    {
+        return "<rect class=\"" + std::string(is(Style::Band) ? "band " : "bar ") + colour +
+               "\" x=\"" + number(x) + "\" y=\"" + number(y - 5) +
+               "\" width=\"16\" height=\"10\"/>\n";
+    }
+    if (is(Style::Start) || is(Style::Points))
+    {
+        return "<circle class=\"" + std::string(is(Style::Start) ? "mark " : "dot ") + colour +
+               "\" cx=\"" + number(x + 8) + "\" cy=\"" + number(y) + "\" r=\"" +
+               (is(Style::Start) ? "5" : "2.5") + "\"/>\n";
+    }
+    if (is(Style::End))
+    {
+        return "<rect class=\"mark " + colour + "\" x=\"" + number(x + 3) + "\" y=\"" +
+               number(y - 5) + "\" width=\"10\" height=\"10\"/>\n";
+    }
+    if (!series.level.empty())
+    {
+        return "<line class=\"level\" stroke=\"" + levelColour(0.5) + "\" x1=\"" + number(x) +
+               "\" y1=\"" + number(y) + "\" x2=\"" + number(x + 16) + "\" y2=\"" + number(y) +
+               "\"/>\n";
+    }
+    const std::string style = std::string(is(Style::Dashed) ? "line dashed " : "line ") + colour;
+    return line(style.c_str(), x, y, x + 16, y);
+}
+}  // namespace
+
 std::string legendOf(const ChartLayout& plot)
 {
     std::string out;
     for (const ChartLayout::LegendItem& item : plot.legend)
     {
         const ChartSeries& series = plot.chart.series[item.series];
-        const std::string colour = plot.colourOf(series, item.series);
-        const double x = item.x;
         const double y = plot.height - plot.legendHeight + item.y + 8;
-        const bool filled =
-            series.style == ChartSeries::Style::Band || series.style == ChartSeries::Style::Bars;
-        if (filled)
-        {
-            out += "<rect class=\"" +
-                   std::string(series.style == ChartSeries::Style::Band ? "band " : "bar ") +
-                   colour + "\" x=\"" + number(x) + "\" y=\"" + number(y - 5) +
-                   "\" width=\"16\" height=\"10\"/>\n";
-        }
-        else if (
-            series.style == ChartSeries::Style::Start || series.style == ChartSeries::Style::Points)
-        {
-            out += "<circle class=\"" +
-                   std::string(series.style == ChartSeries::Style::Start ? "mark " : "dot ") +
-                   colour + "\" cx=\"" + number(x + 8) + "\" cy=\"" + number(y) + "\" r=\"" +
-                   (series.style == ChartSeries::Style::Start ? "5" : "2.5") + "\"/>\n";
-        }
-        else if (series.style == ChartSeries::Style::End)
-        {
-            out += "<rect class=\"mark " + colour + "\" x=\"" + number(x + 3) + "\" y=\"" +
-                   number(y - 5) + "\" width=\"10\" height=\"10\"/>\n";
-        }
-        else if (!series.level.empty())
-        {
-            out += "<line class=\"level\" stroke=\"" + levelColour(0.5) + "\" x1=\"" + number(x) +
-                   "\" y1=\"" + number(y) + "\" x2=\"" + number(x + 16) + "\" y2=\"" + number(y) +
-                   "\"/>\n";
-        }
-        else
-        {
-            const std::string style =
-                std::string(series.style == ChartSeries::Style::Dashed ? "line dashed " : "line ") +
-                colour;
-            out += line(style.c_str(), x, y, x + 16, y);
-        }
-        out += label(series.name, x + 21, y + 4, "start");
+        out += symbolOf(series, plot.colourOf(series, item.series), item.x, y);
+        out += label(series.name, item.x + 21, y + 4, "start");
     }
     return out;
 }

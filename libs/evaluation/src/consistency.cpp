@@ -38,6 +38,35 @@ double blockNees(const NeesIncrement& increment, int start)
     const Eigen::Matrix3d C = increment.cov.block<3, 3>(start, start);
     return e.dot(C.llt().solve(e));
 }
+
+/** Means over increments. */
+struct Means
+{
+    double joint{0}, translation{0}, rotation{0};  //!< NEES
+    Vector6d perAxis{Vector6d::Zero()};            //!< likewise
+    Vector6d error{Vector6d::Zero()}, squaredError{Vector6d::Zero()}, variance{Vector6d::Zero()};
+    Matrix6d whitenedSquare{Matrix6d::Zero()};
+};
+
+Means meansOf(const std::vector<NeesIncrement>& increments)
+{
+    const double n = static_cast<double>(increments.size());
+    Means out;
+    for (const NeesIncrement& increment : increments)
+    {
+        const Vector6d z = whitened(increment);
+        const Vector6d e2 = increment.error.cwiseAbs2();
+        out.joint += increment.nees / n;
+        out.translation += blockNees(increment, 0) / n;
+        out.rotation += blockNees(increment, 3) / n;
+        out.perAxis += e2.cwiseQuotient(increment.cov.diagonal()) / n;
+        out.error += increment.error / n;
+        out.squaredError += e2 / n;
+        out.variance += increment.cov.diagonal() / n;
+        out.whitenedSquare += z * z.transpose() / n;
+    }
+    return out;
+}
 }  // namespace
 
 std::size_t countIndependent(const std::vector<NeesIncrement>& increments)
@@ -75,44 +104,23 @@ NeesResult consistencyOf(
     {
         throw std::runtime_error(problem);
     }
-    const double n = static_cast<double>(increments.size());
-    double joint = 0;
-    double translation = 0;
-    double rotation = 0;
-    Vector6d perAxis = Vector6d::Zero();
-    Vector6d sum = Vector6d::Zero();
-    Vector6d squares = Vector6d::Zero();
-    Vector6d variances = Vector6d::Zero();
-    Matrix6d secondMoment = Matrix6d::Zero();
-    for (const NeesIncrement& increment : increments)
-    {
-        const Vector6d z = whitened(increment);
-        const Vector6d e2 = increment.error.cwiseAbs2();
-        joint += increment.nees / n;
-        translation += blockNees(increment, 0) / n;
-        rotation += blockNees(increment, 3) / n;
-        perAxis += e2.cwiseQuotient(increment.cov.diagonal()) / n;
-        sum += increment.error / n;
-        squares += e2 / n;
-        variances += increment.cov.diagonal() / n;
-        secondMoment += z * z.transpose() / n;
-    }
+    const Means means = meansOf(increments);
     NeesResult out;
     out.interval = interval;
     out.increments = increments.size();
     out.independent = independent;
-    out.joint = testOf(joint, 6, independent);
-    out.translation = testOf(translation, 3, independent);
-    out.rotation = testOf(rotation, 3, independent);
+    out.joint = testOf(means.joint, 6, independent);
+    out.translation = testOf(means.translation, 3, independent);
+    out.rotation = testOf(means.rotation, 3, independent);
     for (std::size_t k = 0; k < 6; ++k)
     {
         const auto axis = static_cast<Eigen::Index>(k);
-        out.axes[k].test = testOf(perAxis[axis], 1, independent);
-        out.axes[k].meanError = sum[axis];
-        out.axes[k].rmsError = std::sqrt(squares[axis]);
-        out.axes[k].rmsSigma = std::sqrt(variances[axis]);
+        out.axes[k].test = testOf(means.perAxis[axis], 1, independent);
+        out.axes[k].meanError = means.error[axis];
+        out.axes[k].rmsError = std::sqrt(means.squaredError[axis]);
+        out.axes[k].rmsSigma = std::sqrt(means.variance[axis]);
     }
-    const Eigen::SelfAdjointEigenSolver<Matrix6d> es(secondMoment);
+    const Eigen::SelfAdjointEigenSolver<Matrix6d> es(means.whitenedSquare);
     out.whitenedEigenvalues = es.eigenvalues();
     out.mostOptimistic = es.eigenvectors().col(5);
     return out;

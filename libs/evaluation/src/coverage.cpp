@@ -79,6 +79,19 @@ class KnownTime
     std::vector<double> holes_{0};  //!< seconds of holes up to each pose
     double whole_{0};
 };
+
+void countFrames(const Trajectory& estimate, Coverage& out)
+{
+    const auto count = [&](FrameStatus status)
+    {
+        return static_cast<std::size_t>(
+            std::count(estimate.status.begin(), estimate.status.end(), status));
+    };
+    out.predicted = count(FrameStatus::Predicted);
+    out.lost = count(FrameStatus::Lost);
+    out.tracked = estimate.size() - out.predicted - out.lost;
+    out.lost += estimate.lostStamps.size() + estimate.lostWithoutTime;
+}
 }  // namespace
 
 Coverage coverageOf(const Trajectory& groundTruth, const Trajectory& estimate, double offset)
@@ -113,15 +126,7 @@ Coverage coverageOf(const Trajectory& groundTruth, const Trajectory& estimate, d
                              : truth.whole();
     out.share = whole > 0 ? std::min(1.0, counted / whole) : 0;
     out.ofTruth = truth.whole() > 0 ? std::min(1.0, seconds / truth.whole()) : 0;
-    const auto count = [&](FrameStatus status)
-    {
-        return static_cast<std::size_t>(
-            std::count(estimate.status.begin(), estimate.status.end(), status));
-    };
-    out.predicted = count(FrameStatus::Predicted);
-    out.lost = count(FrameStatus::Lost);
-    out.tracked = estimate.size() - out.predicted - out.lost;
-    out.lost += estimate.lostStamps.size() + estimate.lostWithoutTime;
+    countFrames(estimate, out);
     return out;
 }
 

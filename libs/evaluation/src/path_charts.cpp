@@ -63,16 +63,46 @@ struct PathSeries
     ChartSeries remainder;  //!< the other parts, beyond its end for example
 };
 
+/** Of a pose of the path, in the ground truth's frame [m]. */
+Eigen::Vector3d pointOf(const DrawnPath& path, std::size_t pose)
+{
+    return path.ate.T_truth_estimate * (path.scale * path.estimate.poses[pose].translation());
+}
+
+/** \param hasTruth of each pose \param isCompared of the way to each pose, and to one more */
+ChartSeries remainderOf(
+    const DrawnPath& path,
+    const PathView& view,
+    const ChartHoles& holes,
+    const std::vector<bool>& hasTruth,
+    const std::vector<bool>& isCompared)
+{
+    ChartSeries out;
+    out.name = "no ground truth";
+    out.style = ChartSeries::Style::Dashed;
+    const auto isWay = [&](std::size_t to)
+    { return to > 0 && to < path.estimate.size() && !isCompared[to] && !holes.isBefore(to); };
+    for (std::size_t k = 0; k < path.estimate.size(); ++k)
+    {
+        const bool isAlone = !hasTruth[k] && !isCompared[k] && !isCompared[k + 1];
+        if (!isWay(k))
+        {
+            interrupt(out);
+        }
+        if (isWay(k) || isWay(k + 1) || isAlone)
+        {
+            view.add(out, pointOf(path, k));
+        }
+    }
+    return out;
+}
+
 PathSeries pathSeries(const DrawnPath& path, const PathView& view)
 {
     const Trajectory& estimate = path.estimate;
     const ChartHoles holes(estimate);
-    const auto placeOf = [&](std::size_t pose) -> Eigen::Vector3d
-    { return path.ate.T_truth_estimate * (path.scale * estimate.poses[pose].translation()); };
     PathSeries out;
     out.compared.name = path.name;
-    out.remainder.name = "no ground truth";
-    out.remainder.style = ChartSeries::Style::Dashed;
     std::vector<bool> hasTruth(estimate.size(), false);
     std::vector<bool> isCompared(estimate.size() + 1, false);  // the way to each pose
     std::size_t before = path.ate.errors.front().estimate;
@@ -91,23 +121,10 @@ PathSeries pathSeries(const DrawnPath& path, const PathView& view)
         }
         before = error.estimate;
         hasTruth[before] = true;
-        view.add(out.compared, placeOf(before));
+        view.add(out.compared, pointOf(path, before));
         out.compared.level.push_back(1000 * error.translation);
     }
-    const auto isWay = [&](std::size_t to)
-    { return to > 0 && to < estimate.size() && !isCompared[to] && !holes.isBefore(to); };
-    for (std::size_t k = 0; k < estimate.size(); ++k)
-    {
-        const bool isAlone = !hasTruth[k] && !isCompared[k] && !isCompared[k + 1];
-        if (!isWay(k))
-        {
-            interrupt(out.remainder);
-        }
-        if (isWay(k) || isWay(k + 1) || isAlone)
-        {
-            view.add(out.remainder, placeOf(k));
-        }
-    }
+    out.remainder = remainderOf(path, view, holes, hasTruth, isCompared);
     return out;
 }
 

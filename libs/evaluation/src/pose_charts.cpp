@@ -127,57 +127,78 @@ std::vector<DrawnPose> estimateOf(
     return out;
 }
 
-Chart chartOf(
-    const std::vector<DrawnPose>& poses,
-    const std::vector<DrawnPose>& truths,
-    int axis,
-    bool error,
-    bool withSigma)
+/** A coordinate of the pose, or its error. */
+struct ShownAxis
 {
-    const bool angle = axis >= 3;
-    const double unit = angle ? kDegreesPerRadian : (error ? 1000 : 1);
-    Chart chart;
-    chart.small = true;
-    chart.xLabel = "time [s]";
-    chart.title = error ? (angle ? std::string("Rotation error about ") + kNames[axis - 3]
-                                 : std::string("Error of ") + kNames[axis])
-                        : kNames[axis];
-    chart.yLabel = angle ? "[deg]" : (error ? "[mm]" : "[m]");
+    int axis;
+    bool error;
+
+    [[nodiscard]] bool isAngle() const { return axis >= 3; }
+    [[nodiscard]] double unit() const { return isAngle() ? kDegreesPerRadian : (error ? 1000 : 1); }
+    [[nodiscard]] double of(const DrawnPose& pose) const
+    {
+        return (error ? pose.error : pose.pose)[axis];
+    }
+};
+
+/** Adds the poses to a line. */
+ChartSeries lineOf(const std::vector<DrawnPose>& poses, const ShownAxis& shown, ChartSeries line)
+{
+    for (const DrawnPose& pose : poses)
+    {
+        if (pose.afterHole)
+        {
+            interrupt(line);
+        }
+        line.x.push_back(pose.time);
+        line.y.push_back(shown.unit() * shown.of(pose));
+    }
+    return line;
+}
+
+/** About the estimated pose, or about no error. */
+ChartSeries bandOf(const std::vector<DrawnPose>& poses, const ShownAxis& shown)
+{
     ChartSeries band{"3 sigma", {}, {}, ChartSeries::Style::Band, false, "accent"};
-    ChartSeries estimate{
-        error ? "error" : "estimate", {}, {}, ChartSeries::Style::Line, false, "c0"};
-    ChartSeries truth{"ground truth", {}, {}, ChartSeries::Style::Dashed, false, "ink"};
     for (const DrawnPose& pose : poses)
     {
         if (pose.afterHole)
         {
             interrupt(band);
-            interrupt(estimate);
         }
-        const double middle = error ? 0 : pose.pose[axis];
+        const double middle = shown.error ? 0 : pose.pose[shown.axis];
         band.x.push_back(pose.time);
-        band.y.push_back(unit * (middle - 3 * pose.sigma[axis]));
-        band.yUpper.push_back(unit * (middle + 3 * pose.sigma[axis]));
-        estimate.x.push_back(pose.time);
-        estimate.y.push_back(unit * (error ? pose.error[axis] : pose.pose[axis]));
+        band.y.push_back(shown.unit() * (middle - 3 * pose.sigma[shown.axis]));
+        band.yUpper.push_back(shown.unit() * (middle + 3 * pose.sigma[shown.axis]));
     }
-    for (const DrawnPose& pose : truths)
-    {
-        if (pose.afterHole)
-        {
-            interrupt(truth);
-        }
-        truth.x.push_back(pose.time);
-        truth.y.push_back(unit * pose.pose[axis]);
-    }
+    return band;
+}
+
+Chart chartOf(
+    const std::vector<DrawnPose>& poses,
+    const std::vector<DrawnPose>& truths,
+    const ShownAxis& shown,
+    bool withSigma)
+{
+    const std::string name = kNames[shown.axis];
+    Chart chart;
+    chart.small = true;
+    chart.xLabel = "time [s]";
+    chart.title = !shown.error      ? name
+                  : shown.isAngle() ? std::string("Rotation error about ") + kNames[shown.axis - 3]
+                                    : "Error of " + name;
+    chart.yLabel = shown.isAngle() ? "[deg]" : (shown.error ? "[mm]" : "[m]");
     if (withSigma)
     {
-        chart.series.push_back(band);
+        chart.series.push_back(bandOf(poses, shown));
     }
-    chart.series.push_back(estimate);
-    if (!error)
+    const ChartSeries estimate{
+        shown.error ? "error" : "estimate", {}, {}, ChartSeries::Style::Line, false, "c0"};
+    chart.series.push_back(lineOf(poses, shown, estimate));
+    if (!shown.error)
     {
-        chart.series.push_back(truth);
+        const ChartSeries truth{"ground truth", {}, {}, ChartSeries::Style::Dashed, false, "ink"};
+        chart.series.push_back(lineOf(truths, shown, truth));
     }
     return chart;
 }
@@ -203,7 +224,7 @@ std::vector<Chart> poseCharts(
         {
             for (int axis = first; axis < first + 3; ++axis)
             {
-                charts.push_back(chartOf(poses, truths, axis, error, !estimate.covs.empty()));
+                charts.push_back(chartOf(poses, truths, {axis, error}, !estimate.covs.empty()));
             }
         }
     }

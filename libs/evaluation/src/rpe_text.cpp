@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/evaluation/rpe.h>
-#include <pointplane/evaluation/units.h>
 
 #include <algorithm>
 #include <cstdio>

@@ -251,27 +251,37 @@ void ObjectScanner::copyBody(const Header& header, int depth)
     {
         comment(version);
     }
-    else if (name == "CPose3DPDFGaussian" && version == 1)
+    else if (!partOfOthers(header) && !otherSensor(header, depth))
+    {
+        throw Unknown("class " + name + ", version " + std::to_string(version));
+    }
+    copyEndFlag(header);
+}
+
+bool ObjectScanner::partOfOthers(const Header& header)
+{
+    const std::string& name = header.className;
+    if (name == "CPose3DPDFGaussian" && header.version == 1)
     {
         copyObject("CPose3D");
         copyArray(21, sizeof(double));
     }
     else if (name == "CPose3D")
     {
-        pose3D(version);
+        pose3D(header.version);
     }
     else if (name == "CImage")
     {
-        image(version);
+        image(header.version);
     }
     else if (name == "TCamera")
     {
-        camera(version);
+        camera(header.version);
     }
-    else if (!otherSensor(header, depth))
+    else
     {
-        throw Unknown("class " + name + ", version " + std::to_string(version));
+        return false;
     }
-    copyEndFlag(header);
+    return true;
 }
 }  // namespace pointplane

@@ -123,6 +123,9 @@ class ObjectScanner
     void camera(int version);
     void pose3D(int version);
 
+    /** Objects inside of those above. False when the class is none of them. */
+    bool partOfOthers(const Header& header);
+
     /** False when the class is none of them. */
     bool otherSensor(const Header& header, int depth);
     void rangeScan2D(int version);

@@ -76,6 +76,11 @@ struct ObservationConverter::Impl
         const PinholeCamera& target,
         const Eigen::Isometry3d& T_target_source) const;
     void fill(const CObservation3DRangeScan& scan, ConvertedFrame& out) const;
+    void fillWithColour(
+        const CObservation3DRangeScan& scan,
+        const PinholeCamera& depthCamera,
+        const cv::Mat& depth,
+        ConvertedFrame& out) const;
 
     std::string externals;
     std::map<std::string, CameraComment> told;  // by label
@@ -173,6 +178,16 @@ void ObservationConverter::Impl::fill(
         out.T_robot_cam = T_robot_body * opticalInBody();
         return;
     }
+    fillWithColour(scan, depthCamera, depth, out);
+}
+
+/** Depth is rendered into the colour camera, unless it is registered to it. */
+void ObservationConverter::Impl::fillWithColour(
+    const CObservation3DRangeScan& scan,
+    const PinholeCamera& depthCamera,
+    const cv::Mat& depth,
+    ConvertedFrame& out) const
+{
     const PinholeCamera camera = cameraOf(scan.cameraParamsIntensity, "cameraParamsIntensity");
     const cv::Mat gray = intensityOf(scan);
     requireUsable(
@@ -193,7 +208,7 @@ void ObservationConverter::Impl::fill(
         registered ? depth : registration(depthCamera, camera, T_cam_depth).render(depth);
     out.frame.gray = gray;
     out.frame.camera = camera;
-    out.T_robot_cam = T_robot_body * T_body_cam;
+    out.T_robot_cam = fromMrpt(scan.sensorPose) * T_body_cam;
 }
 
 ObservationConverter::ObservationConverter() : impl_(std::make_unique<Impl>()) {}

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <utility>
 #include <vector>
 
 #include "GzInput.h"

@@ -190,11 +190,6 @@ void parseIni(const std::string& text, const std::string& name, const ParameterT
     (void)parse(text, name, table);
 }
 
-void loadIni(const std::string& path, const ParameterTable& table)
-{
-    parseIni(textOf(path), path, table);
-}
-
 void applySettings(const std::vector<std::string>& settings, const ParameterTable& table)
 {
     (void)apply(settings, table);

@@ -163,19 +163,6 @@ ImageAligner::ImageAligner(const PointLifter::TParams& lifter, const DepthNoise&
 {
 }
 
-DescribedPoints ImageAligner::describe(const RgbdFrame& frame) const
-{
-    const DetectedPoints detected = detector_.detect(frame.gray);
-    LiftedPoints lifted = lifter_.liftAll(frame, detected.uv_px);
-    DescribedPoints out;
-    out.points = std::move(lifted.points);
-    for (const int i : lifted.index)
-    {
-        out.descriptors.push_back(detected.descriptors.row(i));
-    }
-    return out;
-}
-
 MatchedPoints ImageAligner::match(
     const DescribedPoints& reference, const DescribedPoints& current) const
 {

@@ -34,14 +34,10 @@ PreparedPoints PointStage::prepare(const RgbdFrame& frame) const
     if (tracks_)
     {
         out.pyramid = tracker_.pyramid(frame.gray);
-        return out;
     }
-    const DetectedPoints detected = detector_.detect(frame.gray);
-    LiftedPoints lifted = lifter_.liftAll(frame, detected.uv_px);
-    out.described.points = std::move(lifted.points);
-    for (const int i : lifted.index)
+    else
     {
-        out.described.descriptors.push_back(detected.descriptors.row(i));
+        out.described = describe(frame, detector_, lifter_);
     }
     return out;
 }
@@ -55,7 +51,14 @@ void PointStage::setNoise(const DepthNoise& noise)
 PointReference PointStage::makeReference(
     const RgbdFrame& frame, const PreparedPoints& prepared) const
 {
-    return tracks_ ? tracker_.makeReference(frame) : prepared.described;
+    if (tracks_)
+    {
+        return tracker_.makeReference(frame);
+    }
+    PointReference out;
+    out.points = prepared.described.points;
+    out.descriptors = prepared.described.descriptors;
+    return out;
 }
 
 bool PointStage::findsPoint(const RgbdFrame& frame) const
@@ -85,7 +88,7 @@ std::vector<PointTrack> PointStage::correspond(
     {
         return tracker_.track(reference, frame, prepared.pyramid, T_cur_ref, radiusFactor);
     }
-    const PointReference& described = prepared.described;
+    const DescribedPoints& described = prepared.described;
     std::vector<Eigen::Vector2d> predicted, current;
     for (const PointFeature& point : reference.points)
     {

@@ -115,21 +115,12 @@ void Track::changeCamera(const PinholeCamera& camera, const CameraMatrix& cov)
 
 PoseGaussian Track::restart(Reference frame)
 {
-    PoseGaussian increment;
-    if (started_ || wasLost_)
-    {
-        increment = coast(frame.stamp);
-    }
-    else
-    {
-        increment.cov = Matrix6d::Identity() * (kExactSigma * kExactSigma);
-    }
+    PoseGaussian none;
+    none.cov = Matrix6d::Identity() * (kExactSigma * kExactSigma);
+    const PoseGaussian increment = started_ || wasLost_ ? coast(frame.stamp) : none;
     if (!started_)
     {
-        // The world begins here.
-        PoseGaussian none;
-        none.cov = Matrix6d::Identity() * (kExactSigma * kExactSigma);
-        history_.predict(none);
+        history_.predict(none);  // the world begins here
     }
     history_.restart(history_.latestFrame());
     window_.clear();

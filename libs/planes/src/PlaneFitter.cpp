@@ -24,6 +24,46 @@ std::optional<Eigen::Matrix3d> inverted(const Eigen::Matrix3d& A)
     const Eigen::Matrix3d inv = ldlt.solve(Eigen::Matrix3d::Identity());
     return 0.5 * (inv + inv.transpose());
 }
+
+/** Of the planes through three drawn points that which has most inliers; nothing if no draw has a
+ * plane with any. \param isInlier (point, plane) -> bool */
+template <class IsInlier>
+std::optional<Plane> bestDrawnPlane(
+    const std::vector<Eigen::Vector3d>& points,
+    const IsInlier& isInlier,
+    int draws,
+    std::uint32_t seed)
+{
+    const size_t n = points.size();
+    std::mt19937 rng(seed);
+    // Not std::uniform_int_distribution: its draws differ between standard libraries.
+    const auto draw = [&]() { return points[rng() % n]; };
+    // A vote of a few hundred pixels ranks the hypotheses as well as one of all of them.
+    const size_t stride = std::max<size_t>(1, n / 500);
+    std::optional<Plane> best;
+    size_t bestVotes = 0;
+    for (int k = 0; n >= 3 && k < draws; ++k)
+    {
+        const Eigen::Vector3d a = draw(), b = draw(), c = draw();
+        const Eigen::Vector3d normal = (b - a).cross(c - a);
+        if (normal.norm() < 1e-9)
+        {
+            continue;
+        }
+        const Plane plane{normal.normalized(), -normal.normalized().dot(a)};
+        size_t votes = 0;
+        for (size_t i = 0; i < n; i += stride)
+        {
+            votes += isInlier(points[i], plane) ? 1 : 0;
+        }
+        if (votes > bestVotes)
+        {
+            bestVotes = votes;
+            best = plane;
+        }
+    }
+    return best;
+}
 }  // namespace
 
 std::optional<PlaneGaussian> fitInverseDepth(const PlaneMoments& moments, const DepthNoise& noise)
@@ -68,41 +108,14 @@ std::vector<std::size_t> ransacInliers(
     int draws,
     std::uint32_t seed)
 {
-    const size_t n = points.size();
     const auto isInlier = [&](const Eigen::Vector3d& P, const Plane& plane)
     { return std::abs(plane.n.dot(P) + plane.d) <= maxSigmas * noise.sigmaZ(P.z()); };
-    std::mt19937 rng(seed);
-    // Not std::uniform_int_distribution: its draws differ between standard libraries.
-    const auto draw = [&]() { return points[rng() % n]; };
-    // A vote of a few hundred pixels ranks the hypotheses as well as one of all of them.
-    const size_t stride = std::max<size_t>(1, n / 500);
-    Plane best;
-    size_t bestVotes = 0;
-    for (int k = 0; n >= 3 && k < draws; ++k)
-    {
-        const Eigen::Vector3d a = draw(), b = draw(), c = draw();
-        const Eigen::Vector3d normal = (b - a).cross(c - a);
-        if (normal.norm() < 1e-9)
-        {
-            continue;
-        }
-        const Plane plane{normal.normalized(), -normal.normalized().dot(a)};
-        size_t votes = 0;
-        for (size_t i = 0; i < n; i += stride)
-        {
-            votes += isInlier(points[i], plane) ? 1 : 0;
-        }
-        if (votes > bestVotes)
-        {
-            bestVotes = votes;
-            best = plane;
-        }
-    }
+    const std::optional<Plane> best = bestDrawnPlane(points, isInlier, draws, seed);
     std::vector<std::size_t> inliers;
-    inliers.reserve(n);
-    for (size_t i = 0; i < n; ++i)
+    inliers.reserve(points.size());
+    for (size_t i = 0; i < points.size(); ++i)
     {
-        if (bestVotes == 0 || isInlier(points[i], best))
+        if (!best || isInlier(points[i], *best))
         {
             inliers.push_back(i);
         }

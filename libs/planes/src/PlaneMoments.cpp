@@ -52,12 +52,6 @@ Eigen::Matrix3d PlaneMoments::rayMatrix() const
     return A;
 }
 
-double PlaneMoments::sumSquaredResiduals(const Eigen::Vector3d& theta_m) const
-{
-    const Eigen::Vector3d b(xq, yq, q);
-    return theta_m.dot(rayMatrix() * theta_m + 2 * b) + qq;
-}
-
 std::optional<MomentsFit> fitPlane(const PlaneMoments& m)
 {
     if (m.numPixels < 3)

@@ -9,7 +9,6 @@
 #endif
 
 #include <algorithm>
-#include <cmath>
 
 #include "dlib_surf.h"
 #include "fast_corners.h"

@@ -16,8 +16,8 @@
 namespace pointplane
 {
 /** A parameter group as MRPT's CLoadableOptions: it loads, saves and prints like any other of an
- * MRPT program. Loading is as strict as loadIni(): it throws InputError naming section and key, for
- * an unknown key, or for a value that the key does not take. Values are then as before. */
+ * MRPT program. Loading is as strict as parseIni(): it throws InputError naming section and key,
+ * for an unknown key, or for a value that the key does not take. Values are then as before. */
 template <class Group>
 class LoadableParams : public mrpt::config::CLoadableOptions
 {

@@ -17,10 +17,8 @@ namespace pointplane
  * file, line, section, key, and the closest valid key.
  * @{ */
 
-/** Sets the values of the table from a file. \throws InputError */
-void loadIni(const std::string& path, const ParameterTable& table);
-
-/** As loadIni() from text; `name` stands for the file in messages. \throws InputError */
+/** Sets the values of the table. \param text of the file \param name of it, for messages
+ * \throws InputError */
 void parseIni(const std::string& text, const std::string& name, const ParameterTable& table);
 
 /** Applies settings of the form "Section.key=value". \throws InputError, also for a key that is

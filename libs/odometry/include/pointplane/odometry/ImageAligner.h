@@ -1,25 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pointplane/odometry/DescribedPoints.h>
 #include <pointplane/points/PointDetector.h>
 #include <pointplane/points/PointLifter.h>
 #include <pointplane/points/PointMatcher.h>
 #include <pointplane/sensor/RgbdFrame.h>
-
-#include <opencv2/core/mat.hpp>
 
 #include <optional>
 #include <vector>
 
 namespace pointplane
 {
-/** Key points of a frame that can be found again without knowing where they are. */
-struct DescribedPoints
-{
-    std::vector<PointFeature> points;
-    cv::Mat descriptors;  //!< a row a point
-};
-
 /** Points of one frame, and which points of another they are by their descriptors. Some are wrong.
  */
 struct MatchedPoints
@@ -46,8 +38,11 @@ class ImageAligner
     /** Sets the noise by which motions are judged from now on. */
     void setNoise(const DepthNoise& noise) { noise_ = noise; }
 
-    /** Key points of a frame that have depth. */
-    [[nodiscard]] DescribedPoints describe(const RgbdFrame& frame) const;
+    /** Key points that can be found again without knowing where they are. */
+    [[nodiscard]] DescribedPoints describe(const RgbdFrame& frame) const
+    {
+        return pointplane::describe(frame, detector_, lifter_);
+    }
 
     /** By descriptor, over the whole image. */
     [[nodiscard]] MatchedPoints match(

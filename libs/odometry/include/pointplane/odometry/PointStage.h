@@ -2,6 +2,7 @@
 #pragma once
 
 #include <pointplane/core/Parameters.h>
+#include <pointplane/odometry/DescribedPoints.h>
 #include <pointplane/points/PointDetector.h>
 #include <pointplane/points/PointLifter.h>
 #include <pointplane/points/PointMatcher.h>
@@ -16,7 +17,7 @@ namespace pointplane
 struct PreparedPoints
 {
     std::vector<cv::Mat> pyramid;  //!< tracking: of the image
-    PointReference described;      //!< matching: key points with descriptors
+    DescribedPoints described;     //!< matching
 };
 
 /** Finds points of a reference again in the current frame, by one of two methods: `track` searches

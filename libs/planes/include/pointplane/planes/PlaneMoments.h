@@ -29,9 +29,6 @@ struct PlaneMoments
 
     /** sum r r^T: the information about theta_m, times sigma^2. */
     [[nodiscard]] Eigen::Matrix3d rayMatrix() const;
-
-    /** Sum of squared residuals of a plane over these pixels [1/m^2]. */
-    [[nodiscard]] double sumSquaredResiduals(const Eigen::Vector3d& theta_m) const;
 };
 
 /** Least-squares plane of a pixel set. */
