@@ -155,7 +155,7 @@ void printErrors(const Comparison& c, const ErrorBlock& block, std::ostream& out
         const ComparedRun& r = c.runs[k];
         const bool best = isBest(c, k, block.best);
         out << format(
-            "%-32s%12.*f%s %s\n",
+            "%s  %12.*f%s %s\n",
             shownName(r.name, 30).c_str(),
             block.decimals,
             block.unit * (r.*block.value).value,
@@ -192,7 +192,7 @@ void printTable(const Comparison& c, const std::string& protocol, std::ostream& 
     {
         const ComparedRun& r = c.runs[k];
         out << format(
-            "%-32s%12.3f%s %8zu  %6.1f %%\n",
+            "%s  %12.3f%s %8zu  %6.1f %%\n",
             shownName(r.name, 30).c_str(),
             1000 * r.ate.translation.rmse,
             c.bestAte == k ? "*" : " ",

@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <ostream>
 #include <utility>
+#include <vector>
 
 #include "OutputGuard.h"
 #include "TextOutput.h"
@@ -120,10 +121,20 @@ void printAsScripts(const char* name, const Statistics& error, const char* unit,
     }
 }
 
-std::string shownName(const std::string& name, std::size_t most)
+std::string shownName(const std::string& name, std::size_t width)
 {
     const std::string dots = "...";
-    return name.size() <= most ? name : dots + name.substr(name.size() - (most - dots.size()));
+    std::vector<std::size_t> characters;  // where they begin, in UTF-8
+    for (std::size_t k = 0; k < name.size(); ++k)
+    {
+        if ((static_cast<unsigned char>(name[k]) & 0xc0U) != 0x80)
+        {
+            characters.push_back(k);
+        }
+    }
+    return characters.size() <= width
+               ? name + std::string(width - characters.size(), ' ')
+               : dots + name.substr(characters[characters.size() - (width - dots.size())]);
 }
 
 std::string savedStamp(double stamp)

@@ -80,8 +80,8 @@ void writeText(const std::string& text, const std::string& path, std::ostream& o
  * the file does not mark them). */
 [[nodiscard]] nlohmann::ordered_json toJson(const Coverage& coverage);
 
-/** At most so many characters: of long ones the end, in which names of files differ. */
-[[nodiscard]] std::string shownName(const std::string& name, std::size_t most);
+/** Just so many characters, for a column: of long ones the end, in which names of files differ. */
+[[nodiscard]] std::string shownName(const std::string& name, std::size_t width);
 
 /** A stamp for --save: the fewest decimals that read back as the same number. */
 [[nodiscard]] std::string savedStamp(double stamp);

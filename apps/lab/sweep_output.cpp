@@ -16,7 +16,7 @@ void printTable(const SweepResult& sweep, std::ostream& out)
         << format("%-16s", "value");
     for (const std::string& sequence : sweep.sequences)
     {
-        out << format("  %-26s", shownName(sequence, 26).c_str());
+        out << "  " << shownName(sequence, 26);
     }
     out << "\n";
     for (std::size_t v = 0; v < sweep.values.size(); ++v)

@@ -11,6 +11,7 @@
 #include <sstream>
 #include <utility>
 
+#include "result_output.h"
 #include "run_app.h"
 #include "test_trajectories.h"
 #include <gmock/gmock.h>
@@ -297,6 +298,14 @@ TEST_F(EvalApp, compareMarksTheBest)
     EXPECT_NEAR(json["runs"][0]["translationBehindBest"]["value"], 0.05, 1e-9);
     EXPECT_THAT(test::readBytes(files / "report/index.html"), HasSubstr("Comparison of 2 runs"));
     EXPECT_EQ(run({"compare", truth}).code, 2);
+}
+
+TEST(ShownName, fillsItsColumnWhateverLettersItHas)
+{
+    EXPECT_EQ(shownName("e.txt", 8), "e.txt   ");
+    EXPECT_EQ(shownName("\u00e9.txt", 8), "\u00e9.txt   ");
+    EXPECT_EQ(shownName("\u00e9\u00e9\u00e9\u00e9.txt", 8), "\u00e9\u00e9\u00e9\u00e9.txt");
+    EXPECT_EQ(shownName("\u00e9\u00e9\u00e9\u00e9\u00e9.txt", 8), "...\u00e9.txt");
 }
 
 TEST_F(EvalApp, compareTellsWhatIsTooShortForAnInterval)

@@ -113,7 +113,8 @@ NeesResult consistencyOf(
         out.axes[k].rmsSigma = std::sqrt(variances[axis]);
     }
     const Eigen::SelfAdjointEigenSolver<Matrix6d> es(secondMoment);
-    out.whitenedEigenvalues = es.eigenvalues();
+    // Fewer increments than directions have none in some; rounding may make that negative.
+    out.whitenedEigenvalues = (es.eigenvalues().array() < 0).select(0, es.eigenvalues());
     out.mostOptimistic = es.eigenvectors().col(5);
     return out;
 }
