@@ -300,12 +300,32 @@ TEST_F(EvalApp, compareMarksTheBest)
     EXPECT_EQ(run({"compare", truth}).code, 2);
 }
 
-TEST(ShownName, fillsItsColumnWhateverLettersItHas)
+TEST(ShownNames, fillTheirColumnWhateverLettersTheyHave)
 {
-    EXPECT_EQ(shownName("e.txt", 8), "e.txt   ");
-    EXPECT_EQ(shownName("\u00e9.txt", 8), "\u00e9.txt   ");
-    EXPECT_EQ(shownName("\u00e9\u00e9\u00e9\u00e9.txt", 8), "\u00e9\u00e9\u00e9\u00e9.txt");
-    EXPECT_EQ(shownName("\u00e9\u00e9\u00e9\u00e9\u00e9.txt", 8), "...\u00e9.txt");
+    EXPECT_THAT(
+        shownNames(
+            {"e.txt",
+             "\u00e9.txt",
+             "\u00e9\u00e9\u00e9\u00e9.txt",
+             "\u00e9\u00e9\u00e9\u00e9\u00e9.txt"},
+            8),
+        testing::ElementsAre(
+            "e.txt   ", "\u00e9.txt   ", "\u00e9\u00e9\u00e9\u00e9.txt", "...\u00e9.txt"));
+}
+
+/** The ends of such names are alike. */
+TEST(ShownNames, ofFoldersWithTheSameFilesDiffer)
+{
+    const std::string ending = "/fr1_xyz/trajectory.txt";
+    EXPECT_THAT(
+        shownNames({"old" + ending, "runs/new" + ending}, 8),
+        testing::ElementsAre("old     ", "runs/new"));
+    EXPECT_THAT(
+        shownNames({"a/b.txt", "c/b.txt"}, 8), testing::ElementsAre("a/b.txt ", "c/b.txt "));
+    EXPECT_THAT(
+        shownNames({"/fr1_xyz/a.txt", "/fr1_xyz/a.txt"}, 8),
+        testing::ElementsAre("...a.txt", "...a.txt"));
+    EXPECT_THAT(shownNames({"fr1_xyz/a.txt"}, 8), testing::ElementsAre("...a.txt"));
 }
 
 TEST_F(EvalApp, compareTellsWhatIsTooShortForAnInterval)
