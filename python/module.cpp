@@ -474,7 +474,53 @@ void addCamera(py::module_& m)
         .def_readonly("fy", &PinholeCamera::fy)
         .def_readonly("cx", &PinholeCamera::cx)
         .def_readonly("cy", &PinholeCamera::cy)
-        .def_readonly("distortion", &PinholeCamera::distortion);
+        .def_readonly("distortion", &PinholeCamera::distortion)
+        .def(py::pickle(
+            [](const PinholeCamera& c) {
+                return py::make_tuple(
+                    c.fx, c.fy, c.cx, c.cy, c.width, c.height, c.distortion, c.isNominal);
+            },
+            [](const py::tuple& state)
+            {
+                PinholeCamera c;
+                c.fx = state[0].cast<double>();
+                c.fy = state[1].cast<double>();
+                c.cx = state[2].cast<double>();
+                c.cy = state[3].cast<double>();
+                c.width = state[4].cast<int>();
+                c.height = state[5].cast<int>();
+                c.distortion = state[6].cast<std::array<double, 5>>();
+                c.isNominal = state[7].cast<bool>();
+                return c;
+            }))
+        .def(
+            "__repr__",
+            [](const PinholeCamera& c)
+            {
+                return "<pointplane.Camera " + std::to_string(c.width) + "x" +
+                       std::to_string(c.height) + ", fx=" + numberText(c.fx) +
+                       " fy=" + numberText(c.fy) + " cx=" + numberText(c.cx) +
+                       " cy=" + numberText(c.cy) + (c.isDistorted() ? ", distorted>" : ">");
+            });
+}
+
+[[nodiscard]] py::tuple stateOf(const PoseGaussian& pose)
+{
+    std::array<double, 16> mean{};
+    std::array<double, 36> cov{};
+    Eigen::Map<Eigen::Matrix4d>(mean.data()) = pose.mean.matrix();
+    Eigen::Map<Matrix6d>(cov.data()) = pose.cov;
+    return py::make_tuple(mean, cov);
+}
+
+[[nodiscard]] PoseGaussian poseOf(const py::tuple& state)
+{
+    const auto mean = state[0].cast<std::array<double, 16>>();
+    const auto cov = state[1].cast<std::array<double, 36>>();
+    PoseGaussian pose;
+    pose.mean.matrix() = Eigen::Map<const Eigen::Matrix4d>(mean.data());
+    pose.cov = Eigen::Map<const Matrix6d>(cov.data());
+    return pose;
 }
 
 void addResult(py::module_& m)
@@ -508,6 +554,26 @@ void addResult(py::module_& m)
             "increment_covariance",
             [](const OdometryResult& r) { return r.increment.cov; },
             "6x6, of this increment alone")
+        .def(py::pickle(  // what Python sees of it
+            [](const OdometryResult& r)
+            {
+                return py::make_tuple(
+                    static_cast<int>(r.status),
+                    py::bytes(r.reason),
+                    r.stamp,
+                    stateOf(r.pose),
+                    stateOf(r.increment));
+            },
+            [](const py::tuple& state)
+            {
+                OdometryResult r;
+                r.status = static_cast<TrackingStatus>(state[0].cast<int>());
+                r.reason = state[1].cast<std::string>();
+                r.stamp = state[2].cast<double>();
+                r.pose = poseOf(state[3]);
+                r.increment = poseOf(state[4]);
+                return r;
+            }))
         .def(
             "__repr__",
             [](const OdometryResult& r)

@@ -53,7 +53,11 @@ void FolderRecording::chooseCamera(const FolderOptions& options)
     }
     if (!layout_.camera)
     {
-        throw InputError(folder_ + ": does not tell its camera; give a calibration by --camera");
+        throw InputError(
+            folder_ + ": does not tell its camera; give a calibration by --camera" +
+            (fs::exists(folder_ + "/depth.txt")
+                 ? "; pointplane-convert tum takes folders with lists, and knows TUM's cameras"
+                 : ""));
     }
     if (options.depthScale > 0)
     {

@@ -112,10 +112,10 @@ const Words kWordsOfBoth{"image", "img", "frame"};  //!< in folders of one kind
     return out;
 }
 
-[[nodiscard]] std::string relativeTo(const fs::path& folder, const std::string& path)
+/** By names alone: a link is told, not where it leads. */
+[[nodiscard]] std::string relativeTo(const fs::path& folder, const fs::path& path)
 {
-    std::error_code error;
-    return fs::relative(path, folder, error).string();
+    return path.lexically_relative(folder).string();
 }
 
 /** Depth may be alone only if nothing else can be colour. */

@@ -7,6 +7,9 @@
 
 #include <optional>
 #include <ostream>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "result_output.h"
 
@@ -136,6 +139,16 @@ std::string intervalFields(const BootstrapInterval& interval, double unit)
 
 namespace
 {
+[[nodiscard]] std::vector<std::string> runNames(const Comparison& c)
+{
+    std::vector<std::string> names;
+    for (const ComparedRun& run : c.runs)
+    {
+        names.push_back(run.name);
+    }
+    return shownNames(std::move(names), 30);
+}
+
 /** Of translation or rotation, in no more columns than a terminal has. */
 struct ErrorBlock
 {
@@ -150,13 +163,14 @@ struct ErrorBlock
 void printErrors(const Comparison& c, const ErrorBlock& block, std::ostream& out)
 {
     out << format("\n%-32s%12s  %s\n", "run", block.header, "behind the best");
+    const std::vector<std::string> names = runNames(c);
     for (std::size_t k = 0; k < c.runs.size(); ++k)
     {
         const ComparedRun& r = c.runs[k];
         const bool best = isBest(c, k, block.best);
         out << format(
-            "%-32s%12.*f%s %s\n",
-            shownName(r.name, 30).c_str(),
+            "%s  %12.*f%s %s\n",
+            names[k].c_str(),
             block.decimals,
             block.unit * (r.*block.value).value,
             best ? "*" : " ",
@@ -188,12 +202,13 @@ void printTable(const Comparison& c, const std::string& protocol, std::ostream& 
          &ComparedRun::rotationBehindBest},
         out);
     out << format("\n%-32s%12s  %8s  %8s\n", "run", "ATE [mm]", "pairs", "coverage");
+    const std::vector<std::string> names = runNames(c);
     for (std::size_t k = 0; k < c.runs.size(); ++k)
     {
         const ComparedRun& r = c.runs[k];
         out << format(
-            "%-32s%12.3f%s %8zu  %6.1f %%\n",
-            shownName(r.name, 30).c_str(),
+            "%s  %12.3f%s %8zu  %6.1f %%\n",
+            names[k].c_str(),
             1000 * r.ate.translation.rmse,
             c.bestAte == k ? "*" : " ",
             r.rpe.translation.count,

@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <ostream>
 #include <utility>
+#include <vector>
 
 #include "OutputGuard.h"
 #include "TextOutput.h"
@@ -20,6 +21,38 @@ namespace pointplane
 {
 namespace
 {
+/** How long the folders and files are with which all of several names end; 0: a name is no more. */
+[[nodiscard]] std::size_t commonEnding(const std::vector<std::string>& names)
+{
+    std::string ending = names.front();
+    for (const std::string& name : names)
+    {
+        const auto differ =
+            std::mismatch(ending.rbegin(), ending.rend(), name.rbegin(), name.rend()).first;
+        ending.erase(ending.begin(), differ.base());
+    }
+    ending.erase(0, ending.find('/'));
+    const auto isWhole = [&](const std::string& name) { return name.size() == ending.size(); };
+    return std::any_of(names.begin(), names.end(), isWhole) ? 0 : ending.size();
+}
+
+/** Just so many characters: of a long name the end. */
+[[nodiscard]] std::string fitted(const std::string& name, std::size_t width)
+{
+    const std::string dots = "...";
+    std::vector<std::size_t> characters;  // where they begin, in UTF-8
+    for (std::size_t k = 0; k < name.size(); ++k)
+    {
+        if ((static_cast<unsigned char>(name[k]) & 0xc0U) != 0x80)
+        {
+            characters.push_back(k);
+        }
+    }
+    return characters.size() <= width
+               ? name + std::string(width - characters.size(), ' ')
+               : dots + name.substr(characters[characters.size() - (width - dots.size())]);
+}
+
 /** Whether this option stands for the standard output. */
 [[nodiscard]] bool isShown(const std::string& path)
 {
@@ -120,10 +153,22 @@ void printAsScripts(const char* name, const Statistics& error, const char* unit,
     }
 }
 
-std::string shownName(const std::string& name, std::size_t most)
+std::vector<std::string> shownNames(std::vector<std::string> names, std::size_t width)
 {
-    const std::string dots = "...";
-    return name.size() <= most ? name : dots + name.substr(name.size() - (most - dots.size()));
+    const auto isLong = [width](const std::string& name) { return name.size() > width; };
+    if (names.size() > 1 && std::any_of(names.begin(), names.end(), isLong))
+    {
+        const std::size_t ending = commonEnding(names);
+        for (std::string& name : names)
+        {
+            name.erase(name.size() - ending);
+        }
+    }
+    for (std::string& name : names)
+    {
+        name = fitted(name, width);
+    }
+    return names;
 }
 
 std::string savedStamp(double stamp)

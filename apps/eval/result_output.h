@@ -80,8 +80,10 @@ void writeText(const std::string& text, const std::string& path, std::ostream& o
  * the file does not mark them). */
 [[nodiscard]] nlohmann::ordered_json toJson(const Coverage& coverage);
 
-/** At most so many characters: of long ones the end, in which names of files differ. */
-[[nodiscard]] std::string shownName(const std::string& name, std::size_t most);
+/** Names of files for a column of just so many characters. Where one is longer, what all end with
+ * is left out, as in RUN/trajectory.txt. Of what is still longer, the end is shown. */
+[[nodiscard]] std::vector<std::string> shownNames(
+    std::vector<std::string> names, std::size_t width);
 
 /** A stamp for --save: the fewest decimals that read back as the same number. */
 [[nodiscard]] std::string savedStamp(double stamp);

@@ -14,9 +14,9 @@ void printTable(const SweepResult& sweep, std::ostream& out)
 {
     out << "Sweep of " << sweep.parameter << ", RPE RMSE: " << sweep.protocol << "\n\n"
         << format("%-16s", "value");
-    for (const std::string& sequence : sweep.sequences)
+    for (const std::string& name : shownNames(sweep.sequences, 26))
     {
-        out << format("  %-26s", shownName(sequence, 26).c_str());
+        out << "  " << name;
     }
     out << "\n";
     for (std::size_t v = 0; v < sweep.values.size(); ++v)

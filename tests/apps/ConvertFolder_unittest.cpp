@@ -623,6 +623,8 @@ TEST_F(ConvertFolder, whichNamesOfFoldersAndImagesAreReadIsTold)
     EXPECT_EQ(run({"folder", in_}), kExitBadInput);
     EXPECT_THAT(text_, HasSubstr("Here are no images\n"));
     writeFrames("in/rgb/photo %d.png", "in/depth/photo %d.png");
+    std::filesystem::rename(in_ + "/depth/photo 0.png", dir_ / "elsewhere.png");
+    std::filesystem::create_symlink(dir_ / "elsewhere.png", in_ + "/depth/photo 0.png");
     EXPECT_EQ(run({"folder", in_}), kExitBadInput);
     EXPECT_THAT(
         text_,
@@ -630,6 +632,19 @@ TEST_F(ConvertFolder, whichNamesOfFoldersAndImagesAreReadIsTold)
                   "images named by number or stamp, as 12.png, frame_12.png or "
                   "1500000000.25.png; one folder with these words in the names, as rgb_12.png "
                   "and depth_12.png; depth alone. Here is depth/photo 0.png\n"));
+}
+
+TEST_F(ConvertFolder, aFolderOfTumIsToldToBeForTum)
+{
+    writeFrames("in/rgb/%d.png", "in/depth/%d.png");
+    EXPECT_EQ(run({"folder", in_}), kExitBadInput);
+    EXPECT_THAT(text_, HasSubstr("give a calibration by --camera\n"));
+    write("in/depth.txt", "0 depth/0.png\n");
+    EXPECT_EQ(run({"folder", in_}), kExitBadInput);
+    EXPECT_THAT(
+        text_,
+        HasSubstr("by --camera; pointplane-convert tum takes folders with lists, and knows TUM's "
+                  "cameras\n"));
 }
 
 TEST_F(ConvertFolder, namesMayHaveAWordBesideTheNumber)

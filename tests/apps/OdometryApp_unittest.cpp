@@ -166,7 +166,7 @@ TEST_F(OdometryApp, aFrameThatCannotBeUsedIsNamedAndTheRestIsDone)
         const char* text;
     };
     const std::vector<Case> cases{
-        {[](auto& s) { s.hasRangeImage = false; }, "no range image"},
+        {[](auto& s) { s.hasRangeImage = s.hasIntensityImage = false; }, "no range image"},
         {[](auto& s) { s.cameraParams.ncols = 640; },
          "range image is 64x48 but cameraParams is for 640x48"},
         {[nan](auto& s) { s.cameraParams.setIntrinsicParamsFromValues(nan, nan, 1, 1); },
@@ -203,7 +203,7 @@ TEST_F(OdometryApp, theSummaryGroupsTheFramesThatWereNotTracked)
         {
             if (i == 2 || i == 6 || i == 7)
             {
-                scan.hasRangeImage = false;
+                scan.hasRangeImage = scan.hasIntensityImage = false;
             }
             if (i == 4)
             {
@@ -259,8 +259,10 @@ TEST_F(OdometryApp, oneFrameIsTheFirstAndTellsNoMotion)
         run({in_, "--count", "1"}).out,
         HasSubstr("RGBD: 1 frame, the first: nothing to compare it with; "));
     EXPECT_THAT(run({in_, "--count", "2"}).out, HasSubstr("RGBD: 2 frames: 2 tracked, "));
-    const Outcome lost =
-        runOn(1, [](int, CObservation3DRangeScan& scan) { scan.hasRangeImage = false; });
+    const Outcome lost = runOn(
+        1,
+        [](int, CObservation3DRangeScan& scan)
+        { scan.hasRangeImage = scan.hasIntensityImage = false; });
     EXPECT_THAT(lost.out, HasSubstr("1 frame: 0 tracked, 0 predicted, 1 lost; path"));
     EXPECT_THAT(lost.err, HasSubstr("1 of 1 frame could not be used, first"));
 }
@@ -403,7 +405,10 @@ TEST_F(OdometryApp, afterAClockSetBackTheProgramSaysWhatTheOdometrySays)
 
 TEST_F(OdometryApp, aRunOnAnOutputReplacesWhatIsThere)
 {
-    ASSERT_EQ(runOn(5, [](int i, auto& scan) { scan.hasRangeImage = i != 3; }).code, 1);
+    ASSERT_EQ(
+        runOn(5, [](int i, auto& scan) { scan.hasRangeImage = scan.hasIntensityImage = i != 3; })
+            .code,
+        1);
     const std::string first = dir_ / "first.rawlog";
     ASSERT_EQ(run({in_, "-o", first, "--since", "2"}).code, kExitIncomplete);
     for (const char* format : {"--format1", "--quiet"})
@@ -452,7 +457,11 @@ TEST_F(OdometryApp, whatNoFrameToldIsNotInTheSummary)
         runOn(2, [](int, CObservation3DRangeScan&) {}).out,
         HasSubstr("\ndepth noise: assumed (nothing told it), "));
     EXPECT_THAT(
-        runOn(2, [](int, CObservation3DRangeScan& scan) { scan.hasRangeImage = false; }).out,
+        runOn(
+            2,
+            [](int, CObservation3DRangeScan& scan)
+            { scan.hasRangeImage = scan.hasIntensityImage = false; })
+            .out,
         testing::Not(HasSubstr("depth noise")));
 }
 
@@ -504,7 +513,7 @@ TEST_F(OdometryApp, untrackedFramesSaySoInTheRawlog)
         {
             if (i == 1)
             {
-                scan.hasRangeImage = false;
+                scan.hasRangeImage = scan.hasIntensityImage = false;
             }
         });
     bool found = false;
@@ -526,7 +535,7 @@ TEST_F(OdometryApp, textTrajectoriesLeaveLostFramesOut)
     (void)runOn(
         3,
         [](int i, mrpt::obs::CObservation3DRangeScan& scan)
-        { scan.hasRangeImage = scan.hasRangeImage && i != 1; });
+        { scan.hasRangeImage = scan.hasIntensityImage = i != 1; });
     const std::string path = dir_ / "t.txt";
     ASSERT_EQ(run({in_, "--trajectory", path}).code, kExitIncomplete);
     std::istringstream text(readBytes(path));
@@ -907,7 +916,7 @@ TEST_F(OdometryApp, picturesOfLostFramesAreAsLargeAsOthers)
     {
         const auto scan = sampleScan(i, 64, 48);
         scan->timestamp = i == 0 ? INVALID_TIMESTAMP : scan->timestamp;
-        scan->hasRangeImage = i != 2;
+        scan->hasRangeImage = scan->hasIntensityImage = i != 2;
         writer.write(*scan);
     }
     writer.close();

@@ -11,6 +11,7 @@
 #include <sstream>
 #include <utility>
 
+#include "result_output.h"
 #include "run_app.h"
 #include "test_trajectories.h"
 #include <gmock/gmock.h>
@@ -297,6 +298,34 @@ TEST_F(EvalApp, compareMarksTheBest)
     EXPECT_NEAR(json["runs"][0]["translationBehindBest"]["value"], 0.05, 1e-9);
     EXPECT_THAT(test::readBytes(files / "report/index.html"), HasSubstr("Comparison of 2 runs"));
     EXPECT_EQ(run({"compare", truth}).code, 2);
+}
+
+TEST(ShownNames, fillTheirColumnWhateverLettersTheyHave)
+{
+    EXPECT_THAT(
+        shownNames(
+            {"e.txt",
+             "\u00e9.txt",
+             "\u00e9\u00e9\u00e9\u00e9.txt",
+             "\u00e9\u00e9\u00e9\u00e9\u00e9.txt"},
+            8),
+        testing::ElementsAre(
+            "e.txt   ", "\u00e9.txt   ", "\u00e9\u00e9\u00e9\u00e9.txt", "...\u00e9.txt"));
+}
+
+/** The ends of such names are alike. */
+TEST(ShownNames, ofFoldersWithTheSameFilesDiffer)
+{
+    const std::string ending = "/fr1_xyz/trajectory.txt";
+    EXPECT_THAT(
+        shownNames({"old" + ending, "runs/new" + ending}, 8),
+        testing::ElementsAre("old     ", "runs/new"));
+    EXPECT_THAT(
+        shownNames({"a/b.txt", "c/b.txt"}, 8), testing::ElementsAre("a/b.txt ", "c/b.txt "));
+    EXPECT_THAT(
+        shownNames({"/fr1_xyz/a.txt", "/fr1_xyz/a.txt"}, 8),
+        testing::ElementsAre("...a.txt", "...a.txt"));
+    EXPECT_THAT(shownNames({"fr1_xyz/a.txt"}, 8), testing::ElementsAre("...a.txt"));
 }
 
 TEST_F(EvalApp, compareTellsWhatIsTooShortForAnInterval)

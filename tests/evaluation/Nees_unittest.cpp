@@ -159,6 +159,19 @@ TEST(Nees, anisotropyShowsTheAxisThatIsWrong)
     EXPECT_NEAR(r.axes[2].test.nees, 1, 0.15);
 }
 
+/** Rounding left a little less than zero, which was shown as -0.000. */
+TEST(Nees, directionsThatFewIncrementsHaveNoErrorInAreNotNegative)
+{
+    for (unsigned seed = 0; seed < 20; ++seed)
+    {
+        const Trajectory truth = randomTrajectory(4, seed);
+        const NeesResult r = neesOf(truth, odometry(truth, seed), "1f");
+        ASSERT_LT(r.increments, 6U);
+        EXPECT_GE(r.whitenedEigenvalues.minCoeff(), 0) << seed;
+        EXPECT_GT(r.whitenedEigenvalues[5], 0) << seed;
+    }
+}
+
 TEST(Nees, statedGroundTruthNoiseIsAccountedFor)
 {
     const Trajectory exact = randomTrajectory(2000, 3);

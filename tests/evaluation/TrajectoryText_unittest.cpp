@@ -128,14 +128,15 @@ TEST(TrajectoryText, leavesOutNanZeroQuaternionsAndRepeatsButSaysSo)
         "2 nan 0 0 0 0 0 1\n"
         "3 0 0 0 0 0 0 0\n"
         "4 7 0 0 0 0 0 1\n"
-        "4 8 0 0 0 0 0 1\n"));
+        "4 8 0 0 0 0 0 1\n"
+        "5 0 0 0 0 0 1e200 1e200\n"));
     ASSERT_EQ(t.size(), 2u);
     EXPECT_EQ(t.poses[1].translation().x(), 8);  // the last one wins
     EXPECT_THAT(
         t.warnings,
         testing::ElementsAre(
             HasSubstr("1 pose with a repeated stamp"),
-            HasSubstr("NaN or infinity left out, the first is line 2"),
+            HasSubstr("2 lines with NaN or infinity left out, the first is line 2"),
             HasSubstr("zero quaternion left out, the first is line 3")));
 }
 

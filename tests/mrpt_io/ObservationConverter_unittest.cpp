@@ -115,6 +115,22 @@ TEST(ObservationConverter, depthAloneIsEnough)
     EXPECT_THAT(converted.T_robot_cam, IsNearPose(opticalInBody(), 1e-9, 0.0));
 }
 
+/** Recorders may leave the depth camera of such a scan unset. */
+TEST(ObservationConverter, colourAloneIsAFrameWithoutDepth)
+{
+    const auto scan = sampleScan(3);
+    const ConvertedFrame whole = ObservationConverter().convert(*scan);
+    scan->hasRangeImage = false;
+    scan->cameraParams = {};
+    const ConvertedFrame converted = ObservationConverter().convert(*scan);
+    ASSERT_EQ(converted.problem, "");
+    EXPECT_EQ(converted.frame.depth.size(), converted.frame.gray.size());
+    EXPECT_EQ(cv::countNonZero(converted.frame.depth == converted.frame.depth), 0);
+    EXPECT_EQ(cv::countNonZero(converted.frame.gray != whole.frame.gray), 0);
+    EXPECT_EQ(converted.frame.camera.fx, whole.frame.camera.fx);
+    EXPECT_THAT(converted.T_robot_cam.matrix(), test::IsMatrixNear(whole.T_robot_cam.matrix(), 0));
+}
+
 TEST(ObservationConverter, distortionAndWhereDepthLies)
 {
     const auto scan = sampleScan(0);
@@ -348,7 +364,9 @@ TEST(ObservationConverter, everyBadFrameHasItsText)
     using Scan = CObservation3DRangeScan;
     using testing::HasSubstr;
     const double nan = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_EQ(with([](Scan& s) { s.hasRangeImage = false; }), "observation has no range image");
+    EXPECT_EQ(
+        with([](Scan& s) { s.hasRangeImage = s.hasIntensityImage = false; }),
+        "observation has no range image");
     EXPECT_THAT(
         with([](Scan& s) { s.hasRangeImage = !(s.hasPoints3D = true); }),
         HasSubstr("observation has no range image, but points alone: the program that"));

@@ -24,6 +24,14 @@ TEST(Simplemap, endsOnceAndStaysWhole)
     EXPECT_FALSE(reader.next());
 }
 
+TEST(Simplemap, aScanOfColourAloneHasNoPoints)
+{
+    const auto scan = test::sampleScan(0);
+    scan->hasRangeImage = false;
+    EXPECT_FALSE(withPoints(*scan)->hasPoints3D);
+    EXPECT_TRUE(withPoints(*test::sampleScan(0))->hasPoints3D);
+}
+
 TEST(Simplemap, aKeyFrameWithoutScanIsRefusedWhereItIsAdded)
 {
     const test::TempDir dir;

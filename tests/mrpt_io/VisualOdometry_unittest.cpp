@@ -46,7 +46,7 @@ TEST(VisualOdometry, aBadFrameIsLostWithItsReasonAndTheNextGoesOn)
     vo.setMinLoggingLevel(mrpt::system::LVL_ERROR);
     EXPECT_EQ(vo.process(*sampleScan(0, 64, 48)).status, TrackingStatus::First);
     const auto bad = sampleScan(1, 64, 48);
-    bad->hasRangeImage = false;
+    bad->hasRangeImage = bad->hasIntensityImage = false;
     const RobotMotion lost = vo.process(*bad);
     EXPECT_EQ(lost.status, TrackingStatus::Lost);
     EXPECT_EQ(lost.reason, "observation has no range image");
@@ -64,7 +64,7 @@ TEST(VisualOdometry, badFramesBeforeTheFirstGoodOneDoNotMoveTheRobot)
         {
             const auto scan = sampleScan(i, 64, 48);
             scan->sensorPose = mrpt::poses::CPose3D::FromXYZYawPitchRoll(1, 0, 2, 0.2, 0, 0);
-            scan->hasRangeImage = i >= numBad;
+            scan->hasRangeImage = scan->hasIntensityImage = i >= numBad;
             const RobotMotion motion = vo.process(*scan);
             EXPECT_LT(motion.pose.mean.norm(), 1e-9) << "frame " << i << " after " << numBad;
             EXPECT_LT(motion.increment.mean.norm(), 1e-9);

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """The Python module, on a rawlog: test_pointplane.py RAWLOG"""
 import contextlib
+import copy
 import gc
 import gzip
 import io
@@ -154,6 +155,25 @@ class Odometry(unittest.TestCase):
             self.assertEqual(covariance.shape, (6, 6))
             self.assertTrue((np.linalg.eigvalsh(covariance) > 0).all())
         self.assertIn("tracked", repr(result))
+
+    def test_results_and_cameras_can_be_pickled_and_copied(self):
+        odometry = pointplane.VisualOdometry()
+        for frame in pointplane.read_rawlog(RAWLOG):
+            result = odometry.process(frame)
+        dark = odometry.process(frame.depth, None, frame.camera, frame.stamp)
+        self.assertEqual(dark.status, "lost")
+        for change in (lambda thing: pickle.loads(pickle.dumps(thing)), copy.copy, copy.deepcopy):
+            for given in (result, dark):
+                other = change(given)
+                for name in ("status", "reason", "stamp"):
+                    self.assertEqual(getattr(other, name), getattr(given, name))
+                for name in ("pose", "covariance", "increment", "increment_covariance"):
+                    np.testing.assert_array_equal(getattr(other, name), getattr(given, name))
+            camera = pointplane.Camera(500, 501, 320, 240, 640, 480, (0.1, 0, 0, 0, 0.2))
+            self.assertIn("640x480, fx=500 fy=501 cx=320 cy=240, distorted", repr(camera))
+            other = change(camera)
+            for name in ("fx", "fy", "cx", "cy", "width", "height", "distortion"):
+                self.assertEqual(getattr(other, name), getattr(camera, name))
 
     def test_depth_in_integers_is_scaled_and_zero_is_no_reading(self):
         frame = next(iter(pointplane.read_rawlog(RAWLOG)))

@@ -121,7 +121,8 @@ NeesResult consistencyOf(
         out.axes[k].rmsSigma = std::sqrt(means.variance[axis]);
     }
     const Eigen::SelfAdjointEigenSolver<Matrix6d> es(means.whitenedSquare);
-    out.whitenedEigenvalues = es.eigenvalues();
+    // Fewer increments than directions have none in some; rounding may make that negative.
+    out.whitenedEigenvalues = (es.eigenvalues().array() < 0).select(0, es.eigenvalues());
     out.mostOptimistic = es.eigenvectors().col(5);
     return out;
 }

@@ -132,7 +132,8 @@ void PoseLines::add(const std::string& text, std::size_t line)
     requireColumns(v.size(), line);
     const bool isTum = columns_ == kTumColumns;
     const double norm = isTum ? Eigen::Vector4d(v[4], v[5], v[6], v[7]).norm() : 1;
-    if (!std::all_of(v.begin(), v.end(), [](double x) { return std::isfinite(x); }))
+    if (!std::all_of(v.begin(), v.end(), [](double x) { return std::isfinite(x); }) ||
+        !std::isfinite(norm))  // of huge numbers it is not
     {
         notFinite_.add(line);
     }

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "DepthRegistration.h"
@@ -158,15 +159,20 @@ void ObservationConverter::Impl::fill(
         scan.timestamp != INVALID_TIMESTAMP,
         "has no time stamp (MRPT's INVALID_TIMESTAMP); the program that recorded it must set it");
     requireUsable(
-        scan.hasRangeImage,
+        scan.hasRangeImage || (scan.hasIntensityImage && !scan.hasPoints3D),
         std::string("observation has no range image") +
             (scan.hasPoints3D ? ", but points alone: the program that recorded it must keep the "
                                 "range image"
                               : ""));
     const Eigen::Isometry3d T_robot_body = fromMrpt(scan.sensorPose);
     requirePose(T_robot_body, "sensorPose");
-    const PinholeCamera depthCamera = cameraOf(scan.cameraParams, "cameraParams");
-    const cv::Mat depth = depthOf(scan, depthCamera);
+    PinholeCamera depthCamera;
+    cv::Mat depth;
+    if (scan.hasRangeImage)
+    {
+        depthCamera = cameraOf(scan.cameraParams, "cameraParams");
+        depth = depthOf(scan, depthCamera);
+    }
     if (!scan.hasIntensityImage)
     {
         out.frame.camera = depthCamera;
@@ -204,8 +210,10 @@ void ObservationConverter::Impl::fillWithColour(
     const Eigen::Isometry3d T_cam_depth = T_body_cam.inverse() * opticalInBody();
     const bool registered = T_cam_depth.isApprox(Eigen::Isometry3d::Identity(), 1e-6) &&
                             sameProjection(depthCamera, camera) && !depthCamera.isDistorted();
-    out.frame.depth =
-        registered ? depth : registration(depthCamera, camera, T_cam_depth).render(depth);
+    out.frame.depth = !scan.hasRangeImage
+                          ? cv::Mat(gray.size(), CV_32FC1, std::numeric_limits<float>::quiet_NaN())
+                      : registered ? depth
+                                   : registration(depthCamera, camera, T_cam_depth).render(depth);
     out.frame.gray = gray;
     out.frame.camera = camera;
     out.T_robot_cam = fromMrpt(scan.sensorPose) * T_body_cam;

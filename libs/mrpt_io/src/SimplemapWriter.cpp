@@ -29,6 +29,10 @@ struct SimplemapWriter::Impl
 mrpt::obs::CObservation3DRangeScan::Ptr withPoints(const mrpt::obs::CObservation3DRangeScan& scan)
 {
     auto out = mrpt::obs::CObservation3DRangeScan::Create(scan);
+    if (!out->hasRangeImage)
+    {
+        return out;  // of colour alone
+    }
     if (out->rangeImage_isExternallyStored() && out->rangeImage.size() == 0)
     {
         const auto readings =
