@@ -56,6 +56,7 @@ group() { # yes, other seeds or no; heading
         function range(name) { return name in least ? least[name] "–" most[name] : "-" }
         $2 == kind {
             ++n
+            real += $1 !~ /^(simulated|icl)/
             add("ours", $3)
             add("fast", $5)
             add("peer", $7)
@@ -64,6 +65,7 @@ group() { # yes, other seeds or no; heading
             ahead += $3 != "-" && $7 != "-" && $3 + 0 < $7 + 0
         }
         END {
+            if (0 < real && real < n) heading = heading ", " real " of them real"
             if (n) printf "| **%d %s** | %s | %s | %s | %d of %d | %s |\n", n, heading,
                 range("ours"), range("fast"), range("peer"), ahead, compared, range("nees")
         }' "$work/lines"
@@ -72,9 +74,9 @@ group() { # yes, other seeds or no; heading
     echo
     echo "| RPE over 1 s [mm] | config.ini | config-fast.ini | best peer | ahead | NEES |"
     echo "|---|---|---|---|---|---|"
-    group yes "recordings used for tuning"
-    group "other seeds" "scenes, tuned on other seeds"
-    group no "recordings not used for tuning"
+    group yes "sequences used for tuning"
+    group "other seeds" "scenes; poses tuned on other seeds"
+    group no "sequences not used for tuning"
     echo
 } >"$work/results"
 replace README.md results "$work/results"

@@ -19,7 +19,8 @@ install(FILES config.ini config-fast.ini config-paper.ini
         DESTINATION ${CMAKE_INSTALL_DATADIR}/pointplane COMPONENT tools)
 # With all that they link to.
 set(doc_dir ${CMAKE_INSTALL_DATADIR}/doc/pointplane-doc)
-install(FILES README.md CHANGELOG.md CONTRIBUTING.md LICENSE DESTINATION ${doc_dir} COMPONENT doc)
+install(FILES README.md CHANGELOG.md CONTRIBUTING.md LICENSE config.ini config-fast.ini config-paper.ini
+        DESTINATION ${doc_dir} COMPONENT doc)
 install(FILES tests/consumer/main.cpp tests/consumer/CMakeLists.txt
         DESTINATION ${doc_dir}/tests/consumer COMPONENT doc)
 install(DIRECTORY docs DESTINATION ${doc_dir} COMPONENT doc

@@ -20,7 +20,7 @@ namespace pointplane
 {
 namespace
 {
-void addOptions(CLI::App& app, OdometryOptions& o, bool& dumpConfig, bool& dumpKeys)
+void addOptions(CLI::App& app, OdometryOptions& o, bool& dumpConfig)
 {
     app.add_option("rawlogs", o.inputs, "Input rawlogs, taken as one sequence")->type_name("FILE");
     app.add_option(
@@ -43,8 +43,6 @@ void addOptions(CLI::App& app, OdometryOptions& o, bool& dumpConfig, bool& dumpK
            "itself: that is left out")
         ->type_name("FILE");
     app.add_flag("--dump-config", dumpConfig, "Print all keys with the values in effect, and exit");
-    app.add_flag("--dump-keys", dumpKeys, "The same as Markdown tables, for docs/config.md")
-        ->group("");
 }
 
 void addRawlogOptions(CLI::App& app, OdometryOptions& o)
@@ -181,8 +179,8 @@ int runOdometry(const std::vector<std::string>& args, std::ostream& out, std::os
         "pointplane-odometry"};
     app.set_version_flag("--version", POINTPLANE_VERSION);
     OdometryOptions options;
-    bool dumpConfig = false, dumpKeys = false;
-    addOptions(app, options, dumpConfig, dumpKeys);
+    bool dumpConfig = false;
+    addOptions(app, options, dumpConfig);
     addOutputOptions(app, options);
     addRunOptions(app, options);
     return runCommand(
@@ -192,14 +190,11 @@ int runOdometry(const std::vector<std::string>& args, std::ostream& out, std::os
         err,
         [&]
         {
-            if (dumpConfig || dumpKeys)
+            if (dumpConfig)
             {
                 requireStandardOutput();
                 OdometryParams params = loadOdometryParams(options.config, options.settings);
-                const ParameterTable table = parametersOf(params);
-                out
-                    << (dumpConfig ? iniText(table, OdometryParams::kFirstExpertSection)
-                                   : markdownText(table, OdometryParams::kFirstExpertSection));
+                out << iniText(parametersOf(params), OdometryParams::kFirstExpertSection);
                 return kExitOk;
             }
             return run(options, out, err);

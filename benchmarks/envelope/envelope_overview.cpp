@@ -25,11 +25,13 @@ std::string besideBestPeer(const Cell& cell)
     return peer == nullptr ? out : out + " (" + lengthText(peer->rpeTranslation) + ")";
 }
 
+bool hasPeer(const Cell& cell) { return bestPeer(cell, &EnvelopeScore::rpeTranslation) != nullptr; }
+
 /** What is told of a sequence if there is one condition. */
-void addAlone(MarkdownGrid& grid, const Cell& cell)
+void addAlone(MarkdownGrid& grid, const Cell& cell, bool withPeers)
 {
     const EnvelopeScore& own = *cell.own;
-    grid.add(own.sequence, "mm (best peer)", besideBestPeer(cell));
+    grid.add(own.sequence, withPeers ? "mm (best peer)" : "mm", besideBestPeer(cell));
     grid.add(own.sequence, "worst step", errorText(own.worstTranslation, own.worstRotation));
     grid.add(
         own.sequence,
@@ -110,6 +112,7 @@ std::string envelopeOverview(const std::vector<EnvelopeScore>& scores)
         cells.begin(),
         cells.end(),
         [&](const Cell& cell) { return cell.own->condition == cells.front().own->condition; });
+    const bool withPeers = std::any_of(cells.begin(), cells.end(), hasPeer);
     MarkdownGrid sequences, steps, alone;
     for (const Cell& cell : cells)
     {
@@ -120,7 +123,7 @@ std::string envelopeOverview(const std::vector<EnvelopeScore>& scores)
         }
         else if (isOneCondition)
         {
-            addAlone(alone, cell);
+            addAlone(alone, cell, withPeers);
         }
         else
         {

@@ -106,9 +106,9 @@ Score scoreOf(const std::string& scene, const Motion& motion)
 std::string table()
 {
     std::ostringstream out;
-    out << "\n| scene | camera | of the view moves [%] | of what is called moving, on movers [%] | "
-           "of movers, called moving [%] | points on movers that count [%] | points on the still "
-           "world that count [%] |\n|---|---|---|---|---|---|---|\n";
+    out << "\n| scene | camera | view that moves [%] | precision [%] | recall [%] | points on "
+           "movers "
+           "that count [%] | still points that count [%] |\n|---|---|---|---|---|---|---|\n";
     for (const char* scene : {"person", "push", "door", "half", "seated"})
     {
         for (const Motion& motion : {Motion{"hand", 1, 1}, Motion{"stands", 1, 0}, {"fast", 1, 3}})

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The table of docs/theory.md that compares the paper with the code: the files and tests that it
+# The table of docs/paper_figures.md that compares the paper with the code: the files and tests that it
 # names exist, the files mark the line with the place in the paper, tools/mutants.txt has a line to
 # break that one of these tests must notice, and no row is without. What is done as the paper says
 # stands in tools/mutants.txt alone: marks and tests of these places exist. Run in the root of the sources.
@@ -23,23 +23,23 @@ is_broken() {
 while IFS='|' read -r _ place what files tests _; do
     ((++rows))
     place=$(sed -E 's/^ *//; s/ *$//' <<<"$place")
-    [[ $files == *'`'* ]] || problem "docs/theory.md: no file:$what"
-    [[ $tests == *'`'* ]] || problem "docs/theory.md: no test:$what"
+    [[ $files == *'`'* ]] || problem "docs/paper_figures.md: no file:$what"
+    [[ $tests == *'`'* ]] || problem "docs/paper_figures.md: no test:$what"
     is_broken "$place" "$tests" || problem "tools/mutants.txt: nothing breaks '$place:$what'"
     mark=$(sed -E 's/^.*, //; s/^ *//; s/ *$//; s/^nowhere$//' <<<"$place")
     for file in $(grep -oE '`[^`]+`' <<<"$files" | tr -d '`'); do
         [[ -f $file ]] || file=libs/$file
-        [[ -f $file ]] || problem "docs/theory.md: $file is not there ($place)"
+        [[ -f $file ]] || problem "docs/paper_figures.md: $file is not there ($place)"
         before='\[P17[^]]*'
         [[ $file != *.ini ]] || before='// '
-        grep -qE "$before${mark//./\\.}([^0-9]|$)" "$file" || problem "docs/theory.md: no line of $file is marked [P17 $mark]"
+        grep -qE "$before${mark//./\\.}([^0-9]|$)" "$file" || problem "docs/paper_figures.md: no line of $file is marked [P17 $mark]"
     done
     for test in $(grep -oE '`[^`]+`' <<<"$tests" | tr -d '`'); do
         grep -rqE "TEST(_[FP])?\(${test%.*}, ${test#*.}\)" tests --include='*.cpp' ||
-            problem "docs/theory.md: there is no test $test ($place)"
+            problem "docs/paper_figures.md: there is no test $test ($place)"
     done
-done < <(sed -n '/<!-- paper begin -->/,/<!-- paper end -->/p' docs/theory.md | grep '^|' | tail -n +3)
-((rows >= 15)) || problem "docs/theory.md: only $rows rows in the table of the paper"
+done < <(sed -n '/<!-- paper begin -->/,/<!-- paper end -->/p' docs/paper_figures.md | grep '^|' | tail -n +3)
+((rows >= 15)) || problem "docs/paper_figures.md: only $rows rows in the table of the paper"
 
 places=0
 while IFS= read -r place; do

@@ -175,7 +175,7 @@ TEST_F(FakePrograms, rawlogsOfOneNameAreToldApart)
     EXPECT_EQ(r.code, 0) << r.err;
     for (const std::string name : {"/one", "/other"})
     {
-        EXPECT_THAT(r.out, HasSubstr(name + " "));
+        EXPECT_THAT(r.out, HasSubstr(name));
         EXPECT_THAT(
             test::readBytes(dir / "out.csv"),
             HasSubstr(dir / (name.substr(1) + "/s.rawlog,PoseSolver")));

@@ -35,24 +35,4 @@ std::string iniText(const ParameterTable& table, const std::string& firstExpert)
     }
     return out.str();
 }
-
-std::string markdownText(const ParameterTable& table, const std::string& firstExpert)
-{
-    std::ostringstream out;
-    std::string section;
-    for (const auto& p : table)
-    {
-        if (p.section != section)
-        {
-            out << (section.empty() ? "" : "\n")
-                << (p.section == firstExpert ? "**For experts:** " + std::string(kExpert) + "\n\n"
-                                             : "")
-                << "### [" << p.section << "]\n\n| key | default | meaning |\n|---|---|---|\n";
-            section = p.section;
-        }
-        const std::string unit = p.unit == "-" ? "" : " " + p.unit;
-        out << "| `" << p.key << "` | " << p.text() << unit << " | " << p.help << " |\n";
-    }
-    return out.str();
-}
 }  // namespace pointplane

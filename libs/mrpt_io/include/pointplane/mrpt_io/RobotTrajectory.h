@@ -19,7 +19,9 @@ struct RobotMotion
     std::string reason;                         //!< why not tracked, or not in full; or empty
     mrpt::poses::CPose3DPDFGaussian increment;  //!< since the previous frame
     mrpt::poses::CPose3DPDFGaussian pose;       //!< since the first frame
-    std::vector<mrpt::poses::CPose3DPDFGaussian> since;  //!< since 1, 2, ... frames ago
+    /** Since 1, 2, ... frames ago, up to OdometryParams::covariance.history (default: 1, the frame
+     * before). Set it before the first frame. */
+    std::vector<mrpt::poses::CPose3DPDFGaussian> since;
     PoseGaussian cameraPose;  //!< T_first_cam of the camera, optical axes
     FrameDiagnostics diagnostics;
 };

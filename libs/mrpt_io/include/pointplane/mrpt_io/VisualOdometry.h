@@ -13,16 +13,32 @@
 
 namespace pointplane
 {
-/** RGB-D odometry for MRPT programs: observations in, pose PDFs of the robot out.
+/** RGB-D odometry for MRPT programs. It takes the scans of a camera, and returns the poses of the
+ * robot with covariances.
  *
  *     pointplane::VisualOdometry vo;
  *     vo.loadFromConfigFileName("config.ini");
- *     const auto r = vo.process(*observation);
- *     std::cout << r.pose << pointplane::toString(r.status);
+ *     for (const auto& observation : observations)  // of a rawlog, in order of time
+ *     {
+ *         if (auto comment = std::dynamic_pointer_cast<CObservationComment>(observation))
+ *         {
+ *             vo.converter().readComment(*comment);  // shutter, and whether it is calibrated
+ *         }
+ *         if (auto scan = std::dynamic_pointer_cast<CObservation3DRangeScan>(observation))
+ *         {
+ *             const auto result = vo.process(*scan);
+ *             std::cout << toString(result.status) << " " << result.pose << "\n";
+ *         }
+ *     }
  *
- * One object per camera, observations in order of time: those of another sensorLabel than the first
- * one's are Lost. A frame that cannot be used is Lost with a reason, never an exception. Not
- * thread-safe. Logs at LVL_DEBUG per frame, LVL_WARN when not tracked. */
+ * Give the comments too: pointplane's programs write into them what a scan has no place for.
+ *
+ * Each camera needs an object of its own. The first scan's sensorLabel says which camera it is;
+ * scans with another label are Lost. Scans must come in order of time. A scan that cannot be used
+ * is Lost, and RobotMotion::reason says why; nothing is thrown, unless memory is short. Do not use
+ * one object from two threads at once.
+ *
+ * It logs each frame at LVL_DEBUG, and frames that are Predicted or Lost at LVL_WARN. */
 class VisualOdometry : public mrpt::system::COutputLogger
 {
  public:
@@ -42,14 +58,15 @@ class VisualOdometry : public mrpt::system::COutputLogger
      * A frame with a problem (ConvertedFrame::problem) is Lost for that reason. */
     [[nodiscard]] RobotMotion process(const ConvertedFrame& converted);
 
-    /** Points and planes of the latest frame, camera's optical frame. */
+    /** Points and planes of the latest frame, in the camera's optical frame. */
     [[nodiscard]] const FrameFeatures& features() const { return odometry_.features(); }
     [[nodiscard]] const TParams& params() const { return odometry_.params(); }
 
     /** Odometry::setMask(). Stays when parameters are loaded. */
     void setMask(const cv::Mat& mask) { odometry_.setMask(mask); }
 
-    /** For external images and shutter comments. */
+    /** To tell where external images are (setExternalsDirectory()), and to give it comments
+     * (readComment()). */
     [[nodiscard]] ObservationConverter& converter() { return converter_; }
 
     /** Starts anew with the same parameters. */

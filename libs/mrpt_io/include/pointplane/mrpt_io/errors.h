@@ -25,8 +25,12 @@ class EnvironmentError : public std::runtime_error
 /** @name Exit codes of all applications
  * @{ */
 constexpr int kExitOk = 0;
-constexpr int kExitIncomplete = 1;  //!< gate exceeded, or input damaged: what was read is written
+/** The input was damaged, or frames could not be used (the rest is done), or less than half of the
+ * frames were tracked; of pointplane-eval, also: a threshold was not kept. */
+constexpr int kExitIncomplete = 1;
+/** Bad usage or input: missing file, unknown key, wrong label. */
 constexpr int kExitBadInput = 2;
+/** The machine: output not writable, disk full. Or an internal error. */
 constexpr int kExitEnvironment = 3;
 /** @} */
 

@@ -28,10 +28,6 @@ void applySettings(const std::vector<std::string>& settings, const ParameterTabl
 /** An ini file of all keys, with units and help.
  * \param firstExpert section before which a line says that the rest is for experts; empty = none */
 [[nodiscard]] std::string iniText(const ParameterTable& table, const std::string& firstExpert = "");
-
-/** The same as a Markdown table per section. */
-[[nodiscard]] std::string markdownText(
-    const ParameterTable& table, const std::string& firstExpert = "");
 /** @} */
 
 /** Defaults, then the file, then the settings, then the check of ranges.

@@ -105,7 +105,11 @@ struct DepthNoise
           sigmaRelative,
           "-",
           "with kind = given: smooth error that bends surfaces, as a fraction of the depth");
-        v("sigmaPixelPx", sigmaPixelPx, "px", "noise of a key point's position");
+        v("sigmaPixelPx",
+          sigmaPixelPx,
+          "px",
+          "with method = match: noise of a key point's position (with track: "
+          "PointTracker.sigmaPx)");
     }
     /** \throws std::invalid_argument naming the key */
     void check() const;

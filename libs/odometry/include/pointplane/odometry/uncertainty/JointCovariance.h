@@ -51,12 +51,13 @@ class JointCovariance
               noise,
               "-",
               "fraction of the variance of the points' residuals that is noise of this frame; the "
-              "rest is noise of the references");
+              "rest is noise of the references and error that the points share");
             v("viewNoise",
               viewNoise,
               "-",
               "how large the error is that all points of a frame share, as a multiple of how far "
-              "the references contradict each other; larger = larger covariances");
+              "the references contradict each other; twice the value makes standard deviations "
+              "over a second 1.1 to 1.9 times as large; 17 to 68 are sensible");
             v("vignetting",
               vignetting,
               "-",
