@@ -103,6 +103,21 @@ TEST(Judge, whereNoSurfaceIsSeenMostPointsHaveToAgree)
     }
 }
 
+/** Some hundreds of samples are compared where depth is seen; a few may lie on an edge. */
+TEST(Judge, fewSamplesOfSurfacesDoNotContradict)
+{
+    for (const int samples : {3, 300})
+    {
+        Alignment a = makeAlignment(kCertain);
+        a.agreement = {};
+        a.agreement.vanished = samples;
+        const Judge judge{OdometryParams{}};
+        judge.judge(a);
+        judge.contradict(a, kUsual);
+        EXPECT_EQ(a.holds, samples == 3) << a.reason;
+    }
+}
+
 TEST(Judge, planesAreDoubtedWherePointsShouldAgree)
 {
     const auto judged = [](double sigma, int inView, int surfaces)

@@ -30,6 +30,16 @@ TEST(medianVariance, isThatOfTheRightOnes)
     EXPECT_NEAR(medianVariance(norms), 4, 0.2);
 }
 
+/** References often share two planes only. */
+TEST(medianVariance, ofAnEvenNumberIsTheMeanOfTheMiddleTwo)
+{
+    std::vector<double> two{7, 1}, four{100, 3, 1, 2};
+    EXPECT_EQ(medianVariance(two), 4);
+    EXPECT_EQ(medianVariance(four), 2.5);
+    std::vector<std::pair<double, double>> weighted{{7, 3}, {1, 2}, {2, 1}};
+    EXPECT_EQ(medianVariance(weighted), 4.5) << "half of the weight is on 1 and 2, half on 7";
+}
+
 TEST(medianVariance, halfOfTheWeightIsOnNormsUpToIt)
 {
     std::vector<std::pair<double, double>> norms{{300, 1}, {1, 6}, {100, 1}, {2, 6}, {200, 1}};
