@@ -10,9 +10,8 @@ namespace pointplane
 [[nodiscard]] double medianChi2(int dof);
 
 /** Variance of vectors over their covariances, robust against wrong ones: the median of their
- * squared Mahalanobis norms, each over medianChi2() of its degrees of freedom. Of an even number, it
- * is the mean of the middle two.
- * \param relativeNorms of the vectors; their order changes
+ * squared Mahalanobis norms, each over medianChi2() of its degrees of freedom. Of an even number,
+ * it is the mean of the middle two. \param relativeNorms of the vectors; their order changes
  * \return 0 if there are none */
 [[nodiscard]] double medianVariance(std::vector<double>& relativeNorms);
 
