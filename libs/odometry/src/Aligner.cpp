@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "Stopwatch.h"
+#include "by_chance.h"
 #include "depth_motion.h"
-#include "few_points.h"
 #include "image_motions.h"
 #include "points_in_view.h"
 #include "surfaces.h"
@@ -306,6 +306,8 @@ void Aligner::verify(const Scene& scene, Alignment& alignment)
 {
     const Motion& motion = alignment.estimate.motion.mean;
     const Eigen::Isometry3d T_cur_world = scene.track.fromWorld(motion.T_prev_cur);
+    alignment.agreement = {};
+    alignment.numSought = 0;
     for (const Reference* reference : scene.track.references())
     {
         alignment.numSought +=

@@ -18,7 +18,7 @@ namespace
 /** Whether most readings tell no distance. */
 bool isNoise(const cv::Mat& depth, const DepthNoise& noise)
 {
-    const PixelGrid grid(depth.size(), PixelGrid::kSamples / 2);
+    const PixelGrid grid = PixelGrid::coarse(depth.size());
     int numReadings = 0, numNoise = 0;
     for (int row = 0; row < grid.size.height; ++row)
     {

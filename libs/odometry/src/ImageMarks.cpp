@@ -13,7 +13,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "few_points.h"
+#include "by_chance.h"
 
 namespace pointplane
 {
@@ -23,10 +23,7 @@ namespace
 constexpr double kStill_px = 0.3;
 
 /** More than that noise, surely [px]. */
-constexpr double kMoved_px = 1;
-
-/** Fewer points that change lie at edges of depth. */
-constexpr size_t kLeastChanged = 10;
+constexpr double kMoved_px = kUnlikelySigmas * kStill_px;
 
 /** Before a camera that stands, noise changes the depth of three points in a thousand, and what
  * moves covers the points behind it. */
@@ -92,7 +89,7 @@ bool hasChanged(const std::vector<StandingPoint>& points, double factor, int pow
             changes.push_back(std::abs(change) / point.z);
         }
     }
-    return changes.size() >= kLeastChanged &&
+    return changes.size() >= kFewPoints &&
            static_cast<double>(changes.size()) >=
                kLeastShare * static_cast<double>(points.size()) &&
            expectedFlow_px(places_px, changes) > kMoved_px;

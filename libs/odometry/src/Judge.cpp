@@ -15,7 +15,7 @@
 #include <sstream>
 #include <utility>
 
-#include "few_points.h"
+#include "by_chance.h"
 
 namespace pointplane
 {
@@ -23,18 +23,6 @@ namespace
 {
 /** Fewer matches than this in total cannot fix a pose [P17, section Pose estimation]. */
 constexpr int kMinMatches = 3;
-
-/** Residuals up to twice as large as in the frames before, squared: a wrong motion disagrees more.
- */
-constexpr double kConvincingRise = 4;
-
-/** Twice that rise: such a motion is none of anything in view, but lies between that of the still
- * world and that of what moves. */
-constexpr double kNoMotionRise = kConvincingRise * kConvincingRise;
-
-/** Of wrong points, chance lets hardly one in twenty agree. So a larger share than this is no
- * chance, even of few points. */
-constexpr double kMostByChance = 1.0 / 3;
 
 /** How many directions the measurements know better than the motion model does. */
 int observableDirections(const Matrix6d& information, const Matrix6d& priorCovariance)
@@ -81,7 +69,9 @@ double evidence(const Alignment& alignment, const NoiseFactors& usual)
     const double surfaces =
         alignment.agreement.fraction() *
         std::min(1.0, 1.0 * alignment.agreement.seen() / Judge::kEnoughSurfaces);
-    const bool isMotion = alignment.estimate.pointChi2PerDof < kNoMotionRise * usual.points;
+    // Residuals that rise twice as far are those of no motion, but of one between two.
+    const bool isMotion =
+        alignment.estimate.pointChi2PerDof < kConvincingRise * kConvincingRise * usual.points;
     return (alignment.holds ? 1 : 0) + (isMotion ? 1 : 0) + surfaces + pointShare(alignment);
 }
 
@@ -95,7 +85,7 @@ bool showsSurfaces(const Alignment& a) { return a.agreement.seen() >= kFewPoints
 bool hardlyAnyPointAgrees(const Alignment& a)
 {
     return a.numSought >= kFewPoints && a.estimate.numPointInliers < kFewPoints &&
-           pointShare(a) < kMostByChance;
+           pointShare(a) < kNoChanceShare;
 }
 
 /** Whether it rests on planes that may be others. */

@@ -9,6 +9,7 @@
 
 #include "Alignment.h"
 #include "RivalMotions.h"
+#include "surface_comparison.h"
 
 namespace pointplane
 {
@@ -81,8 +82,10 @@ class Judge
      * wrong by 5 cm or 5 deg (docs/theory.md, "Verdict"): so much is between. */
     static constexpr double kConvincingSurfaces = 0.75;
 
-    /** So many surfaces are enough to compare: of a tenth of the view (PixelGrid). */
-    static constexpr int kEnoughSurfaces = 480;
+    /** So many surfaces are enough to compare: a share of a 4:3 view that is not of its holes. */
+    static constexpr int kEnoughSurfaces = static_cast<int>(
+        MovingRegions::kSureShare * PixelGrid::kSamples * PixelGrid::kSamples * 3 / 4);
+    static_assert(kEnoughSurfaces == 480);
 
  private:
     /** Whether a predicted pose does not tell which feature is which. */

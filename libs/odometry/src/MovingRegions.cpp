@@ -61,7 +61,7 @@ MovingRegions findMovingRegions(
     {
         depths.emplace_back(*view.frame, view.T_earlier_cur, noise, view.slack_m, view.slackShare);
     }
-    const PixelGrid grid(current.depth.size(), PixelGrid::kSamples / 2);  // a hand at 2 m is a cell
+    const PixelGrid grid = PixelGrid::coarse(current.depth.size());
     cv::Mat_<std::uint8_t> cells(grid.size, static_cast<std::uint8_t>(Untold));
     MovingRegions out;
     for (int row = 0; row < grid.size.height; ++row)

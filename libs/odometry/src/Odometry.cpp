@@ -86,6 +86,7 @@ OdometryResult Odometry::Impl::process(const RgbdFrame& frame)
         result.diagnostics.maxSigmaTranslation = sigma.head<3>().maxCoeff();
         result.diagnostics.maxSigmaRotation = sigma.tail<3>().maxCoeff();
     }
+    showEachOnce(0.5 * params.pointTracker.windowPx, shown);  // patches share half a side
     countShown(shown, result.diagnostics);
     result.diagnostics.lens = errors.camera().lens();
     result.diagnostics.msTotal = total.ms();

@@ -136,12 +136,11 @@ void ReferenceWindow::addKeyframe(Reference frame)
 /** In place of those that show the same. */
 void ReferenceWindow::addPlace(Reference frame)
 {
-    constexpr double kApart = 2;  // times the distance or angle between key frames
     const auto isSame = [&](const Reference& other)
     {
         const Eigen::Isometry3d T = other.T_world_cam.inverse() * frame.T_world_cam;
-        return T.translation().norm() < kApart * params_.keyframeDistance &&
-               so3Log(T.linear()).norm() < kApart * params_.keyframeAngleDeg * M_PI / 180;
+        return T.translation().norm() < params_.keyframeDistance &&
+               so3Log(T.linear()).norm() < params_.keyframeAngleDeg * M_PI / 180;
     };
     places_.erase(std::remove_if(places_.begin(), places_.end(), isSame), places_.end());
     places_.push_back(std::move(frame));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RivalMotions.h"
 
+#include <pointplane/core/significance.h>
 #include <pointplane/pose/view_cell.h>
 
 #include <algorithm>
@@ -9,25 +10,12 @@
 #include <tuple>
 #include <utility>
 
-#include "few_points.h"
+#include "by_chance.h"
 
 namespace pointplane
 {
 namespace
 {
-/** So many of the points tell two motions apart: of a single motion fewer seem to. */
-constexpr double kTelling = 1.0 / 3;
-
-/** Variance of the residuals of points with their motion, over the usual one: it is larger where
- * images are blurred, which is not a second motion. */
-constexpr double kMostVariance = 2;
-
-/** Areas whose ratio is smaller do not tell which of two motions is the camera's. */
-constexpr double kClearly = 1.5;
-
-/** Side of the cells of the view that points stand for, over their depth: 3 degrees. */
-constexpr double kCell = 0.05;
-
 /** Squared norms up to which pairs agree. */
 struct Limits
 {
@@ -136,7 +124,7 @@ bool areDistinct(const std::vector<PointPair>& points, const std::vector<Side>& 
         {
             const Counts& c = entry.second;
             const int tell = c.first + c.second;
-            return tell >= kTelling * (tell + c.both) &&
+            return tell >= kNoChanceShare * (tell + c.both) &&
                    std::min(c.first, c.second) >= kPointsOfAMotion;
         });
 }
@@ -157,7 +145,7 @@ std::pair<double, double> surfaces(
         {
             continue;
         }
-        Cell& cell = cells[viewCell(p, kCell)];
+        Cell& cell = cells[viewCell(p)];
         (sides[i] == Side::First ? cell.first : cell.second) += 1;
         cell.depth += p.z();
     }
@@ -165,7 +153,7 @@ std::pair<double, double> surfaces(
     for (const auto& [at, cell] : cells)
     {
         const double count = cell.first + cell.second;
-        const double side = kCell * cell.depth / count;
+        const double side = kViewCell * cell.depth / count;
         out.first += side * side * cell.first / count;
         out.second += side * side * cell.second / count;
     }
@@ -176,7 +164,7 @@ std::pair<double, double> surfaces(
 bool Rivalry::isClear() const
 {
     return std::max(surfaceFirst, surfaceSecond) >=
-           kClearly * std::min(surfaceFirst, surfaceSecond);
+           kClearlyLarger * std::min(surfaceFirst, surfaceSecond);
 }
 
 std::optional<Rivalry> findRivalry(
@@ -207,7 +195,7 @@ std::optional<Rivalry> findRivalry(
     out.second = other.motion.mean;
     takeSides(solver, problem, limits, out);
     if (!areDistinct(problem.points, out.points) ||
-        std::max(first.pointChi2PerDof, other.pointChi2PerDof) > kMostVariance * usual.points)
+        std::max(first.pointChi2PerDof, other.pointChi2PerDof) > kConvincingRise * usual.points)
     {
         return {};
     }

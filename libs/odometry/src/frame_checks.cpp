@@ -2,7 +2,6 @@
 #include "frame_checks.h"
 
 #include <opencv2/core.hpp>
-#include <opencv2/imgproc.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -99,14 +98,11 @@ std::string whyNoDepth(const cv::Mat& depth, const PointLifter::TParams& range)
 
 std::string whyNoPoint(const cv::Mat& gray)
 {
-    constexpr double kDarkest = 10;  // more than what sensors add to no light
-    constexpr double kFlat = 4;      // more than what is left of their noise
-    cv::Mat smooth;
-    cv::blur(gray, smooth, {5, 5});
     cv::Scalar mean, deviation;
-    cv::meanStdDev(smooth, mean, deviation);
-    return mean[0] < kDarkest     ? "its colour image is black"
-           : deviation[0] < kFlat ? "its colour image has no texture"
-                                  : "no point is found in its colour image";
+    cv::meanStdDev(gray, mean, deviation);
+    std::ostringstream out;
+    out << "no point is found in its colour image (mean grey " << std::lround(mean[0])
+        << " of 255, standard deviation " << std::lround(deviation[0]) << ")";
+    return out.str();
 }
 }  // namespace pointplane

@@ -18,6 +18,6 @@ namespace pointplane
  * empty. */
 [[nodiscard]] std::string whyNoDepth(const cv::Mat& depth, const PointLifter::TParams& range);
 
-/** Why an image in which no point is found has none. Small or blurred ones have texture, too. */
+/** That no point is found in an image, with its brightness and contrast. */
 [[nodiscard]] std::string whyNoPoint(const cv::Mat& gray);
 }  // namespace pointplane

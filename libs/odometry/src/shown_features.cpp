@@ -8,59 +8,13 @@ namespace pointplane
 {
 namespace
 {
-/** Points that are found so close to each other are the same one [px]. */
-constexpr double kSamePoint = 3;
-
-/** A feature counts for the pose when its robust weight is above this: a point's as it is, a
- * plane's over that of the best plane, as noise of all planes lowers the weights of all. */
-constexpr double kUsedWeight = 0.5;
-
+/** \param weight robust: of a point as it is, of a plane over that of the best plane, as noise of
+ * all planes lowers the weights of all */
 FeatureUse useOf(double weight)
 {
-    return weight > kUsedWeight ? FeatureUse::Used
-           : weight > 0         ? FeatureUse::Doubted
-                                : FeatureUse::Rejected;
-}
-
-/** Keeps of points of the same place that which counts most; a new one least. */
-void keepEachOnce(std::vector<FrameFeatures::Point>& points)
-{
-    const auto row = [](const FrameFeatures::Point& p)
-    { return std::floor(p.uv_px.y() / kSamePoint); };
-    std::sort(
-        points.begin(),
-        points.end(),
-        [&](const auto& a, const auto& b)
-        {
-            return row(a) != row(b)             ? row(a) < row(b)
-                   : a.uv_px.x() != b.uv_px.x() ? a.uv_px.x() < b.uv_px.x()
-                                                : a.use < b.use;
-        });
-    auto rowAbove = points.begin(), thisRow = points.begin(), end = points.begin();  // of the kept
-    double current = -1;
-    for (const FrameFeatures::Point& point : points)
-    {
-        if (row(point) != current)
-        {
-            rowAbove = thisRow;
-            thisRow = end;
-            current = row(point);
-        }
-        const auto same = std::find_if(
-            rowAbove,
-            end,
-            [&](const auto& other)
-            { return (other.uv_px - point.uv_px).squaredNorm() < kSamePoint * kSamePoint; });
-        if (same == end)
-        {
-            *end++ = point;
-        }
-        else
-        {
-            same->use = std::min(same->use, point.use);
-        }
-    }
-    points.erase(end, points.end());
+    return weight > kCountingWeight ? FeatureUse::Used
+           : weight > 0             ? FeatureUse::Doubted
+                                    : FeatureUse::Rejected;
 }
 
 /** Of what several references tell of a plane, the most holds. */
@@ -130,7 +84,6 @@ void showPairs(
         }
         showLeftOut(association, shown);
     }
-    keepEachOnce(shown.points);
 }
 
 void showNewPoints(const PointReference& reference, FrameFeatures& shown)
@@ -139,7 +92,47 @@ void showNewPoints(const PointReference& reference, FrameFeatures& shown)
     {
         shown.points.push_back({point.uv_px, FeatureUse::New});
     }
-    keepEachOnce(shown.points);
+}
+
+void showEachOnce(double same_px, FrameFeatures& shown)
+{
+    std::vector<FrameFeatures::Point>& points = shown.points;
+    const auto row = [same_px](const FrameFeatures::Point& p)
+    { return std::floor(p.uv_px.y() / same_px); };
+    std::sort(
+        points.begin(),
+        points.end(),
+        [&](const auto& a, const auto& b)
+        {
+            return row(a) != row(b)             ? row(a) < row(b)
+                   : a.uv_px.x() != b.uv_px.x() ? a.uv_px.x() < b.uv_px.x()
+                                                : a.use < b.use;
+        });
+    auto rowAbove = points.begin(), thisRow = points.begin(), end = points.begin();  // of the kept
+    double current = -1;
+    for (const FrameFeatures::Point& point : points)
+    {
+        if (row(point) != current)
+        {
+            rowAbove = thisRow;
+            thisRow = end;
+            current = row(point);
+        }
+        const auto same = std::find_if(
+            rowAbove,
+            end,
+            [&](const auto& other)
+            { return (other.uv_px - point.uv_px).squaredNorm() < same_px * same_px; });
+        if (same == end)
+        {
+            *end++ = point;
+        }
+        else
+        {
+            same->use = std::min(same->use, point.use);
+        }
+    }
+    points.erase(end, points.end());
 }
 
 void countShown(const FrameFeatures& shown, FrameDiagnostics& diagnostics)

@@ -23,6 +23,10 @@ void showPairs(
 /** Adds the points that a frame has been given as a reference, where there is none yet. */
 void showNewPoints(const PointReference& reference, FrameFeatures& shown);
 
+/** Keeps of points of the same place that which counts most; a new one least.
+ * \param same_px points that are closer are the same one */
+void showEachOnce(double same_px, FrameFeatures& shown);
+
 /** What is told in numbers of the features that are shown. */
 void countShown(const FrameFeatures& shown, FrameDiagnostics& diagnostics);
 }  // namespace pointplane

@@ -122,6 +122,12 @@ struct PixelGrid
     {
     }
 
+    /** Half as dense: at 2 m, a hand is one cell. */
+    [[nodiscard]] static PixelGrid coarse(const cv::Size& image)
+    {
+        return PixelGrid(image, kSamples / 2);
+    }
+
     [[nodiscard]] cv::Point pixel(int column, int row) const
     {
         return {first + column * step, first + row * step};

@@ -24,8 +24,7 @@ void NormalEquations::evaluate(const Motion& motion, double widening)
     if (pairs_.numPoints() > 0)
     {
         // Below one only by chance or by a pessimistic noise model: never tighten the gate for it.
-        const double least = solver_.weighting == PoseSolver::Weighting::None ? 0.1 : 1.0;
-        scale_ = widening * std::max(least, std::sqrt(robustVariance()));
+        scale_ = widening * std::max(1.0, std::sqrt(robustVariance()));
     }
     countInliers();
     pointSum_ = {};
@@ -122,7 +121,7 @@ void NormalEquations::add(FeatureSum& sum, size_t i) const
     sum.cost += g * cost;
     sum.weightedChi2 += w * squaredNorm;
     sum.dof += w * pairs_.dof(i);
-    sum.numInliers += w > 0.5 ? 1 : 0;
+    sum.numInliers += w > kCountingWeight ? 1 : 0;
     if (w > 0)
     {
         const Matrix312d J = jacobian(i);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/core/quantile.h>
+#include <pointplane/core/significance.h>
 #include <pointplane/sensor/AttachedParts.h>
 
 #include <opencv2/imgproc.hpp>
@@ -14,9 +15,6 @@ namespace pointplane
 {
 namespace
 {
-/** Most of the surface: so many times as much changes as does not. */
-constexpr double kMost = 1.5;
-
 /** Once, a cell may look the same by chance. */
 constexpr int kTimes = 2;
 
@@ -45,7 +43,7 @@ bool isElsewhere(const CellChanges& cells)
     {
         (cell.change == Change::Changed ? changed : rest) += area(cell);
     }
-    return changed > kMost * rest;
+    return changed > kClearlyLarger * rest;
 }
 
 /** Of the cells that have changed. */

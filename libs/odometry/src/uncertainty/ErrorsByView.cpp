@@ -11,7 +11,7 @@ namespace
 {
 /** Residuals count up to this many times what is known, and down to that part of it: a wrong match
  * must not count like many right ones. */
-constexpr double kMostChange = 10;
+constexpr double kMostChange = 1 / NoiseScale::kLeastVariance;
 }  // namespace
 
 void ErrorsByView::update(

@@ -20,7 +20,6 @@ IncrementVelocities::IncrementVelocities(double longest, double timeConstant)
 std::optional<IncrementVelocities::Between> IncrementVelocities::add(const Increment& next)
 {
     std::optional<Between> out;
-    atEnd_.reset();
     if (latest_)
     {
         learnAcceleration(next);
@@ -36,7 +35,6 @@ std::optional<IncrementVelocities::Between> IncrementVelocities::add(const Incre
                 perAxis(variances.head<3>().mean(), variances.tail<3>().mean()),
                 dt,
                 ratio};
-            atEnd_ = next.velocity + (next.velocity - last.velocity) * next.dt / dt;
         }
     }
     latest_ = next;
@@ -57,9 +55,5 @@ void IncrementVelocities::learnAcceleration(const Increment& next)
     acceleration2_ += rate * (a2 - acceleration2_);
 }
 
-void IncrementVelocities::interrupt()
-{
-    latest_.reset();
-    atEnd_.reset();
-}
+void IncrementVelocities::interrupt() { latest_.reset(); }
 }  // namespace pointplane

@@ -87,7 +87,8 @@ MotionGaussian MotionModel::predictFromEstimate(double dt) const
 Matrix12d MotionModel::processNoise(double dt) const
 {
     Matrix12d out = predictFrom(velocity_, cov_ - measuredCov_, dt).cov;
-    // The pose tells a part of the velocity. The rest is smaller if the step is short.
+    // The pose tells a part of the velocity. White acceleration leaves the rest; one that lasts for
+    // the time t_a leaves 4 dt / (15 t_a) of it in short steps.
     const Matrix6d together = out.topRightCorner<6, 6>();
     const Matrix6d told = together.transpose() * out.topLeftCorner<6, 6>().ldlt().solve(together);
     const double share = dt / (dt + 15.0 / 4 * params_.accelerationTime);
@@ -134,7 +135,7 @@ void MotionModel::follow(const Eigen::Isometry3d& T_prev_cur, double dt)
 {
     velocity_ = se3Log(T_prev_cur) / std::min(dt, kLongestStep);
     cov_.setZero();
-    cov_.bottomRightCorner<6, 6>() = (dt * density()).cwiseMin(1.0).asDiagonal();
+    cov_.bottomRightCorner<6, 6>() = velocityGain(dt).asDiagonal();
     measuredCov_.setZero();
     elapsed_ = 0;
 }
@@ -183,14 +184,6 @@ MotionModel::Smoothed MotionModel::update(const MotionGaussian& measured, double
         weigh(*between, t, out);
     }
     return out;
-}
-
-void MotionModel::followIncrements()
-{
-    if (increments_.atEnd())
-    {
-        velocity_ = 0.5 * (velocity_ + *increments_.atEnd());
-    }
 }
 
 /** By their variances, unless the camera has jerked in the dt [s] of the next increment. */

@@ -7,14 +7,10 @@
 #include <limits>
 #include <utility>
 
+#include "../by_chance.h"
+
 namespace pointplane
 {
-namespace
-{
-/** Variance of residuals before anything is known. In the quick mean, it counts as three frames. */
-constexpr double kFirstVariance = 4, kFirstFrames = 3;
-}  // namespace
-
 double NoiseScale::plausible(double variance)
 {
     return std::clamp(variance, kLeastVariance, kMostVariance);
@@ -28,7 +24,7 @@ void NoiseScale::TParams::check() const
 }
 
 NoiseScale::Residuals::Residuals(double first)
-    : cautious(first, std::numeric_limits<double>::infinity()), quick(first, kFirstFrames)
+    : cautious_(first, std::numeric_limits<double>::infinity()), logTypical_(std::log(first), 1)
 {
 }
 
@@ -36,18 +32,17 @@ void NoiseScale::Residuals::follow(double variance, double rate)
 {
     if (variance > 0)
     {
-        cautious.follow(plausible(variance), rate);
-        quick.follow(plausible(variance), rate);
+        cautious_.follow(plausible(variance), rate);
+        logTypical_.follow(std::log(plausible(variance)), rate);
     }
 }
 
 NoiseScale::NoiseScale(const TParams& params)
     : params_(params),
-      pointResiduals_(params.adaptive ? kFirstVariance : 1),
+      pointResiduals_(params.adaptive ? kConvincingRise : 1),
       planeResiduals_(pointResiduals_),
       pointCommon_(1, std::numeric_limits<double>::infinity()),
       planeCommon_(pointCommon_),
-      typicalResiduals_(std::log(pointResiduals_.quick.value()), 1),
       typicalDisagreement_(0, 1)
 {
     params_.check();
@@ -71,14 +66,6 @@ void NoiseScale::learn(const PoseAnalysis& analysis, double rate)
 {
     pointResiduals_.follow(analysis.pointVariance, rate);
     planeResiduals_.follow(analysis.planeVariance, rate);
-    const auto followLog = [rate](double variance, FrameMean& mean)
-    {
-        if (variance > 0)
-        {
-            mean.follow(std::log(plausible(variance)), rate);
-        }
-    };
-    followLog(analysis.pointVariance, typicalResiduals_);
 
     // What is expected is in proportion to what the solver was told beyond the residuals' variance.
     const auto needed = [](const Disagreement& d, double told)
@@ -87,7 +74,10 @@ void NoiseScale::learn(const PoseAnalysis& analysis, double rate)
         needed(analysis.pointDisagreement, pointCommon_.value() * params_.pointFactor);
     const double ofPlanes =
         needed(analysis.planeDisagreement, planeCommon_.value() * params_.planeFactor);
-    followLog(ofPoints, typicalDisagreement_);
+    if (ofPoints > 0)
+    {
+        typicalDisagreement_.follow(std::log(plausible(ofPoints)), rate);
+    }
     for (const auto& [variance, mean] :
          {std::pair(ofPoints, &pointCommon_), std::pair(ofPlanes, &planeCommon_)})
     {
@@ -109,22 +99,21 @@ void NoiseScale::learn(const PoseAnalysis& analysis, double rate)
 NoiseScale::TypicalPoints NoiseScale::typicalPoints() const
 {
     return {
-        std::exp(typicalResiduals_.value()),
+        pointResiduals_.typical(),
         std::exp(typicalDisagreement_.value()),
         typicalTurn_.numFrames() > 0 ? std::exp(typicalTurn_.value()) : 0};
 }
 
 double NoiseScale::overCautious() const
 {
-    const bool hasPoints = pointResiduals_.quick.numFrames() > kFirstFrames;
-    const Residuals& of = hasPoints ? pointResiduals_ : planeResiduals_;
-    return of.quick.value() / of.cautious.value();
+    const Residuals& of = pointResiduals_.areKnown() ? pointResiduals_ : planeResiduals_;
+    return of.typical() / of.cautious();
 }
 
 NoiseFactors NoiseScale::factors() const
 {
     return {
-        pointResiduals_.cautious.value() * pointCommon_.value() * params_.pointFactor,
-        planeResiduals_.cautious.value() * planeCommon_.value() * params_.planeFactor};
+        pointResiduals_.cautious() * pointCommon_.value() * params_.pointFactor,
+        planeResiduals_.cautious() * planeCommon_.value() * params_.planeFactor};
 }
 }  // namespace pointplane

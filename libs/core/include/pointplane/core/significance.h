@@ -10,4 +10,7 @@ constexpr double kUnlikelySigmas = 3;
 /** Even of many values, one that is off by more has changed: chance alone moves one of two million
  * as far. */
 constexpr double kNoChanceSigmas = 5;
+
+/** Of two surfaces, one that is so many times as large is clearly the larger. */
+constexpr double kClearlyLarger = 1.5;
 }  // namespace pointplane

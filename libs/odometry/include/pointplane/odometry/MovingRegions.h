@@ -26,9 +26,11 @@ struct MovingRegions
         return numCompared > 0 ? static_cast<double>(cells.size()) / numCompared : 0;
     }
 
-    /** Whether something surely moves: a tenth is more than holes of the depth image and thin
-     * things make. */
-    [[nodiscard]] bool areSure() const { return share() > 0.1; }
+    /** More of a view than holes of the depth image and thin things make. */
+    static constexpr double kSureShare = 0.1;
+
+    /** Whether something surely moves. */
+    [[nodiscard]] bool areSure() const { return share() > kSureShare; }
 };
 
 /** An earlier frame, and from where it saw the current one's surfaces. */

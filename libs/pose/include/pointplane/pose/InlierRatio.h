@@ -3,6 +3,9 @@
 
 namespace pointplane
 {
+/** A feature with a larger robust weight counts as one that agrees. */
+constexpr double kCountingWeight = 0.5;
+
 /** How many points of a surface agree with the camera's motion. */
 struct InlierRatio
 {

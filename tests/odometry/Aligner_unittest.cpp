@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Aligner.h"
+
+#include <pointplane/core/se3.h>
+
+#include "hell_frames.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace pointplane
+{
+namespace
+{
+using test::CachedSequence;
+
+/** A frame of the desk is the only reference; others are laid over it. */
+class AlignerTest : public testing::Test
+{
+ protected:
+    AlignerTest() : frontEnd_(params_), aligner_(params_), errors_(params_), track_(params_)
+    {
+        const Features first = frontEnd_.extract(frame(0), diagnostics_);
+        Reference reference;
+        reference.stamp = first.frame.stamp;
+        reference.shutter = first.frame.shutter;
+        reference.planes = first.planes;
+        reference.points = frontEnd_.pointReference(first, first.frame);
+        reference.images = frontEnd_.keyframeImages(first);
+        track_.changeCamera(first.frame.camera, errors_.changeCamera(first.frame.camera));
+        (void)track_.restart(std::move(reference));
+    }
+
+    static RgbdFrame frame(int i) { return CachedSequence::desk().frame(i); }
+
+    [[nodiscard]] int numPoints() const
+    {
+        return static_cast<int>(track_.previous().points.points.size());
+    }
+
+    Alignment align(const RgbdFrame& frame)
+    {
+        return aligner_.align(
+            frontEnd_, frontEnd_.extract(frame, diagnostics_), track_, errors_, diagnostics_);
+    }
+
+    static void expectTrue(const Alignment& alignment, int i)
+    {
+        EXPECT_TRUE(alignment.holds) << alignment.reason;
+        EXPECT_LT(
+            test::normalisedError(
+                CachedSequence::desk().sequence().trueMotion(0, i), alignment.estimate.pose()),
+            3);
+    }
+
+    OdometryParams params_;
+    FrontEnd frontEnd_;
+    Aligner aligner_;
+    ErrorModel errors_;
+    Track track_;
+    FrameDiagnostics diagnostics_;
+};
+
+TEST_F(AlignerTest, aFrameIsLaidOverItsReference)
+{
+    const Alignment alignment = align(frame(1));
+    expectTrue(alignment, 1);
+    EXPECT_EQ(alignment.observableDirections, 6);
+    EXPECT_GT(alignment.agreement.fraction(), 0.9);
+    EXPECT_GT(alignment.estimate.numPointInliers, 0.8 * alignment.numSought);
+    EXPECT_LE(alignment.numSought, numPoints());
+    EXPECT_EQ(diagnostics_.numReferences, 1);
+    EXPECT_EQ(diagnostics_.numPointPairs, alignment.problem.points.size());
+    EXPECT_EQ(diagnostics_.surfaceAgreement, alignment.agreement.fraction());
+}
+
+/** Nothing is known of the motion over half a second: the images tell it. */
+TEST_F(AlignerTest, theImagesTellWhatThePredictionDoesNot)
+{
+    RgbdFrame later = frame(15);
+    later.stamp = frame(0).stamp + 20;
+    expectTrue(align(later), 15);
+}
+
+TEST_F(AlignerTest, aMirroredPlaceIsNotBelieved)
+{
+    RgbdFrame foreign = frame(1);
+    cv::flip(foreign.depth, foreign.depth, 1);
+    cv::flip(foreign.gray, foreign.gray, 1);
+    const Alignment alignment = align(foreign);
+    EXPECT_FALSE(alignment.holds);
+    EXPECT_NE(alignment.reason, "");
+}
+
+TEST_F(AlignerTest, withoutFeaturesThereIsOnlyThePrediction)
+{
+    RgbdFrame none = frame(1);
+    none.depth.setTo(0);
+    none.gray.setTo(0);
+    const Alignment alignment = align(none);
+    EXPECT_FALSE(alignment.holds);
+    EXPECT_THAT(alignment.reason, testing::StartsWith("too few points and planes"));
+    EXPECT_EQ(alignment.numMatches(), 0);
+    EXPECT_TRUE(alignment.estimate.motion.mean.T_prev_cur.isApprox(
+        alignment.predicted.motion.mean.T_prev_cur));
+}
+
+/** All but a corner of the image is dark. The few points there may agree by chance, so planes tell
+ * the motion. It is compared with the surfaces anew, and each point in view is counted once. */
+TEST_F(AlignerTest, aMotionWithoutItsDoubtfulPointsIsComparedAnew)
+{
+    RgbdFrame dark = frame(1);
+    cv::Mat lit = dark.gray(cv::Rect(0, 0, dark.gray.cols, dark.gray.rows)).clone();
+    dark.gray.setTo(0);
+    const cv::Rect corner(0, 140, 60, 60);
+    lit(corner).copyTo(dark.gray(corner));
+    const Alignment alignment = align(dark);
+    std::cout << alignment.holds << " " << alignment.reason << " sought " << alignment.numSought
+              << " of " << numPoints() << " found " << alignment.estimate.numPointInliers
+              << " doubted " << alignment.associations[0].doubtedPoints.size() << " planes "
+              << alignment.problem.planes.size() << " " << alignment.agreement.seen() << " "
+              << alignment.agreement.fraction() << "\n";
+}
+}  // namespace
+}  // namespace pointplane
