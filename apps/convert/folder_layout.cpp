@@ -101,8 +101,9 @@ const Words kWordsOfBoth{"image", "img", "frame"};  //!< in folders of one kind
     for (const auto& entry : fs::directory_iterator(folder, error))
     {
         const std::string name = entry.path().filename();
-        if (depth.empty() ||
-            std::find(kDepthWords.begin(), kDepthWords.end(), name) == kDepthWords.end())
+        const bool isOfDepth =
+            std::find(kDepthWords.begin(), kDepthWords.end(), name) != kDepthWords.end();
+        if (entry.is_directory(error) && (depth.empty() || !isOfDepth))
         {
             const auto inside = imagesInFolder(entry.path());
             out.insert(out.end(), inside.begin(), inside.end());

@@ -754,6 +754,23 @@ TEST_F(ConvertFolder, whichOfTwoFoldersWasTakenIsTold)
     }
 }
 
+/** Else frames would have depth alone, without a word why. */
+TEST_F(ConvertFolder, aFolderOfColourThatCannotBeReadIsTold)
+{
+    for (const auto& [target, why] :
+         {std::pair("elsewhere", "No such file or directory"),
+          std::pair("rgb", "Too many levels of symbolic links")})
+    {
+        writeFrames("in/colour/%d.jpg", "in/depth/%d.png");
+        write("in/camera.txt", kCamera);
+        std::filesystem::remove_all(dir_ / "in/colour");
+        std::filesystem::create_directory_symlink(target, dir_ / "in/rgb");
+        EXPECT_EQ(run({"folder", in_}), kExitBadInput) << text_;
+        EXPECT_THAT(text_, HasSubstr("cannot open " + in_ + "/rgb: " + why + "\n"));
+        std::filesystem::remove(dir_ / "in/rgb");
+    }
+}
+
 TEST_F(ConvertFolder, impossibleCalibrationsRatesAndTimesAreRefused)
 {
     const auto expect = [this](const std::string& text)
