@@ -148,20 +148,32 @@ void OutputGuard::addOutput(const std::string& option, const std::string& path)
     add(output);
 }
 
-void OutputGuard::addRawlog(const std::string& option, const std::string& path)
+/** \param kind of the file, which is its ending, too */
+void OutputGuard::addNamed(
+    const std::string& option, const std::string& path, const std::string& kind)
 {
     addOutput(option, path);
     fs::path name = fs::path(path).filename();
     const bool isCompressed = name.extension() == ".gz";
     name = isCompressed ? name.stem() : name;
-    const bool isNamedSo = name.extension() == ".rawlog" ||
+    const bool isNamedSo = name.extension() == "." + kind ||
                            (!isCompressed && name.string().find('.') == std::string::npos);
     if (!path.empty() && !isNamedSo && hasPlaceBeside(path))
     {
         throw InputError(
-            option + " " + path +
-            ": would be a rawlog; give a name that ends in .rawlog or .rawlog.gz");
+            option + " " + path + ": would be a " + kind + "; give a name that ends in ." + kind +
+            " or ." + kind + ".gz");
     }
+}
+
+void OutputGuard::addRawlog(const std::string& option, const std::string& path)
+{
+    addNamed(option, path, "rawlog");
+}
+
+void OutputGuard::addSimplemap(const std::string& option, const std::string& path)
+{
+    addNamed(option, path, "simplemap");
 }
 
 void OutputGuard::addText(const std::string& option, const std::string& path)

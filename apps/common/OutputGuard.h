@@ -40,6 +40,9 @@ class OutputGuard
      * has an extension: that of something else may be a file of the user's. */
     void addRawlog(const std::string& option, const std::string& path);
 
+    /** As addRawlog(), for a simplemap: .simplemap or .simplemap.gz. */
+    void addSimplemap(const std::string& option, const std::string& path);
+
     /** As addOutput(), for a text. The name of a file may not end in .rawlog or .gz: that is what
      * it would not be, and such a file may be a recording of the user's. */
     void addText(const std::string& option, const std::string& path);
@@ -85,6 +88,7 @@ class OutputGuard
     void check(const Input& input) const;
     void check(const std::string& path, Kind kind) const;
     void add(const std::string& path, Kind kind);
+    void addNamed(const std::string& option, const std::string& path, const std::string& kind);
     void add(const Output& output);
 
     std::vector<Output> outputs_;

@@ -34,7 +34,8 @@ constexpr const char* kEvenStampsHelp =
     "Poses then belong to these stamps";
 
 const std::string kCameraFile =
-    "file: MRPT's camera ini, or one line `fx fy cx cy k1 k2 p1 p2 k3 width height unitsPerMetre`";
+    "file: MRPT's camera ini, Open3D's .json, or one line `fx fy cx cy k1 k2 p1 p2 k3 width height "
+    "unitsPerMetre`";
 const std::string kFileHelp = "Calibration, a ";
 const std::string kPresetHelp = "Calibration: fr1, fr2, fr3, or a ";
 
@@ -82,9 +83,9 @@ void addFolderCommand(CLI::App& app, FolderOptions& options, RecordingOutput& ou
 {
     CLI::App* folder = app.add_subcommand(
         "folder",
-        "Numbered or stamped images: ScanNet, 7-Scenes, Redwood, Replica, Bonn, Record3D, "
-        "StrayScanner, any two folders like rgb and depth, or one with images like rgb_12.png and "
-        "depth_12.png; also depth alone");
+        "Numbered or stamped images: ScanNet, 7-Scenes, Redwood, Replica, Bonn, Open3D, "
+        "Record3D, StrayScanner, any two folders like rgb and depth, or one with images like "
+        "rgb_12.png and depth_12.png; also depth alone");
     folder->add_option("folder", options.folder, "Folder with the images")
         ->type_name("DIR")
         ->required();

@@ -100,4 +100,23 @@ void readPublishedCamera(const fs::path& folder, FolderLayout& out)
         out.unitsPerMetre = 5000;
     }
 }
+
+void readOpen3d(const fs::path& folder, FolderLayout& out)
+{
+    for (const char* name : {"intrinsic.json", "camera_intrinsic.json"})
+    {
+        const fs::path path = folder / name;
+        const auto json = jsonIn(path);  // other programs have files of this name
+        if (const auto camera = json ? open3dCamera(*json, path) : std::nullopt)
+        {
+            out.name = "Open3D";
+            out.camera = camera;
+            out.cameraIsNominal = false;
+            out.calibration = path.string();
+            out.unitsPerMetre = camera->tellsUnits ? camera->unitsPerMetre : out.unitsPerMetre;
+            out.fps = rateIn(*json, path);
+            return;
+        }
+    }
+}
 }  // namespace pointplane

@@ -25,4 +25,7 @@ namespace pointplane
 
 /** Cameras of data sets, as published with them, by the name of the folder. */
 void readPublishedCamera(const std::filesystem::path& folder, FolderLayout& out);
+
+/** What Open3D's recorders write beside the images: intrinsic.json or camera_intrinsic.json. */
+void readOpen3d(const std::filesystem::path& folder, FolderLayout& out);
 }  // namespace pointplane

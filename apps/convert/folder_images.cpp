@@ -2,12 +2,14 @@
 #include "folder_images.h"
 
 #include <pointplane/core/number_text.h>
+#include <pointplane/mrpt_io/errors.h>
 
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <cmath>
 #include <set>
+#include <system_error>
 #include <tuple>
 
 namespace pointplane
@@ -27,6 +29,27 @@ namespace
     constexpr std::array known{
         ".png", ".jpg", ".jpeg", ".pgm", ".ppm", ".bmp", ".tif", ".tiff", ".exr", ".pfm"};
     return std::find(known.begin(), known.end(), extension) != known.end();
+}
+
+/** What is in a folder, or nothing if there is none. \throws InputError if it cannot be read, or is
+ * elsewhere than a link says: images in it would be missed */
+[[nodiscard]] std::vector<fs::path> pathsIn(const fs::path& folder)
+{
+    std::vector<fs::path> out;
+    std::error_code error, ofLink;
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+         entry.increment(error))
+    {
+        out.push_back(entry->path());
+    }
+    const bool isNone =
+        error == std::errc::not_a_directory ||
+        (error == std::errc::no_such_file_or_directory && !fs::is_symlink(folder, ofLink));
+    if (error && !isNone)
+    {
+        throw InputError("cannot open " + folder.string() + ": " + error.message());
+    }
+    return out;
 }
 
 /** Of a name that is a time since 1970: seconds with a decimal point, or so many digits that they
@@ -88,12 +111,11 @@ namespace
 std::vector<std::string> imagesInFolder(const fs::path& folder)
 {
     std::vector<std::string> out;
-    std::error_code error;
-    for (const auto& entry : fs::directory_iterator(folder, error))
+    for (const fs::path& path : pathsIn(folder))
     {
-        if (isImage(entry.path()) && entry.path().filename().string().front() != '.')
+        if (isImage(path) && path.filename().string().front() != '.')
         {
-            out.push_back(entry.path().string());
+            out.push_back(path.string());
         }
     }
     return out;
@@ -146,11 +168,10 @@ std::vector<ImageRef> imagesIn(
     const fs::path& folder, const std::string& prefix, const std::string& suffix)
 {
     std::vector<ImageRef> out;
-    std::error_code error;
-    for (const auto& entry : fs::directory_iterator(folder, error))
+    for (const fs::path& path : pathsIn(folder))
     {
-        std::string stem = entry.path().stem().string();
-        if (!isImage(entry.path()) || stem.size() < prefix.size() + suffix.size() ||
+        std::string stem = path.stem().string();
+        if (!isImage(path) || stem.size() < prefix.size() + suffix.size() ||
             stem.compare(0, prefix.size(), prefix) != 0 ||
             stem.compare(stem.size() - suffix.size(), suffix.size(), suffix) != 0)
         {
@@ -159,7 +180,7 @@ std::vector<ImageRef> imagesIn(
         stem = stem.substr(prefix.size(), stem.size() - prefix.size() - suffix.size());
         if (auto image = imageNamed(stem))
         {
-            image->path = entry.path().string();
+            image->path = path.string();
             out.push_back(*image);
         }
     }

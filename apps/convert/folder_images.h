@@ -17,11 +17,13 @@ struct ImageRef
     std::optional<double> stamp;  //!< where name or list tell it [s]
 };
 
-/** Images of a folder whose names start and end as given, in order of their number or time.
+/** Images of a folder, if there is one, whose names start and end as given, in order of their
+ * number or time.
  *
  * What is between is a number (frame 17), a time since 1970 (seconds with a decimal point, or 10,
  * 13, 16 or 19 digits: seconds, milli-, micro- or nanoseconds), or two numbers with a dash
- * (Redwood: frame and microseconds). Other names are left out. */
+ * (Redwood: frame and microseconds). Other names are left out.
+ * \throws InputError if the folder is there, but cannot be read */
 [[nodiscard]] std::vector<ImageRef> imagesIn(
     const std::filesystem::path& folder,
     const std::string& prefix = "",

@@ -101,8 +101,9 @@ const Words kWordsOfBoth{"image", "img", "frame"};  //!< in folders of one kind
     for (const auto& entry : fs::directory_iterator(folder, error))
     {
         const std::string name = entry.path().filename();
-        if (depth.empty() ||
-            std::find(kDepthWords.begin(), kDepthWords.end(), name) == kDepthWords.end())
+        const bool isOfDepth =
+            std::find(kDepthWords.begin(), kDepthWords.end(), name) != kDepthWords.end();
+        if (entry.is_directory(error) && (depth.empty() || !isOfDepth))
         {
             const auto inside = imagesInFolder(entry.path());
             out.insert(out.end(), inside.begin(), inside.end());
@@ -159,6 +160,7 @@ void requireNoOthers(const fs::path& folder, const std::vector<ImageRef>& depth)
         out.cameraIsNominal = true;
     }
     readPublishedCamera(folder, out);
+    readOpen3d(folder, out);
     readRecord3d(folder, out);
     return out;
 }
@@ -191,10 +193,11 @@ FolderLayout readFolderLayout(const std::string& folder)
     }
     throw InputError(
         folder +
-        ": not a known layout. Known are ScanNet, 7-Scenes, Redwood, Replica, Bonn, Record3D, "
-        "StrayScanner; two folders, rgb (or color, colour, image, images) and depth (depths), with "
-        "images named by number or stamp, as 12.png, frame_12.png or 1500000000.25.png; one "
-        "folder with these words in the names, as rgb_12.png and depth_12.png; depth alone" +
+        ": not a known layout. Known are ScanNet, 7-Scenes, Redwood, Replica, Bonn, Open3D, "
+        "Record3D, StrayScanner; two folders, rgb (or color, colour, image, images) and depth "
+        "(depths), with images named by number or stamp, as 12.png, frame_12.png or "
+        "1500000000.25.png; one folder with these words in the names, as rgb_12.png and "
+        "depth_12.png; depth alone" +
         imageInstead(folder));
 }
 }  // namespace pointplane

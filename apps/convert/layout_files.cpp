@@ -114,7 +114,7 @@ Eigen::Isometry3d poseOfMatrix(const fs::path& path)
     return out;
 }
 
-std::optional<nlohmann::json> jsonObjectIn(const fs::path& path)
+std::optional<nlohmann::json> jsonIn(const fs::path& path)
 {
     std::ifstream file(path);
     if (!file || !fs::is_regular_file(path))
@@ -123,7 +123,17 @@ std::optional<nlohmann::json> jsonObjectIn(const fs::path& path)
     }
     nlohmann::json out = nlohmann::json::parse(readAll(file), nullptr, false);
     requireRead(file, path.string());
-    if (!out.is_object())
+    if (out.is_discarded())
+    {
+        throw InputError(path.string() + ": is not JSON");
+    }
+    return out;
+}
+
+std::optional<nlohmann::json> jsonObjectIn(const fs::path& path)
+{
+    auto out = jsonIn(path);
+    if (out && !out->is_object())
     {
         throw InputError(path.string() + ": is not a JSON object");
     }
@@ -149,6 +159,55 @@ int pixelsIn(const nlohmann::json& json, const char* key, const fs::path& path)
         throw InputError(path.string() + ": '" + key + "' is not a number of pixels");
     }
     return static_cast<int>(size);
+}
+
+std::optional<double> rateIn(const nlohmann::json& json, const fs::path& path)
+{
+    if (!json.contains("fps"))
+    {
+        return {};
+    }
+    const double fps = numberAt(json, "fps", path);
+    if (!(fps > 0))
+    {
+        throw InputError(path.string() + ": 'fps' is not a positive number");
+    }
+    return fps;
+}
+
+PinholeCamera cameraAt(const nlohmann::json& json, const CameraKeys& keys, const fs::path& path)
+{
+    const auto K = json.find(keys.matrix);
+    if (K == json.end() || !K->is_array() || K->size() != 9 ||
+        !std::all_of(K->begin(), K->end(), [](const auto& k) { return k.is_number(); }))
+    {
+        throw InputError(path.string() + ": " + keys.matrix + " is not a list of 9 numbers");
+    }
+    const auto at = [&](std::size_t index) { return (*K)[index].get<double>(); };
+    const bool isByRow = at(6) == 0 && at(7) == 0;
+    PinholeCamera camera = pinholeOf(
+        pixelsIn(json, keys.width, path),
+        pixelsIn(json, keys.height, path),
+        at(0),
+        at(isByRow ? 2 : 6),
+        at(isByRow ? 5 : 7));
+    camera.fy = at(4);
+    return camera;
+}
+
+std::optional<TumCamera> open3dCamera(const nlohmann::json& json, const fs::path& path)
+{
+    if (!json.contains("intrinsic_matrix"))
+    {
+        return {};
+    }
+    TumCamera out = colourCamera(cameraAt(json, {"intrinsic_matrix", "width", "height"}, path));
+    if (json.contains("depth_scale"))  // not in the files of all recorders
+    {
+        out.unitsPerMetre = numberAt(json, "depth_scale", path);
+        out.tellsUnits = true;
+    }
+    return out;
 }
 
 TumCamera colourCamera(const PinholeCamera& camera)

@@ -24,7 +24,10 @@ void requireFolder(const std::string& path);
 /** A 4x4 matrix, row by row: a rotation and a translation [m]. */
 [[nodiscard]] Eigen::Isometry3d poseOfMatrix(const std::filesystem::path& path);
 
-/** A JSON file's object, or nothing if it is not there. */
+/** What a JSON file holds, or nothing if it is not there. */
+[[nodiscard]] std::optional<nlohmann::json> jsonIn(const std::filesystem::path& path);
+
+/** As jsonIn(), of a file that has to hold an object. */
 [[nodiscard]] std::optional<nlohmann::json> jsonObjectIn(const std::filesystem::path& path);
 
 /** \param path of the file, for the message */
@@ -34,6 +37,24 @@ void requireFolder(const std::string& path);
 /** Pixels of a side. */
 [[nodiscard]] int pixelsIn(
     const nlohmann::json& json, const char* key, const std::filesystem::path& path);
+
+/** Frames a second by 'fps', or nothing if the file does not tell them. */
+[[nodiscard]] std::optional<double> rateIn(
+    const nlohmann::json& json, const std::filesystem::path& path);
+
+/** Keys of a camera: its matrix of 9 numbers, and the size of its images. */
+struct CameraKeys
+{
+    const char *matrix, *width, *height;
+};
+
+/** A matrix column by column, as Open3D and Record3D write it, or row by row, as others make it. */
+[[nodiscard]] PinholeCamera cameraAt(
+    const nlohmann::json& json, const CameraKeys& keys, const std::filesystem::path& path);
+
+/** Open3D's calibration, or nothing if it is none. */
+[[nodiscard]] std::optional<TumCamera> open3dCamera(
+    const nlohmann::json& json, const std::filesystem::path& path);
 /** @} */
 
 [[nodiscard]] PinholeCamera pinholeOf(int width, int height, double f, double cx, double cy);

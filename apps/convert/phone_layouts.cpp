@@ -3,7 +3,6 @@
 
 #include <pointplane/core/number_text.h>
 #include <pointplane/core/read_errors.h>
-#include <pointplane/mrpt_io/errors.h>
 
 #include <algorithm>
 #include <cmath>
@@ -59,26 +58,6 @@ void setStamps(FolderLayout& out, const fs::path& list, const StampOf& stampOf)
     requireRead(file, odometry.string());
     return out;
 }
-
-[[nodiscard]] PinholeCamera record3dCamera(const nlohmann::json& json, const fs::path& path)
-{
-    const auto& K = json["K"];
-    if (!K.is_array() || K.size() != 9 ||
-        !std::all_of(K.begin(), K.end(), [](const auto& k) { return k.is_number(); }))
-    {
-        throw InputError(path.string() + ": K is not a list of 9 numbers");
-    }
-    // Record3D writes K column by column, what others make of it often row by row.
-    const bool isByRow = K[6] == 0 && K[7] == 0;
-    PinholeCamera camera = pinholeOf(
-        pixelsIn(json, "w", path),
-        pixelsIn(json, "h", path),
-        K[0].get<double>(),
-        K[isByRow ? 2 : 6].get<double>(),
-        K[isByRow ? 5 : 7].get<double>());
-    camera.fy = K[4].get<double>();
-    return camera;
-}
 }  // namespace
 
 std::optional<FolderLayout> strayScanner(const fs::path& folder)
@@ -132,15 +111,8 @@ void readRecord3d(const fs::path& folder, FolderLayout& out)
         }
         out.name = "Record3D";
         out.calibration = path.string();
-        out.camera = colourCamera(record3dCamera(*json, path));
-        if (json->contains("fps"))
-        {
-            out.fps = numberAt(*json, "fps", path);
-            if (!(*out.fps > 0))
-            {
-                throw InputError(path.string() + ": 'fps' is not a positive number");
-            }
-        }
+        out.camera = colourCamera(cameraAt(*json, {"K", "w", "h"}, path));
+        out.fps = rateIn(*json, path);
         if (json->contains("frameTimestamps") && (*json)["frameTimestamps"].is_array())
         {
             setStamps(

@@ -21,6 +21,8 @@
 #include <vector>
 
 #include "folder_images.h"
+#include "layout_files.h"
+#include <nlohmann/json.hpp>
 
 namespace pointplane
 {
@@ -166,6 +168,17 @@ const std::string kRight = "_RIGHT";
     return out;
 }
 
+[[nodiscard]] TumCamera fromJson(const std::string& path)
+{
+    const auto json = jsonObjectIn(path);
+    const auto camera = json ? open3dCamera(*json, path) : std::nullopt;
+    if (!camera)
+    {
+        throw InputError(path + ": has no intrinsic_matrix, as Open3D's calibrations have");
+    }
+    return *camera;
+}
+
 [[nodiscard]] bool isFile(const std::string& path)
 {
     std::error_code error;
@@ -174,8 +187,9 @@ const std::string kRight = "_RIGHT";
 
 [[nodiscard]] TumCamera fromFile(const std::string& path)
 {
-    auto out = fromLine(path);
-    TumCamera camera = out ? *out : fromIni(path);
+    const bool isJson = std::filesystem::path(path).extension() == ".json";
+    const auto line = isJson ? std::nullopt : fromLine(path);
+    TumCamera camera = line ? *line : isJson ? fromJson(path) : fromIni(path);
     if (const std::string problem = camera.camera.problem(); !problem.empty())
     {
         throw InputError(path + ": " + problem);

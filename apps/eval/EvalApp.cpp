@@ -7,6 +7,7 @@
 #include <ostream>
 
 #include "command.h"
+#include "result_output.h"
 #include "run_program.h"
 
 namespace pointplane
@@ -41,11 +42,16 @@ std::string quoted(const std::string& arg)
 }
 }  // namespace
 
-void CommandContext::hint(const std::string& text)
+void CommandContext::tell(const std::string& kind, const std::string& text) const
+{
+    err << program << ": " << kind << ": " << inOneLine(text) << "\n";
+}
+
+void CommandContext::hint(const std::string& text) const
 {
     if (!text.empty())
     {
-        err << program << ": hint: " << text << "\n";
+        tell("hint", text);
     }
 }
 

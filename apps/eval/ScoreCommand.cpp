@@ -26,7 +26,7 @@ LoadedRun ScoreCommand::load(double offset, double scale, CommandContext& contex
     run.groundTruth = input.loadTruth(groundTruth, context);
     run.estimate = input.loadEstimate(estimate, context);
     checkOrder(run.groundTruth, run.estimate, context);
-    out.inputs = report.read(run.estimate);
+    out.inputs = report.read(run.estimate, context);
     run.rpe.offset = run.ate.offset = run.nees.offset = offset;
     run.rpe.scale = run.ate.scale = scale;
     run.nees.T_truth_body = input.T_truth_body();

@@ -22,8 +22,11 @@ struct CommandContext
     std::string commandLine;  //!< as a shell would take it, for reports
     int exitCode{kExitOk};    //!< kExitIncomplete: gate exceeded, or damaged input
 
+    /** A line to the user, whatever the names in it hold. \param kind "warning", "note", ... */
+    void tell(const std::string& kind, const std::string& text) const;
+
     /** A line to the user, unless it is empty. */
-    void hint(const std::string& text);
+    void hint(const std::string& text) const;
 };
 
 /** Adds a subcommand whose options have addTo() and run(). */

@@ -34,7 +34,7 @@ void CoverageLimit::check(
     const double limit = isGiven ? percent : isJudged ? kLeastPercent : 0;
     if (!(scored >= limit))
     {
-        context.err << context.program << ": " << estimate
+        context.err << context.program << ": " << inOneLine(estimate)
                     << format(": coverage %.1f %% is below %g %%", scored, limit)
                     << (isGiven ? ""
                                 : ", too little for a threshold to be passed; --min-coverage sets "
@@ -44,10 +44,10 @@ void CoverageLimit::check(
     }
     else if (score != ScoreIs::OfAllFrames && scored < kLeastPercent)
     {
-        context.err << context.program << ": warning: " << estimate
-                    << format(": only %.1f %% of the ", scored)
-                    << (coverage.ofRecording ? "recording" : "ground truth's time")
-                    << " was scored\n";
+        context.tell(
+            "warning",
+            estimate + format(": only %.1f %% of the ", scored) +
+                (coverage.ofRecording ? "recording" : "ground truth's time") + " was scored");
     }
 }
 }  // namespace pointplane

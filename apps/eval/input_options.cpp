@@ -155,18 +155,19 @@ void checkOrder(const Trajectory& truth, const Trajectory& estimate, CommandCont
 {
     if (FileIdentity(truth.name).isSame(FileIdentity(estimate.name)))
     {
-        context.err << context.program << ": warning: '" << estimate.name
-                    << "' is the ground truth, too: nothing is compared\n";
+        context.tell(
+            "warning", "'" + estimate.name + "' is the ground truth, too: nothing is compared");
     }
     const auto isZero = [](const Matrix6d& cov) { return cov.isZero(0); };
     const auto isOfOdometry = [&](const Trajectory& t)
     { return t.marksFrames || !std::all_of(t.covs.begin(), t.covs.end(), isZero); };
     if (isOfOdometry(truth) && !isOfOdometry(estimate))
     {
-        context.err << context.program << ": warning: '" << truth.name << "' has "
-                    << (truth.marksFrames ? "marks of tracked and lost frames" : "covariances")
-                    << ", and '" << estimate.name
-                    << "' has not; is the ground truth given first?\n";
+        context.tell(
+            "warning",
+            "'" + truth.name + "' has " +
+                (truth.marksFrames ? "marks of tracked and lost frames" : "covariances") +
+                ", and '" + estimate.name + "' has not; is the ground truth given first?");
     }
 }
 
@@ -176,15 +177,15 @@ void checkTruthRate(const Trajectory& truth, const Trajectory& estimate, Command
     const double ofEstimate = medianInterval(estimate.stamps);
     if (ofTruth > 2.5 * ofEstimate && ofEstimate > 0)
     {
-        context.err << context.program << ": warning: "
-                    << format(
-                           "'%s' has a pose every %.3g s, '%s' every %.3g s: how the camera moves "
-                           "between poses of the ground truth is not known, and counts as an "
-                           "error of the estimate\n",
-                           truth.name.c_str(),
-                           ofTruth,
-                           estimate.name.c_str(),
-                           ofEstimate);
+        context.tell(
+            "warning",
+            format(
+                "'%s' has a pose every %.3g s, '%s' every %.3g s: how the camera moves between "
+                "poses of the ground truth is not known, and counts as an error of the estimate",
+                truth.name.c_str(),
+                ofTruth,
+                estimate.name.c_str(),
+                ofEstimate));
     }
 }
 

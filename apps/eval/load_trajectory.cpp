@@ -51,7 +51,7 @@ Trajectory loadTrajectory(
     Trajectory trajectory = readByEnding(path, sensorLabel);
     for (const std::string& warning : trajectory.warnings)
     {
-        context.err << "pointplane-eval: warning: " << warning << "\n";
+        context.tell("warning", warning);
     }
     if (trajectory.incomplete)
     {

@@ -163,7 +163,7 @@ void NeesCommand::addRun(
     const Trajectory estimate = input.loadEstimate(estimateFile, context);
     checkOrder(truth, estimate, context);
     checkTruthRate(truth, estimate, context);
-    runs.inputs = html.read(estimate);
+    runs.inputs = html.read(estimate, context);
     NeesReport& report = runs.report;
     const NeesRun run = neesRun(truth, estimate, runs.intervals, report.options);
     runs.pools.add(run);
@@ -172,7 +172,7 @@ void NeesCommand::addRun(
     report.saved += savedIncrements(estimateFile, estimate, run);
     if (!run.note.empty())
     {
-        context.err << "pointplane-eval: note: " << run.note << "\n";
+        context.tell("note", run.note);
     }
     std::string hint = hintAtBody(input, truth, estimate, run, report.options);
     if (hint.empty())

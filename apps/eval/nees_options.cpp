@@ -91,6 +91,12 @@ void NeesCommandOptions::addProtocolTo(CLI::App& command)
 
 NeesOptions NeesCommandOptions::resolved() const
 {
+    if (minNees >= 0 && maxNees >= 0 && minNees > maxNees)
+    {
+        throw std::invalid_argument(
+            "--min-nees " + numberText(minNees) + " is above --max-nees " + numberText(maxNees) +
+            ": no NEES is in that range");
+    }
     NeesOptions out = nees;
     out.truthSigmaRotation = sigmaFromOption(sigmaRotationDeg);
     out.truthAt = nearest ? TruthAt::NearestStamp : TruthAt::Interpolated;

@@ -137,7 +137,8 @@ void printTable(const NeesReport& report, std::ostream& out)
     out << "Covariance consistency: " << describe(report) << "\n";
     for (std::size_t k = 0; k + 1 < report.files.size(); k += 2)
     {
-        out << "ground truth " << report.files[k] << ", estimate " << report.files[k + 1] << "\n"
+        out << "ground truth " << inOneLine(report.files[k]) << ", estimate "
+            << inOneLine(report.files[k + 1]) << "\n"
             << describe(report.coverages[k / 2]) << "\n";
     }
     for (const NeesResult& result : report.results)

@@ -94,6 +94,6 @@ void writeReportFile(HtmlReport report, const std::string& directory, CommandCon
         writeText(svgFileOf(chart), folder.fileAt(name), context.out);
         written.insert(name);
     }
-    context.err << "report: " << path << otherChartsText(directory, written) << "\n";
+    context.err << "report: " << inOneLine(path + otherChartsText(directory, written)) << "\n";
 }
 }  // namespace pointplane

@@ -153,6 +153,20 @@ void printAsScripts(const char* name, const Statistics& error, const char* unit,
     }
 }
 
+std::string inOneLine(const std::string& text)
+{
+    std::string out;
+    for (const char c : text)
+    {
+        const auto byte = static_cast<unsigned char>(c);
+        out += c == '\n'                     ? "\\n"
+               : c == '\t'                   ? "\\t"
+               : byte < 0x20 || byte == 0x7f ? format("\\x%02x", byte)
+                                             : std::string(1, c);
+    }
+    return out;
+}
+
 std::vector<std::string> shownNames(std::vector<std::string> names, std::size_t width)
 {
     const auto isLong = [width](const std::string& name) { return name.size() > width; };
@@ -166,7 +180,7 @@ std::vector<std::string> shownNames(std::vector<std::string> names, std::size_t 
     }
     for (std::string& name : names)
     {
-        name = fitted(name, width);
+        name = fitted(inOneLine(name), width);
     }
     return names;
 }
@@ -179,7 +193,7 @@ std::string savedStamp(double stamp)
 
 std::string csvField(const std::string& text)
 {
-    if (text.find_first_of(",\"\n") == std::string::npos)
+    if (text.find_first_of(",\"\n\r") == std::string::npos)
     {
         return text;
     }
@@ -194,8 +208,8 @@ std::string csvField(const std::string& text)
 void printTable(const ScoredResult& result, std::ostream& out)
 {
     out << result.title << ": " << result.protocol << "\n"
-        << "ground truth " << result.groundTruth << "\n"
-        << "estimate     " << result.estimate << "\n\n"
+        << "ground truth " << inOneLine(result.groundTruth) << "\n"
+        << "estimate     " << inOneLine(result.estimate) << "\n\n"
         << format(
                "%-17s%12s%12s%12s%12s%12s%12s\n",
                "",

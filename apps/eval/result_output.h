@@ -80,6 +80,9 @@ void writeText(const std::string& text, const std::string& path, std::ostream& o
  * the file does not mark them). */
 [[nodiscard]] nlohmann::ordered_json toJson(const Coverage& coverage);
 
+/** Whatever a name holds: line breaks and the like as \\n, \\t or \\x1b. */
+[[nodiscard]] std::string inOneLine(const std::string& text);
+
 /** Names of files for a column of just so many characters. Where one is longer, what all end with
  * is left out, as in RUN/trajectory.txt. Of what is still longer, the end is shown. */
 [[nodiscard]] std::vector<std::string> shownNames(

@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trajectory_report.h"
 
+#include <pointplane/core/number_text.h>
 #include <pointplane/core/read_errors.h>
+#include <pointplane/evaluation/association.h>
 #include <pointplane/evaluation/trajectory_charts.h>
 #include <pointplane/mrpt_io/errors.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <optional>
+#include <ostream>
 #include <utility>
 
 #include "OutputGuard.h"
@@ -53,6 +58,96 @@ std::string textOf(const std::string& path)
     }
     return text;
 }
+
+/** Of frames that have a pose, in order. */
+std::vector<double> stampsOfPoses(const FrameTable& table)
+{
+    std::vector<double> out;
+    for (std::size_t row = 0; row < table.size(); ++row)
+    {
+        if (table.status().empty() || table.status()[row] != "lost")
+        {
+            out.push_back(table.stamps()[row]);
+        }
+    }
+    std::sort(out.begin(), out.end());
+    return out;
+}
+
+/** The first stamp, within the time of the others, that none of them is. Both are sorted. */
+std::optional<double> firstMissing(
+    const std::vector<double>& stamps, const std::vector<double>& others)
+{
+    constexpr double kSavedRounding = 1e-3;  // [s] of a table that a spreadsheet saved
+    for (const double stamp : stamps)
+    {
+        const bool isWithin = stamp >= others.front() && stamp <= others.back();
+        if (isWithin && std::abs(others[nearestIndex(others, stamp)] - stamp) > kSavedRounding)
+        {
+            return stamp;
+        }
+    }
+    return {};
+}
+
+/** What the table says of another frame than the estimate; empty: nothing. It may be of a part.
+ * \param poses the estimate's, without lost ones */
+std::string differenceOf(const Trajectory& poses, const FrameTable& table)
+{
+    const std::vector<double> rows = stampsOfPoses(table);
+    if (const auto stamp = firstMissing(poses.stamps, rows))
+    {
+        return "has no row that fits the pose at " + numberText(*stamp, 6) + " s of ";
+    }
+    if (!poses.marksFrames || table.status().empty())
+    {
+        return "";  // not of every frame
+    }
+    if (const auto stamp = firstMissing(rows, poses.stamps))
+    {
+        return "has a row at " + numberText(*stamp, 6) + " s, but there is no pose in ";
+    }
+    for (const auto& [pose, row] : rowsOf(poses.stamps, table))
+    {
+        const auto [first, end] = std::equal_range(rows.begin(), rows.end(), table.stamps()[row]);
+        const bool isOneOfSeveral = end - first > 1;  // the clock was set back
+        const bool isPredicted =
+            !poses.status.empty() && poses.status[pose] == FrameStatus::Predicted;
+        if (!isOneOfSeveral && isPredicted != (table.status()[row] == "predicted"))
+        {
+            return "says '" + table.status()[row] + "' of the frame at " +
+                   numberText(poses.stamps[pose], 6) + " s, which is " +
+                   (isPredicted ? "predicted" : "tracked") + " in ";
+        }
+    }
+    return "";
+}
+
+/** \throws InputError if the table is not of the run that wrote the estimate */
+void requireTableOf(
+    const Trajectory& estimate,
+    const FrameTable& table,
+    const std::string& path,
+    CommandContext& context)
+{
+    const Trajectory poses = withoutLost(estimate);
+    const std::size_t numRows = rowsOf(poses.stamps, table).size();
+    const std::string difference =
+        numRows == 0 ? "has none of the stamps of " : differenceOf(poses, table);
+    if (!difference.empty())
+    {
+        throw InputError(
+            path + ": " + difference + estimate.name +
+            "; give the table that --diagnostics wrote in the same run");
+    }
+    if (numRows < poses.size())
+    {
+        context.tell(
+            "warning",
+            path + ": has rows of " + std::to_string(numRows) + " of the " +
+                std::to_string(poses.size()) + " poses of " + estimate.name);
+    }
+}
 }  // namespace
 
 void ReportOptions::addTo(CLI::App& command)
@@ -83,18 +178,13 @@ void ReportOptions::guardedBy(OutputGuard& guard) const
     guardReport(guard, directory);
 }
 
-ReportInputs ReportOptions::read(const Trajectory& estimate) const
+ReportInputs ReportOptions::read(const Trajectory& estimate, CommandContext& context) const
 {
     ReportInputs out;
     if (!diagnostics.empty())
     {
         out.table = FrameTable::read(diagnostics);
-        if (rowsOf(estimate.stamps, out.table).empty())
-        {
-            throw InputError(
-                diagnostics + ": has none of the stamps of " + estimate.name +
-                "; give the table that --diagnostics wrote in the same run");
-        }
+        requireTableOf(estimate, out.table, diagnostics, context);
     }
     if (!overlays.empty())
     {

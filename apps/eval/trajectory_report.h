@@ -32,9 +32,10 @@ struct ReportOptions
     void addTo(CLI::App& command);
     /** Tells the guard what will be read and written. */
     void guardedBy(OutputGuard& guard) const;
-    /** Before the run is scored, so that bad input is told before there are results.
+    /** Before the run is scored, so that bad input is told before there are results. A table of a
+     * part of the run is told.
      * \throws std::runtime_error, InputError for files that cannot be read or are not of the run */
-    [[nodiscard]] ReportInputs read(const Trajectory& estimate) const;
+    [[nodiscard]] ReportInputs read(const Trajectory& estimate, CommandContext& context) const;
 };
 
 /** Writes the report and says where it is: DIR/index.html with the scores, the path with its

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/number_text.h>
+#include <pointplane/mrpt_io/errors.h>
+#include <pointplane/mrpt_io/params_ini.h>
 #include <pointplane/mrpt_io/rawlog_names.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <ostream>
 #include <set>
 
+#include "FileIdentity.h"
 #include "LabApp.h"
 #include "OutputGuard.h"
 #include "lab_runs.h"
@@ -45,6 +50,65 @@ std::vector<std::string> namesOf(const std::vector<std::string>& rawlogs)
     }
     const std::set<std::string> different(stems.begin(), stems.end());
     return different.size() == stems.size() ? stems : rawlogs;
+}
+
+/** Whether a configuration with one is that with the other. */
+bool isSameValue(const std::string& a, const std::string& b)
+{
+    const auto first = parseFinite(a), second = parseFinite(b);
+    return first && second ? *first == *second : a == b;
+}
+
+/** The index of the first item that is like one before it, or the number of items. */
+template <class Item, class IsSame>
+std::size_t firstRepeated(const std::vector<Item>& items, IsSame isSame)
+{
+    std::size_t i = 0;
+    const auto isLike = [&](const Item& other) { return isSame(other, items[i]); };
+    const auto at = [&] { return items.begin() + static_cast<std::ptrdiff_t>(i); };
+    while (i < items.size() && std::none_of(items.begin(), at(), isLike))
+    {
+        ++i;
+    }
+    return i;
+}
+
+/** \throws std::invalid_argument */
+void requireDifferent(
+    const std::vector<std::string>& rawlogs, const std::vector<std::string>& values)
+{
+    const std::vector<FileIdentity> files(rawlogs.begin(), rawlogs.end());
+    const auto isSameFile = [](const FileIdentity& a, const FileIdentity& b)
+    { return a.isSame(b); };
+    const std::string isRepeated = " is given more than once";
+    if (const std::size_t i = firstRepeated(files, isSameFile); i < files.size())
+    {
+        throw std::invalid_argument("'" + rawlogs[i] + "'" + isRepeated);
+    }
+    if (const std::size_t i = firstRepeated(values, isSameValue); i < values.size())
+    {
+        throw std::invalid_argument("the value " + values[i] + isRepeated);
+    }
+}
+
+/** If all runs would fail by their settings, the parameter is wrong, or what is set for all of
+ * them. \throws InputError of the first one */
+void requireOneUsable(const std::vector<LabRun>& runs)
+{
+    std::string problem;
+    for (const LabRun& run : runs)
+    {
+        try
+        {
+            (void)loadOdometryParams(run.config, run.settings);
+            return;
+        }
+        catch (const InputError& e)
+        {
+            problem = problem.empty() ? e.what() : problem;
+        }
+    }
+    throw InputError(problem);
 }
 
 void SweepCommand::addTo(CLI::App& command)
@@ -177,11 +241,13 @@ void SweepCommand::run(CommandContext& context)
     SweepResult sweep;
     sweep.parameter = parameter;
     sweep.values = valuesToTry();
+    requireDifferent(rawlogs, sweep.values);
     sweep.sequences = namesOf(rawlogs);
     rpe.rpe.fixedDelta = true;
     const RpeOptions resolved = rpe.resolved();
     const std::vector<LabRun> planned = runs(sweep.values);
     runner.requireProgram();
+    requireOneUsable(planned);
     sweep.scores = runner.run(planned, resolved, WorkDirectory(runner.directory), context.err);
     sweep.protocol = describe(resolved);
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <ostream>
 
+#include "FileIdentity.h"
 #include "OdometryOptions.h"
 #include "OdometryRun.h"
 #include "number_checks.h"
@@ -143,11 +144,22 @@ void addRunOptions(CLI::App& app, OdometryOptions& o)
     app.add_flag("--quiet", o.quiet, "Show no progress")->group("Run");
 }
 
-void requireInput(const OdometryOptions& o)
+void requireInputs(const OdometryOptions& o)
 {
     if (o.inputs.empty())
     {
         throw InputError("no input rawlog given (see --help)");
+    }
+    std::vector<FileIdentity> files;
+    for (const std::string& input : o.inputs)
+    {
+        const FileIdentity file(input);
+        const auto isSame = [&file](const FileIdentity& other) { return other.isSame(file); };
+        if (std::any_of(files.begin(), files.end(), isSame))
+        {
+            throw InputError(input + ": is given more than once");
+        }
+        files.push_back(file);
     }
 }
 
@@ -155,7 +167,7 @@ int run(const OdometryOptions& options, std::ostream& standard, std::ostream& er
 {
     OdometryParams params = loadOdometryParams(options.config, options.settings);
     params.covariance.history = std::max(params.covariance.history, options.since);
-    requireInput(options);
+    requireInputs(options);
     const auto files = {
         options.output, options.simplemap, options.graph, options.trajectory, options.diagnostics};
     const bool takesOutput = std::any_of(files.begin(), files.end(), isStandardOutput);

@@ -6,6 +6,7 @@
 #include <pointplane/mrpt_io/mrpt_poses.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <ostream>
 
@@ -30,9 +31,10 @@ void RunSummary::add(const OutputItem& item)
 {
     const RobotMotion& motion = item.frame->motion;
     ++numFrames;
-    if (motion.status != TrackingStatus::Lost)
+    // Also of lost frames: a stamp that repeats the one before may be why. Some have none.
+    if (const double stamp = item.source.converted->frame.stamp; std::isfinite(stamp))
     {
-        stamps.push_back(item.source.converted->frame.stamp);
+        stamps.push_back(stamp);
     }
     hasMotion = hasMotion || motion.status == TrackingStatus::Tracked;
     switch (motion.status)

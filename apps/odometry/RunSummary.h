@@ -28,7 +28,7 @@ struct RunSummary
     double pathLength{0};                          //!< of the robot [m]
     double seconds{0};                 //!< wall time, without that of frames that were skipped
     FrameDiagnostics sum;              //!< of the times per stage; the latest noise and lens
-    std::vector<double> stamps;        //!< of the frames that are not lost [s]
+    std::vector<double> stamps;        //!< of the frames that have one [s]
     std::vector<std::string> notes;    //!< lines about the input
     std::string damage;                //!< where the input ended early, or empty
     std::vector<std::string> outputs;  //!< descriptions

@@ -85,11 +85,11 @@ OutputGuard guardOf(const OdometryOptions& options)
     {
         guard.addInputRawlog(input);
     }
-    guard.addOutput("--simplemap", options.simplemap);
     guard.addText("--graph", options.graph);
     guard.addText("--trajectory", options.trajectory);
     guard.addText("--diagnostics", options.diagnostics);
     guard.addOutputFolder("--overlay", options.overlay, ".jpg");
+    guard.addSimplemap("--simplemap", options.simplemap);
     guard.addRawlog("-o", options.output);
     return guard;
 }

@@ -245,6 +245,46 @@ TEST_F(ConvertFolder, record3dHasSmallDepthImages)
     EXPECT_THAT(text_, HasSubstr("metadata.json"));
 }
 
+/** As of its recorders for RealSense and Azure Kinect, and of its reader of RealSense's bags, which
+ * tells rate and units. */
+TEST_F(ConvertFolder, open3dTellsItsCamera)
+{
+    const std::string camera =
+        R"({"width": 64, "height": 48, "intrinsic_matrix": [60, 0, 0, 0, 61, 0, 31.5, 23.5, 1])";
+    writeFrames("in/color/%d.jpg", "in/depth/%d.png");
+    for (const char* name : {"in/camera_intrinsic.json", "in/intrinsic.json"})
+    {
+        write(name, camera + "}");
+        ASSERT_EQ(run({"folder", in_}), kExitOk) << text_;
+        EXPECT_THAT(text_, HasSubstr("read as Open3D, 1000 depth units per metre"));
+        expectFrames(30);
+        EXPECT_DOUBLE_EQ(frames()[0].camera.fy, 61);
+        EXPECT_DOUBLE_EQ(frames()[0].camera.cx, 31.5);
+        EXPECT_DOUBLE_EQ(frames()[0].camera.cy, 23.5);
+        std::filesystem::remove(dir_ / name);
+    }
+    write("in/intrinsic.json", camera + R"(, "depth_scale": 4000, "fps": 15})");
+    ASSERT_EQ(run({"folder", in_}), kExitOk) << text_;
+    expectFrames(15, 4000);
+    write("in/intrinsic.json", R"({"width": 64, "height": 48, "intrinsic_matrix": [60, 0]})");
+    EXPECT_EQ(run({"folder", in_}), kExitBadInput);
+    EXPECT_THAT(text_, HasSubstr("intrinsic.json: intrinsic_matrix is not a list of 9 numbers\n"));
+    write("in/intrinsic.json", "{\"width\": 64");
+    EXPECT_EQ(run({"folder", in_}), kExitBadInput);
+    EXPECT_THAT(text_, HasSubstr("intrinsic.json: is not JSON\n"));
+    write("in/intrinsic.json", "[[60, 0, 31], [0, 60, 23], [0, 0, 1]]");  // another program's
+    EXPECT_EQ(run({"folder", in_}), kExitBadInput);
+    EXPECT_THAT(text_, HasSubstr("does not tell its camera; give a calibration by --camera"));
+    std::filesystem::remove(dir_ / "in/intrinsic.json");
+
+    write("elsewhere.json", camera + "}");
+    ASSERT_EQ(run({"folder", in_, "--camera", dir_ / "elsewhere.json"}), kExitOk) << text_;
+    EXPECT_DOUBLE_EQ(frames()[0].camera.fy, 61);
+    write("elsewhere.json", "{}");
+    EXPECT_EQ(run({"folder", in_, "--camera", dir_ / "elsewhere.json"}), kExitBadInput);
+    EXPECT_THAT(text_, HasSubstr("has no intrinsic_matrix, as Open3D's calibrations have\n"));
+}
+
 TEST_F(ConvertFolder, stampsOfAListThatGoBackAreRefused)
 {
     writeFrames("in/rgb/%d.jpg", "in/depth/%d.png");
@@ -711,6 +751,23 @@ TEST_F(ConvertFolder, whichOfTwoFoldersWasTakenIsTold)
             HasSubstr(
                 "\n" + in_ + other + " was left out: there are images in " + in_ + "/rgb and " +
                 in_ + "/depth; move away what is not meant\n"));
+    }
+}
+
+/** Else frames would have depth alone, without a word why. */
+TEST_F(ConvertFolder, aFolderOfColourThatCannotBeReadIsTold)
+{
+    for (const auto& [target, why] :
+         {std::pair("elsewhere", "No such file or directory"),
+          std::pair("rgb", "Too many levels of symbolic links")})
+    {
+        writeFrames("in/colour/%d.jpg", "in/depth/%d.png");
+        write("in/camera.txt", kCamera);
+        std::filesystem::remove_all(dir_ / "in/colour");
+        std::filesystem::create_directory_symlink(target, dir_ / "in/rgb");
+        EXPECT_EQ(run({"folder", in_}), kExitBadInput) << text_;
+        EXPECT_THAT(text_, HasSubstr("cannot open " + in_ + "/rgb: " + why + "\n"));
+        std::filesystem::remove(dir_ / "in/rgb");
     }
 }
 

@@ -363,7 +363,7 @@ TEST_F(OdometryApp, aRunThatMeasuresNothingIsNotWell)
     EXPECT_EQ(std::count(frozen.err.begin(), frozen.err.end(), '\n'), 1) << frozen.err;
 }
 
-/** Two rawlogs in the wrong order: one frame is late, then the clock has been set back. */
+/** Two rawlogs in the wrong order: one frame is late, then stamps go on from there. */
 TEST_F(OdometryApp, afterAClockSetBackTheProgramSaysWhatTheOdometrySays)
 {
     test::writeObservations(dir_ / "early.rawlog", 6);
@@ -381,7 +381,8 @@ TEST_F(OdometryApp, afterAClockSetBackTheProgramSaysWhatTheOdometrySays)
     EXPECT_THAT(outcome.out, HasSubstr("frame 6 (stamp 1000.000000000): lost: its time stamp"));
     EXPECT_THAT(
         outcome.out,
-        HasSubstr("frame 7 (stamp 1000.031250000): predicted: the clock has been set back"));
+        HasSubstr("frame 7 (stamp 1000.031250000): predicted: two stamps in a row are not after an "
+                  "earlier one: the clock was set back, or frames are out of order"));
     VisualOdometry odometry;
     odometry.setMinLoggingLevel(mrpt::system::LVL_ERROR);
     std::size_t frame = 0;
@@ -603,8 +604,9 @@ TEST_F(OdometryApp, badInputIsNamedWithExitCode2)
     expect(
         {in_, "-o", out_, "--first", "2"},
         "--first 2 skips all of them; in it are 2 frames of camera 'RGBD'");
+    writeBytes(dir_ / "b.rawlog", readBytes(in_));
     expect(
-        {in_, in_, "-o", out_, "--sensor-label", "LEFT"},
+        {in_, dir_ / "b.rawlog", "-o", out_, "--sensor-label", "LEFT"},
         in_ + " and 1 more: no frames of camera 'LEFT'; in it are 4 frames of camera 'RGBD'");
     expect({in_, "-o", in_}, "is an input");
     writeBytes(dir_ / "typo.ini", "[DepthNoise]\nsigmaInverseDept = 1\n");
@@ -674,8 +676,9 @@ TEST_F(OdometryApp, damagedInputIsDoneUpToTheDamage)
         EXPECT_EQ(numPoses(out_), test::readAll(dir_ / "cut.rawlog").objects.size());
         EXPECT_EQ(test::readAll(out_).ending.kind, RawlogEnd::Clean);
     }
+    writeBytes(dir_ / "b.rawlog", bytes);
     EXPECT_THAT(
-        run({dir_ / "cut.rawlog", in_, in_, "-o", out_}).err,
+        run({dir_ / "cut.rawlog", in_, dir_ / "b.rawlog", "-o", out_}).err,
         HasSubstr("; not read: " + in_ + " and 1 more\n"));
 }
 
@@ -947,6 +950,43 @@ TEST_F(OdometryApp, stampsThatJitterAreTold)
         EXPECT_EQ(outcome.out.find("stamps: they jitter by ") != std::string::npos, jitter)
             << outcome.out;
     }
+}
+
+/** Frames are lost by them, but the stamps of lost frames count. */
+TEST_F(OdometryApp, stampsThatRepeatOrGoBackAreTold)
+{
+    const auto outOf = [this](const std::vector<double>& stamps)
+    {
+        RawlogWriter writer(in_);
+        for (std::size_t i = 0; i < stamps.size(); ++i)
+        {
+            const auto scan = sampleScan(static_cast<int>(i));
+            scan->timestamp = mrpt::Clock::fromDouble(1000 + stamps[i]);
+            writer.write(*scan);
+        }
+        writer.close();
+        return run({in_, "--trajectory", dir_ / "a.txt"}).out;
+    };
+    EXPECT_THAT(
+        outOf({0, 0.1, 0.1, 0.2, 0.2, 0.3}),
+        HasSubstr("\nstamps: 2 of them repeat the one before: odometry cannot use such frames"));
+    // Two late ones; the next has the stamp of the frame before them.
+    EXPECT_THAT(
+        outOf({0, 0.1, 0.2, 0.18, 0.16, 0.2, 0.3}),
+        HasSubstr("\nstamps: 2 of them are before the one before\n"));
+}
+
+TEST_F(OdometryApp, aRawlogGivenTwiceIsRefused)
+{
+    test::writeObservations(in_, 2);
+    std::filesystem::create_symlink(in_, dir_ / "link.rawlog");
+    for (const std::string& again : {in_, std::string(dir_ / "link.rawlog")})
+    {
+        const Outcome outcome = run({in_, again, "-o", out_});
+        EXPECT_EQ(outcome.code, kExitBadInput);
+        EXPECT_EQ(outcome.err, "pointplane-odometry: " + again + ": is given more than once\n");
+    }
+    EXPECT_FALSE(std::filesystem::exists(out_));
 }
 
 TEST_F(OdometryApp, oneOfAKindIsNotToldAsMany)

@@ -155,7 +155,10 @@ TEST_F(Outputs, noTwoAreTheSame)
             {
                 expectRefused({in_, a, out_, b, out_}, "would write over what");
                 expectRefused({in_, a, out_, b, dir_ / "link"}, "would write over what");
-                expectRefused({in_, a, out_, b, out_ + ".partial"}, "would write over what");
+                const bool isOfMap = a == "-o" && b == "--simplemap";  // told by its name first
+                expectRefused(
+                    {in_, a, out_, b, out_ + ".partial"},
+                    isOfMap ? "would be a simplemap" : "would write over what");
             }
         }
     }
@@ -228,6 +231,25 @@ TEST_F(Outputs, aRawlogHasTheNameOfOne)
     auto reader = std::async(std::launch::async, [&] { return readBytes(pipe); });
     EXPECT_EQ(run({in_, "-o", pipe}).code, kExitOk);
     EXPECT_GT(reader.get().size(), 100U);
+}
+
+/** By which pointplane-eval and MRPT's programs know it. */
+TEST_F(Outputs, aSimplemapHasTheNameOfOne)
+{
+    writeBytes(dir_ / "in/truth.txt", "precious");
+    for (const char* name : {"in/truth.txt", "a.rawlog", "a.simplemap.txt", "a.gz"})
+    {
+        expectRefused(
+            {in_, "--simplemap", dir_ / name},
+            "--simplemap " + (dir_ / name) +
+                ": would be a simplemap; give a name that ends in .simplemap or .simplemap.gz\n");
+    }
+    EXPECT_EQ(readBytes(dir_ / "in/truth.txt"), "precious");
+    for (const char* name : {"a.simplemap", "a.simplemap.gz", "a"})
+    {
+        EXPECT_EQ(run({in_, "--simplemap", dir_ / name}).code, kExitOk) << name;
+        EXPECT_TRUE(fs::exists(dir_ / name)) << name;
+    }
 }
 
 TEST_F(Outputs, aTextHasNotTheNameOfARawlogOrAnArchive)

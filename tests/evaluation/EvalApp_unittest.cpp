@@ -58,6 +58,14 @@ TEST_F(EvalApp, rpeTableAndBothSpellings)
     EXPECT_EQ(underscores.out, hyphens.out);
 }
 
+TEST_F(EvalApp, aRangeOfNeesThatIsEmptyIsRefused)
+{
+    const test::AppRun r = run({"nees", truth, estimate, "--min-nees", "2", "--max-nees", "0.5"});
+    EXPECT_EQ(r.code, 2);
+    EXPECT_EQ(
+        r.err, "pointplane-eval: --min-nees 2 is above --max-nees 0.5: no NEES is in that range\n");
+}
+
 TEST_F(EvalApp, stampsInMillisecondsAreTold)
 {
     std::ostringstream inMilliseconds;
@@ -604,6 +612,11 @@ TEST_F(EvalApp, aTableOfAPartHasPicturesOfItsOwnFramesAlone)
     const test::AppRun r =
         made.report(truth, "frame,stamp,status\n" + made.table.substr(first, end - first));
     EXPECT_EQ(r.code, 0) << r.err;
+    EXPECT_THAT(
+        r.err,
+        HasSubstr(
+            "warning: " + (made.dir / "frames.csv") + ": has rows of 10 of the 51 poses of " +
+            made.estimate + "\n"));
     EXPECT_THAT(made.html(), testing::ContainsRegex("Frame 2[0-9] at 2[.]"));
     EXPECT_THAT(made.html(), testing::Not(testing::ContainsRegex("Frame 2[0-9] at [^2]")));
     EXPECT_THAT(made.html(), testing::Not(HasSubstr("motion off by 1000")));
@@ -624,6 +637,76 @@ TEST_F(EvalApp, aTableOfAnotherRunIsRefusedBeforeAnythingIsWritten)
     EXPECT_THAT(noPictures.err, HasSubstr("no picture 000001.jpg, ... of the frames of "));
     EXPECT_FALSE(std::filesystem::exists(made.dir / "r.json"));
     EXPECT_EQ(other.out + noNumbers.out + noPictures.out, "");
+}
+
+TEST_F(EvalApp, namesAreShownInOneLine)
+{
+    const std::string odd = writeFile(files, "a\n\tb\x1b[2J.txt", straightLine(1.05));
+    const std::string shown = "a\\n\\tb\\x1b[2J.txt";
+    for (const std::vector<std::string>& args :
+         {std::vector<std::string>{"rpe", truth, odd, "--fixed-delta"},
+          {"ate", odd, estimate},
+          {"compare", truth, odd, estimate},
+          {"rpe", odd, odd}})
+    {
+        const test::AppRun r = run(args);
+        EXPECT_EQ(r.code, 0) << r.err;
+        EXPECT_THAT(r.out, HasSubstr(shown)) << args.front();
+        EXPECT_EQ((r.out + r.err).find_first_of("\t\x1b"), std::string::npos) << r.out << r.err;
+        EXPECT_THAT(r.out + r.err, testing::Not(HasSubstr("/a\n")));
+    }
+    EXPECT_THAT(run({"rpe", odd, odd}).err, HasSubstr(shown + "' is the ground truth, too"));
+}
+
+/** At another rate, of a camera beside this one, or with other parameters. */
+TEST_F(EvalApp, aTableOfAnotherRunOfTheRecordingIsRefused)
+{
+    const RunWithPictures made(5, [](int k) { return k == 7; });
+    const auto tableOf = [](const std::function<std::string(int)>& row)
+    {
+        std::string out = "frame,stamp,status\n";
+        for (int k = 0; k <= 50; ++k)
+        {
+            out += row(k);
+        }
+        return out;
+    };
+    const auto row = [](int k, double stamp, const char* status)
+    { return std::to_string(k) + "," + std::to_string(stamp) + "," + status + "\n"; };
+    const auto expect = [&](const std::string& table, const std::string& why)
+    {
+        const test::AppRun r = made.report(truth, table);
+        EXPECT_EQ(r.code, 2);
+        EXPECT_EQ(
+            r.err,
+            "pointplane-eval: " + (made.dir / "frames.csv") + ": " + why + made.estimate +
+                "; give the table that --diagnostics wrote in the same run\n");
+        EXPECT_EQ(r.out, "");
+    };
+    expect(
+        tableOf([&](int k) { return k % 3 == 0 ? row(k, 0.1 * k, "tracked") : ""; }),
+        "has no row that fits the pose at 0.100000 s of ");
+    expect(
+        tableOf([&](int k) { return row(k, 0.1 * k - 0.03, k == 7 ? "lost" : "tracked"); }),
+        "has no row that fits the pose at 0.000000 s of ");
+    expect(
+        tableOf(
+            [&](int k)
+            {
+                return row(2 * k, 0.1 * k, k == 7 ? "lost" : "tracked") +
+                       row(2 * k + 1, 0.1 * k + 0.05, "tracked");
+            }),
+        "has a row at 0.050000 s, but there is no pose in ");
+    expect(
+        tableOf(
+            [&](int k) {
+                return row(k, 0.1 * k, k == 7 ? "lost" : k == 9 ? "predicted" : "tracked");
+            }),
+        "says 'predicted' of the frame at 0.900000 s, which is tracked in ");
+    expect(
+        tableOf([&](int k) { return row(k, 0.1 * k, "tracked"); }),
+        "has a row at 0.700000 s, but there is no pose in ");
+    EXPECT_EQ(made.report(truth, made.table).err.find("warning"), std::string::npos);
 }
 
 TEST_F(EvalApp, inputsOfAReportAreCheckedBeforeAnythingIsWritten)

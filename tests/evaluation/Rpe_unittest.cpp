@@ -288,8 +288,8 @@ TEST(Rpe, aRecordingThatIsShorterThanDeltaIsTold)
     options.fixedDelta = true;
     EXPECT_EQ(
         refusalOf(brief, brief, options),
-        "'random' covers 0.8 s: fewer than two pairs of poses are 1 s apart; choose a smaller "
-        "delta");
+        "'random' covers 0.8 s: fewer than two pairs of poses are 1 s apart (those with the last "
+        "pose do not count); choose a smaller delta");
     options.unit = DeltaUnit::Frames;
     options.delta = 20;
     EXPECT_THAT(refusalOf(brief, brief, options), HasSubstr("covers 8 f: fewer than two pairs"));

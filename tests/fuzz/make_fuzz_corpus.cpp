@@ -299,6 +299,11 @@ void writeFolders(const fs::path& folder)
             std::string(">>metadata.json\n{\"w\": 16, \"h\": 12, \"fps\": 60, \"K\": [16, 0, 0, 0, "
                         "16, 0, 7.5, 5.5, 1], \"frameTimestamps\": [0.1, 0.2]}\n"));
     save(
+        folder / "open3d",
+        images("color/0.jpg", "depth/0.png") +
+            ">>intrinsic.json\n{\"width\": 8, \"height\": 6, \"fps\": 15, \"depth_scale\": 1000, "
+            "\"intrinsic_matrix\": [8, 0, 0, 0, 8, 0, 3.5, 2.5, 1]}\n");
+    save(
         folder / "stray",
         images("rgb/0.png", "depth/000000.png") +
             ">>camera_matrix.csv\n8,0,3.5\n0,8,2.5\n0,0,1\n>>odometry.csv\ntimestamp, frame, x\n"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <new>
@@ -126,6 +127,51 @@ TEST_F(FakePrograms, optionsOfASweepMayStandBeforeItsRawlogs)
         const test::AppRun r = run(args);
         EXPECT_EQ(r.code, 0) << option.front() << ": " << r.err;
     }
+}
+
+TEST_F(FakePrograms, sweepTakesEachRawlogAndEachValueOnce)
+{
+    const std::string rawlog = writeFile(dir, "a.rawlog", ""), link = dir / "b.rawlog";
+    std::filesystem::create_symlink("a.rawlog", link);
+    for (const char* name : {"a.groundtruth.txt", "b.groundtruth.txt"})
+    {
+        ASSERT_EQ(std::system((straightLine("1") + " > " + (dir / name)).c_str()), 0);
+    }
+    const auto expect = [&](const std::vector<std::string>& more, const std::string& repeated)
+    {
+        std::vector<std::string> args{"sweep", "PoseSolver.alpha", rawlog, "--odometry", odometry};
+        args.insert(args.end(), more.begin(), more.end());
+        const test::AppRun r = run(args);
+        EXPECT_EQ(r.code, 2) << r.out;
+        EXPECT_EQ(r.err, "pointplane-lab: " + repeated + " is given more than once\n");
+    };
+    expect({rawlog, "--values", "1"}, "'" + rawlog + "'");
+    expect({link, "--values", "1"}, "'" + link + "'");
+    expect({"--values", "1,2,1"}, "the value 1");
+    expect({"--values", "1,1.0"}, "the value 1.0");
+    expect({"--values", "surf,orb,surf"}, "the value surf");
+    expect({"--range", "1,1,3"}, "the value 1");
+}
+
+TEST_F(FakePrograms, aSweepThatCannotWorkIsRefusedBeforeItsRuns)
+{
+    const std::string rawlog = writeFile(dir, "a.rawlog", "");
+    ASSERT_EQ(std::system((straightLine("1") + " > " + (dir / "a.groundtruth.txt")).c_str()), 0);
+    const auto expect = [&](const std::vector<std::string>& more, const std::string& why)
+    {
+        std::vector<std::string> args{"sweep", "--odometry", odometry, "--values", "1,2"};
+        args.insert(args.end(), more.begin(), more.end());
+        args.push_back(rawlog);
+        const test::AppRun r = run(args);
+        EXPECT_EQ(r.code, 2);
+        EXPECT_EQ(r.out, "");
+        EXPECT_THAT(r.err, HasSubstr(why));
+        EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1) << r.err;
+    };
+    expect({"Pose.alpha"}, "setting 'Pose.alpha=1': unknown section [Pose]");
+    expect({"alpha"}, "setting 'alpha=1': expected Section.key=value");
+    expect({"--set", "PoseSolver.alpha=3", "PoseSolver.alpha"}, "alpha is set twice");
+    expect({"-c", dir / "none.ini", "PoseSolver.alpha"}, "none.ini: No such file");
 }
 
 TEST_F(FakePrograms, linksInTheFoldersOfASweepAreNotFollowed)

@@ -367,9 +367,10 @@ TEST(ObservationConverter, everyBadFrameHasItsText)
     EXPECT_EQ(
         with([](Scan& s) { s.hasRangeImage = s.hasIntensityImage = false; }),
         "observation has no range image");
-    EXPECT_THAT(
+    EXPECT_EQ(  // beside colour
         with([](Scan& s) { s.hasRangeImage = !(s.hasPoints3D = true); }),
-        HasSubstr("observation has no range image, but points alone: the program that"));
+        "observation has no range image, and 3D points cannot replace it: record it, too "
+        "(grab_depth = true for MRPT's rawlog-grabber)");
     EXPECT_THAT(
         with([](Scan& s) { s.timestamp = INVALID_TIMESTAMP; }), HasSubstr("has no time stamp"));
     EXPECT_THAT(

@@ -33,7 +33,7 @@ void requireTwo(
         throw std::runtime_error(
             "'" + estimate.name + "' covers " + length + nameOf(options.unit) +
             ": fewer than two pairs of poses are " + nameOfDelta(options) +
-            " apart; choose a smaller delta");
+            " apart (those with the last pose do not count); choose a smaller delta");
     }
 }
 }  // namespace

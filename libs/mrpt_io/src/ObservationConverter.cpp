@@ -161,8 +161,8 @@ void ObservationConverter::Impl::fill(
     requireUsable(
         scan.hasRangeImage || (scan.hasIntensityImage && !scan.hasPoints3D),
         std::string("observation has no range image") +
-            (scan.hasPoints3D ? ", but points alone: the program that recorded it must keep the "
-                                "range image"
+            (scan.hasPoints3D ? ", and 3D points cannot replace it: record it, too (grab_depth = "
+                                "true for MRPT's rawlog-grabber)"
                               : ""));
     const Eigen::Isometry3d T_robot_body = fromMrpt(scan.sensorPose);
     requirePose(T_robot_body, "sensorPose");

@@ -49,7 +49,9 @@ std::string Track::interruption(double stamp, const PinholeCamera& camera) const
 {
     if (stamp <= latestStamp_)
     {
-        return "the clock has been set back";
+        return "two stamps in a row are not after an earlier one: the clock was set back, or "
+               "frames "
+               "are out of order";
     }
     return isOf(camera) ? "" : "the camera's size or calibration has changed";
 }
