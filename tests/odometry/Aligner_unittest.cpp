@@ -109,16 +109,19 @@ TEST_F(AlignerTest, withoutFeaturesThereIsOnlyThePrediction)
 TEST_F(AlignerTest, aMotionWithoutItsDoubtfulPointsIsComparedAnew)
 {
     RgbdFrame dark = frame(1);
-    cv::Mat lit = dark.gray(cv::Rect(0, 0, dark.gray.cols, dark.gray.rows)).clone();
+    const cv::Rect corner(0, 140, 40, 40);
+    const cv::Mat lit = dark.gray(corner).clone();
     dark.gray.setTo(0);
-    const cv::Rect corner(0, 140, 60, 60);
-    lit(corner).copyTo(dark.gray(corner));
+    lit.copyTo(dark.gray(corner));
     const Alignment alignment = align(dark);
-    std::cout << alignment.holds << " " << alignment.reason << " sought " << alignment.numSought
-              << " of " << numPoints() << " found " << alignment.estimate.numPointInliers
-              << " doubted " << alignment.associations[0].doubtedPoints.size() << " planes "
-              << alignment.problem.planes.size() << " " << alignment.agreement.seen() << " "
-              << alignment.agreement.fraction() << "\n";
+    expectTrue(alignment, 1);
+    const auto numDoubted = static_cast<int>(alignment.associations[0].doubtedPoints.size());
+    EXPECT_GT(numDoubted, 0);
+    EXPECT_TRUE(alignment.problem.points.empty());
+    EXPECT_GT(alignment.problem.planes.size(), 3);
+    EXPECT_LE(alignment.numSought, numPoints() - numDoubted);
+    EXPECT_GT(alignment.agreement.fraction(), 0.9);
+    EXPECT_LE(alignment.agreement.seen(), PixelGrid::kSamples * PixelGrid::kSamples);
 }
 }  // namespace
 }  // namespace pointplane

@@ -50,8 +50,7 @@ std::string Track::interruption(double stamp, const PinholeCamera& camera) const
     if (stamp <= latestStamp_)
     {
         return "two stamps in a row are not after an earlier one: the clock was set back, or "
-               "frames "
-               "are out of order";
+               "frames are out of order";
     }
     return isOf(camera) ? "" : "the camera's size or calibration has changed";
 }
