@@ -279,11 +279,11 @@ TEST(Judge, moreSurfacesDoNotOutweighResidualsOfNoMotion)
     EXPECT_TRUE(isBetter(right, between));
 }
 
-Rivalry rivalryOf(double surfaceFirst, double surfaceSecond)
+Rivalry rivalryOf(double areaFirst, double areaSecond)
 {
     Rivalry out;
-    out.surfaceFirst = surfaceFirst;
-    out.surfaceSecond = surfaceSecond;
+    out.areaFirst = areaFirst;
+    out.areaSecond = areaSecond;
     return out;
 }
 

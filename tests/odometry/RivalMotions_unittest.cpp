@@ -11,7 +11,7 @@ namespace pointplane
 {
 namespace
 {
-/** Points on a grid of 0.1 radians, so that each has a cell of the view of its own, that moved by
+/** Points on a grid of 0.05 radians, so that each has a cell of the view of its own, that moved by
  * `shift` since the previous frame. \param z depth [m] \param column of the first one */
 void addPoints(
     int columns, int rows, int column, double z, const Eigen::Vector3d& shift, PoseProblem& problem)
@@ -21,7 +21,7 @@ void addPoints(
         for (int v = 0; v < rows; ++v)
         {
             PointPair pair;
-            pair.ref.mean = {z * (0.1 * u + 0.05), z * (0.1 * v + 0.05), z};
+            pair.ref.mean = {z * (0.05 * u + 0.025), z * (0.05 * v + 0.025), z};
             pair.ref.cov = 1e-6 * z * z * Eigen::Matrix3d::Identity();
             pair.cur = pair.ref;
             pair.cur.mean += shift;
@@ -68,9 +68,9 @@ TEST(RivalMotions, surfaceIsCountedByHand)
     EXPECT_NEAR(rivalry->second.T_prev_cur.translation().norm(), 0, 1e-4);
     EXPECT_EQ(std::count(rivalry->points.begin(), rivalry->points.end(), Side::First), 400);
     EXPECT_EQ(std::count(rivalry->points.begin(), rivalry->points.end(), Side::Second), 50);
-    const double cellAtOneMetre = 0.1 * 0.1;
-    EXPECT_NEAR(rivalry->surfaceFirst, 100 * cellAtOneMetre, 10 * cellAtOneMetre);
-    EXPECT_NEAR(rivalry->surfaceSecond, 50 * 6.25 * cellAtOneMetre, 1e-6);
+    const double cellAtOneMetre = 0.05 * 0.05;
+    EXPECT_NEAR(rivalry->areaFirst, 100 * cellAtOneMetre, 10 * cellAtOneMetre);
+    EXPECT_NEAR(rivalry->areaSecond, 50 * 6.25 * cellAtOneMetre, 1e-6);
     EXPECT_FALSE(rivalry->firstWins());
     EXPECT_EQ(&rivalry->winner(), &rivalry->second);
 }
@@ -78,10 +78,10 @@ TEST(RivalMotions, surfaceIsCountedByHand)
 TEST(RivalMotions, halfAsMuchSurfaceAgainIsClear)
 {
     Rivalry rivalry;
-    rivalry.surfaceFirst = 1;
-    rivalry.surfaceSecond = 1.4;
+    rivalry.areaFirst = 1;
+    rivalry.areaSecond = 1.4;
     EXPECT_FALSE(rivalry.isClear());
-    rivalry.surfaceSecond = 1.6;
+    rivalry.areaSecond = 1.6;
     EXPECT_TRUE(rivalry.isClear());
     EXPECT_FALSE(rivalry.firstWins());
 }
@@ -109,7 +109,7 @@ TEST(RivalMotions, theLoserAndPointsOfNeitherAreLeftOut)
     Rivalry rivalry;
     rivalry.points = {Side::Both, Side::First, Side::Second, Side::Neither, Side::Second};
     rivalry.planes = {Side::Neither, Side::First};
-    rivalry.surfaceSecond = 1;
+    rivalry.areaSecond = 1;
     std::vector<Association> associations(2);
     for (int i = 0; i < 5; ++i)
     {

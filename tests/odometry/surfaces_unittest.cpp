@@ -45,12 +45,12 @@ TEST(Surfaces, ofPixelsByHand)
 {
     PlaneSet planes = twoPlanes(0).planes;
     planes.labels.at<std::uint8_t>(3, 3) = 0;
-    EXPECT_EQ(surfaceAt({9.4, 5}, planes), 0);
-    EXPECT_EQ(surfaceAt({9.6, 5}, planes), 1);
-    EXPECT_EQ(surfaceAt({3, 3}, planes), -1) << "no plane";
-    EXPECT_EQ(surfaceAt({-0.6, 5}, planes), -1);
-    EXPECT_EQ(surfaceAt({5, 19.6}, planes), -1);
-    EXPECT_EQ(surfaceAt({5, 5}, {}), -1) << "no planes were looked for";
+    EXPECT_EQ(planeAt({9.4, 5}, planes), 0);
+    EXPECT_EQ(planeAt({9.6, 5}, planes), 1);
+    EXPECT_EQ(planeAt({3, 3}, planes), -1) << "no plane";
+    EXPECT_EQ(planeAt({-0.6, 5}, planes), -1);
+    EXPECT_EQ(planeAt({5, 19.6}, planes), -1);
+    EXPECT_EQ(planeAt({5, 5}, {}), -1) << "no planes were looked for";
 }
 
 TEST(Surfaces, areForgottenOverTwoSeconds)

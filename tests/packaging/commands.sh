@@ -147,8 +147,8 @@ step() {
 lab() {
     local name
     prepare pointplane-simulate corner -o a.rawlog --size 160x120 --duration 1.2 --quiet
-    ln -s a.rawlog b.rawlog
-    ln -s a.groundtruth.txt b.groundtruth.txt
+    cp a.rawlog b.rawlog
+    cp a.groundtruth.txt b.groundtruth.txt
     cp "$root/config-paper.ini" .
     ln -s "$build" build
     for name in DIR FOLDER; do

@@ -74,49 +74,67 @@ Alignment Aligner::align(
         errors,
         predicted,
         PairBuilder(track.previous(), current, errors.camera())};
-    // [P17, section Matching] capitalises on small motion.
-    const Eigen::Isometry3d expected =
-        searchesAhead_ ? predicted.pose.mean : Eigen::Isometry3d::Identity();
-    const Motion start{expected, predicted.motion.mean.velocity};
-    const bool verifies = params_.leastAgreement > 0;
-    Alignment out = attempt(scene, start, Search::Close);
-    if (track.overlap(out.associations, current) < minOverlap_ ||
-        (verifies && !Judge::needsNoOther(out, errors.usual())))
-    {
-        Alignment wide = attempt(scene, start, Search::Wide);
-        if (verifies)
-        {
-            Judge::keepBetter(out, std::move(wide), errors.usual());
-        }
-        else
-        {
-            wide.marks.insert(wide.marks.end(), out.marks.begin(), out.marks.end());
-            out = std::move(wide);
-        }
-        if (params_.searchImages && !Judge::needsNoOther(out, errors.usual()))
-        {
-            searchImages(scene, out);
-        }
-    }
-    if (out.unsettled.empty() && !frontEnd.marks().areKnown() && !out.marks.empty())
-    {
-        out.unsettled =
-            "points stand in the image while the depth behind them changes: either they are fixed "
-            "to the image, or its depth is wrong";
-    }
-    judge_.contradict(out, errors.usual());
-    if (restsOnChance(out))
-    {
-        distrustPoints(scene, out);
-        if (!out.isOfDoubtedPoints)
-        {
-            verify(scene, out);
-            judge_.contradict(out, errors.usual());
-        }
-    }
+    Alignment out = findMotion(scene);
+    settle(scene, out);
     tell(out, diagnostics);
     diagnostics.msMatching = watch.ms() - diagnostics.msPose;
     return out;
+}
+
+/** Searches close to the prediction, then farther away, then in the whole images: until a motion is
+ * convincing. */
+Alignment Aligner::findMotion(const Scene& scene) const
+{
+    // [P17, section Matching] capitalises on small motion.
+    const Eigen::Isometry3d expected =
+        searchesAhead_ ? scene.predicted.pose.mean : Eigen::Isometry3d::Identity();
+    const Motion start{expected, scene.predicted.motion.mean.velocity};
+    const NoiseFactors usual = scene.errors.usual();
+    const bool verifies = params_.leastAgreement > 0;
+    Alignment out = attempt(scene, start, Search::Close);
+    if (scene.track.overlap(out.associations, scene.current) >= minOverlap_ &&
+        (!verifies || Judge::needsNoOther(out, usual)))
+    {
+        return out;
+    }
+    Alignment wide = attempt(scene, start, Search::Wide);
+    if (verifies)
+    {
+        Judge::keepBetter(out, std::move(wide), usual);
+    }
+    else
+    {
+        wide.marks.insert(wide.marks.end(), out.marks.begin(), out.marks.end());
+        out = std::move(wide);
+    }
+    if (params_.searchImages && !Judge::needsNoOther(out, usual))
+    {
+        searchImages(scene, out);
+    }
+    return out;
+}
+
+/** Whether the motion is believed, and without which points. */
+void Aligner::settle(const Scene& scene, Alignment& alignment) const
+{
+    if (alignment.unsettled.empty() && !scene.frontEnd.marks().areKnown() &&
+        !alignment.marks.empty())
+    {
+        alignment.unsettled =
+            "points stand in the image while the depth behind them changes: either they are fixed "
+            "to the image, or its depth is wrong";
+    }
+    const NoiseFactors usual = scene.errors.usual();
+    judge_.contradict(alignment, usual);
+    if (restsOnChance(alignment))
+    {
+        distrustPoints(scene, alignment);
+        if (!alignment.isOfDoubtedPoints)
+        {
+            verify(scene, alignment);
+            judge_.contradict(alignment, usual);
+        }
+    }
 }
 
 /** Lays the frame over its references near a motion. */

@@ -48,6 +48,8 @@ class Aligner
         Wide    //!< farther away for a first guess, then closely around that
     };
 
+    [[nodiscard]] Alignment findMotion(const Scene& scene) const;
+    void settle(const Scene& scene, Alignment& alignment) const;
     [[nodiscard]] Alignment attempt(const Scene& scene, const Motion& start, Search search) const;
     void searchAgain(
         const Scene& scene,

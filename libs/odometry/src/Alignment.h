@@ -2,7 +2,7 @@
 #pragma once
 
 #include <pointplane/odometry/PairBuilder.h>
-#include <pointplane/odometry/Verdict.h>
+#include <pointplane/odometry/surface_agreement.h>
 #include <pointplane/pose/PoseSolver.h>
 
 #include <string>
@@ -20,10 +20,10 @@ struct Alignment
     std::vector<Association> associations;
     PoseProblem problem;  //!< the pairs that they make
     PoseEstimate estimate;
-    int observableDirections{0};  //!< of 6, measured better than predicted
-    bool isUnforeseen{false};     //!< the prediction does not tell which feature is which
-    Agreement agreement;          //!< of the surfaces seen before with this frame's depth image
-    int numSought{0};             //!< points of the references that should be in view
+    int observableDirections{0};   //!< of 6, measured better than predicted
+    bool isPredictionWeak{false};  //!< the prediction does not tell which feature is which
+    Agreement agreement;           //!< of the surfaces seen before with this frame's depth image
+    int numSought{0};              //!< points of the references that should be in view
     /** The motion was estimated with points that neither `problem` nor the covariance contains. So
      * it is no minimum of `problem`. */
     bool isOfDoubtedPoints{false};

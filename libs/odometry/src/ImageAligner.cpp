@@ -15,6 +15,8 @@ namespace pointplane
 {
 namespace
 {
+constexpr int kMaxPoints = 600;
+
 /** Motions of three points that are tried: with a fifth of the pairs right, 98 of 100 times one is.
  */
 constexpr int kMaxTrials = 500;
@@ -22,13 +24,11 @@ constexpr int kMaxTrials = 500;
 /** How far a point may be from where a motion puts it, as a part of the image's width. */
 constexpr double kPixelFraction = 0.006;
 
-/** Limits for a motion of three points, over those for one of many. */
-constexpr double kWide = 2;
-
 PointDetector::TParams detectorParams()
 {
     PointDetector::TParams out;
     out.detector = "orb";
+    out.maxPoints = kMaxPoints;
     out.upright = false;
     return out;
 }
@@ -83,8 +83,7 @@ class ReprojectionTest
             const double before = (pairs_.ref[a] - pairs_.ref[b]).norm();
             const double now = (pairs_.cur[a] - pairs_.cur[b]).norm();
             const double z = std::max(pairs_.cur[a].z(), pairs_.cur[b].z());
-            const double same = 2 * noise_.sameDepth(z);
-            if (before < same || std::abs(before - now) > same)
+            if (std::abs(before - now) > 2 * noise_.sameDepth(z) || before < 0.05 * z)
             {
                 return false;
             }
@@ -141,12 +140,12 @@ std::vector<size_t> mostInliers(const ReprojectionTest& test, size_t numPairs)
             continue;
         }
         ++t;
-        std::vector<size_t> found = test.inliers(test.fit({s[0], s[1], s[2]}), kWide);
+        std::vector<size_t> found = test.inliers(test.fit({s[0], s[1], s[2]}), 2);
         if (found.size() > best.size())
         {
-            if (found.size() >= kFewPoints)
+            if (found.size() >= 6)
             {
-                auto again = test.inliers(test.fit(found), kWide);
+                auto again = test.inliers(test.fit(found), 2);
                 if (again.size() > found.size())
                 {
                     found = std::move(again);
@@ -200,15 +199,20 @@ std::optional<ImageMotion> ImageAligner::align(
     }
     const ReprojectionTest test(pairs, camera, noise_);
     std::vector<size_t> best = mostInliers(test, n);
-    Eigen::Isometry3d T;
-    for (const double widening : {kWide, 1.0, 1.0})
+    if (best.size() < kFewPoints)
     {
-        if (best.size() < kFewPoints)
+        return {};
+    }
+    Eigen::Isometry3d T = test.fit(best);
+    for (int k = 0; k < 3; ++k)
+    {
+        const std::vector<size_t> found = test.inliers(T, k == 0 ? 2 : 1);
+        if (found.size() < 4)
         {
-            return {};
+            break;
         }
-        T = test.fit(best);
-        best = test.inliers(T, widening);
+        T = test.fit(found);
+        best = found;
     }
     if (best.size() < kFewPoints)
     {

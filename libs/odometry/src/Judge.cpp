@@ -115,7 +115,7 @@ bool Judge::isUncertain(const PoseGaussian& predicted) const
 
 bool Judge::isConfirmed(const Alignment& a)
 {
-    return (!a.isUnforeseen && showsSurfaces(a)) || mostPointsAgree(a);
+    return (!a.isPredictionWeak && showsSurfaces(a)) || mostPointsAgree(a);
 }
 
 bool Judge::mayBeChance(const Alignment& a) { return !isConfirmed(a) || hardlyAnyPointAgrees(a); }
@@ -207,7 +207,7 @@ void Judge::judge(Alignment& alignment) const
     const PoseGaussian& predicted = alignment.predicted.pose;
     alignment.observableDirections =
         observableDirections(estimate.infoPoints + estimate.infoPlanes, predicted.cov);
-    alignment.isUnforeseen = isUncertain(predicted);
+    alignment.isPredictionWeak = isUncertain(predicted);
     const auto matches = static_cast<int>(alignment.numMatches());
     const double sigma = maxSigma(estimate.pose().cov);
     alignment.holds = false;

@@ -22,8 +22,8 @@ class Judge
     /** Fewest matches to estimate a motion from. */
     [[nodiscard]] int minMatches() const;
 
-    /** By what the estimate says of itself: sets `holds`, `observableDirections`, `isUnforeseen`,
-     * `reason`. */
+    /** By what the estimate says of itself: sets `holds`, `observableDirections`,
+     * `isPredictionWeak`, `reason`. */
     void judge(Alignment& alignment) const;
 
     /** The last word: surfaces that should be in view and are not; matches that might be any.

@@ -25,12 +25,12 @@ Cell cellAt(const Eigen::Vector3f& point, const std::vector<ComparedDepth>& earl
     Cell out = Untold;
     for (const ComparedDepth& depth : earlier)
     {
-        const ComparedDepth::Verdict verdict = depth(point);
-        if (verdict == ComparedDepth::Verdict::Vanished)
+        const ComparedDepth::Sight sight = depth(point);
+        if (sight == ComparedDepth::Sight::Vanished)
         {
             return Moving;
         }
-        if (verdict == ComparedDepth::Verdict::Agrees)
+        if (sight == ComparedDepth::Sight::Agrees)
         {
             out = Still;
         }

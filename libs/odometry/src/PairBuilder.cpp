@@ -120,7 +120,7 @@ PointPair pointPair(const ReferenceView& past, const CurrentView& current, const
     pair.reference = past.reference.id;
     pair.feature = cellOf(cur.uv_px, current.cellPx, camera);
     pair.hasDepth = cur.hasDepth;
-    pair.surface = surfaceAt(camera.depthPixel(cur.uv_px), features.planes);
+    pair.surface = planeAt(camera.depthPixel(cur.uv_px), features.planes);
     if (features.bend > 0)
     {
         pair.refPatch = patchOf(ref.uv_px, camera);

@@ -16,6 +16,9 @@ namespace pointplane
 {
 namespace
 {
+/** Side of the cells of the view that points stand for, over their depth: 3 degrees. */
+constexpr double kCell = 0.05;
+
 /** Squared norms up to which pairs agree. */
 struct Limits
 {
@@ -145,7 +148,7 @@ std::pair<double, double> surfaces(
         {
             continue;
         }
-        Cell& cell = cells[viewCell(p)];
+        Cell& cell = cells[viewCell(p, kCell)];
         (sides[i] == Side::First ? cell.first : cell.second) += 1;
         cell.depth += p.z();
     }
@@ -153,7 +156,7 @@ std::pair<double, double> surfaces(
     for (const auto& [at, cell] : cells)
     {
         const double count = cell.first + cell.second;
-        const double side = kViewCell * cell.depth / count;
+        const double side = kCell * cell.depth / count;
         out.first += side * side * cell.first / count;
         out.second += side * side * cell.second / count;
     }
@@ -163,8 +166,7 @@ std::pair<double, double> surfaces(
 
 bool Rivalry::isClear() const
 {
-    return std::max(surfaceFirst, surfaceSecond) >=
-           kClearlyLarger * std::min(surfaceFirst, surfaceSecond);
+    return std::max(areaFirst, areaSecond) >= kClearlyLarger * std::min(areaFirst, areaSecond);
 }
 
 std::optional<Rivalry> findRivalry(
@@ -199,7 +201,7 @@ std::optional<Rivalry> findRivalry(
     {
         return {};
     }
-    std::tie(out.surfaceFirst, out.surfaceSecond) = surfaces(problem.points, out.points);
+    std::tie(out.areaFirst, out.areaSecond) = surfaces(problem.points, out.points);
     return out;
 }
 

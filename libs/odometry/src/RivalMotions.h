@@ -22,10 +22,10 @@ enum class Side
 struct Rivalry
 {
     Motion first, second;
-    std::vector<Side> points, planes;          //!< of the problem's pairs
-    double surfaceFirst{0}, surfaceSecond{0};  //!< that only one of them explains [m^2]
+    std::vector<Side> points, planes;    //!< of the problem's pairs
+    double areaFirst{0}, areaSecond{0};  //!< that only one of them explains [m^2]
 
-    [[nodiscard]] bool firstWins() const { return surfaceFirst >= surfaceSecond; }
+    [[nodiscard]] bool firstWins() const { return areaFirst >= areaSecond; }
     [[nodiscard]] const Motion& winner() const { return firstWins() ? first : second; }
 
     /** Whether the winner explains at least half as much again. */

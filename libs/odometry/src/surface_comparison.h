@@ -42,7 +42,7 @@ inline DepthRange rangeAround(const cv::Mat& depth, int u, int v)
 class ComparedDepth
 {
  public:
-    enum class Verdict
+    enum class Sight
     {
         Unseen,   //!< out of view, or no reading
         Agrees,   //!< there is a surface
@@ -72,28 +72,28 @@ class ComparedDepth
     }
 
     /** \param p_other a point of a surface, in the other camera [m] */
-    [[nodiscard]] Verdict operator()(const Eigen::Vector3f& p_other) const
+    [[nodiscard]] Sight operator()(const Eigen::Vector3f& p_other) const
     {
         const Eigen::Vector3f p = T_ * p_other;
         if (!(p.z() > 0))
         {
-            return Verdict::Unseen;
+            return Sight::Unseen;
         }
         const float u = fx_ * p.x() / p.z() + cx_ + 0.5F, v = fy_ * p.y() / p.z() + cy_ + 0.5F;
         if (!(u >= 1 && v >= 1 && u < static_cast<float>(depth_.cols - 1) &&
               v < static_cast<float>(depth_.rows - 1)))
         {
-            return Verdict::Unseen;
+            return Sight::Unseen;
         }
         const DepthRange range = rangeAround(depth_, static_cast<int>(u), static_cast<int>(v));
         if (range.farthest <= 0)
         {
-            return Verdict::Unseen;
+            return Sight::Unseen;
         }
         const float most = tolerance(p.z());
-        return range.farthest + most < p.z()  ? Verdict::Hidden
-               : range.nearest - most > p.z() ? Verdict::Vanished
-                                              : Verdict::Agrees;
+        return range.farthest + most < p.z()  ? Sight::Hidden
+               : range.nearest - most > p.z() ? Sight::Vanished
+                                              : Sight::Agrees;
     }
 
  private:

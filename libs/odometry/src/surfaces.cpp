@@ -8,7 +8,7 @@
 
 namespace pointplane
 {
-int surfaceAt(const Eigen::Vector2d& depthUv_px, const PlaneSet& planes)
+int planeAt(const Eigen::Vector2d& depthUv_px, const PlaneSet& planes)
 {
     const cv::Point pixel(
         static_cast<int>(std::lround(depthUv_px.x())),
@@ -54,7 +54,7 @@ void countMoving(
         for (const PointTrack& track : association.movingPoints)
         {
             const Eigen::Vector2d pixel = current.frame.camera.depthPixel(track.cur.uv_px);
-            const auto surface = static_cast<size_t>(surfaceAt(pixel, current.planes));
+            const auto surface = static_cast<size_t>(planeAt(pixel, current.planes));
             if (surface < surfaces.size())
             {
                 ++surfaces[surface].points;
@@ -78,7 +78,7 @@ RgbdFrame stillPart(
     {
         out.depth(cell).setTo(kNone);
         const Eigen::Vector2d centre(cell.x + cell.width / 2, cell.y + cell.height / 2);
-        reached.insert(surfaceAt(centre, current.planes));
+        reached.insert(planeAt(centre, current.planes));
     }
     for (const int surface : reached)
     {

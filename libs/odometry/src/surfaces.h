@@ -11,7 +11,7 @@
 namespace pointplane
 {
 /** Which plane covers the pixel of the depth image: an index into PlaneSet::planes, or -1. */
-[[nodiscard]] int surfaceAt(const Eigen::Vector2d& depthUv_px, const PlaneSet& planes);
+[[nodiscard]] int planeAt(const Eigen::Vector2d& depthUv_px, const PlaneSet& planes);
 
 /** What earlier frames tell of each plane of the current frame: how many points on it have agreed
  * with the camera's motion so far. A plane is known from the first reference that it is matched

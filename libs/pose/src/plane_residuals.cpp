@@ -12,6 +12,14 @@
 
 namespace pointplane
 {
+namespace
+{
+/** Residuals of planes have three dimensions each, but poses follow some of these. If less than
+ * this part of them is left, they tell nothing of the noise. Three planes that alone tell the pose
+ * have a third left. */
+constexpr double kLeastLeft = 0.25;
+}  // namespace
+
 /** Poses follow planes by as many dimensions as planes tell of them: that of the frame does, and
  * those of the references did. Residuals have so many fewer. */
 PlaneResiduals residualsOfPlanes(const Solution& at)
@@ -40,7 +48,7 @@ PlaneResiduals residualsOfPlanes(const Solution& at)
     for (auto& [reference, ofPlanes] : norms)
     {
         const double all = 3 * static_cast<double>(ofPlanes.size()), dof = all - dimensions;
-        if (dof >= 1)
+        if (dof >= kLeastLeft * all)
         {
             out.references.push_back({reference, medianVariance(ofPlanes) * all / dof, dof});
         }

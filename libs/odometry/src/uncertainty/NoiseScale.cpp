@@ -11,6 +11,12 @@
 
 namespace pointplane
 {
+namespace
+{
+/** In the quick mean, the first variance counts as so many frames. */
+constexpr double kFirstFrames = 3;
+}  // namespace
+
 double NoiseScale::plausible(double variance)
 {
     return std::clamp(variance, kLeastVariance, kMostVariance);
@@ -24,7 +30,7 @@ void NoiseScale::TParams::check() const
 }
 
 NoiseScale::Residuals::Residuals(double first)
-    : cautious_(first, std::numeric_limits<double>::infinity()), logTypical_(std::log(first), 1)
+    : cautious(first, std::numeric_limits<double>::infinity()), quick(first, kFirstFrames)
 {
 }
 
@@ -32,8 +38,8 @@ void NoiseScale::Residuals::follow(double variance, double rate)
 {
     if (variance > 0)
     {
-        cautious_.follow(plausible(variance), rate);
-        logTypical_.follow(std::log(plausible(variance)), rate);
+        cautious.follow(plausible(variance), rate);
+        quick.follow(plausible(variance), rate);
     }
 }
 
@@ -43,6 +49,7 @@ NoiseScale::NoiseScale(const TParams& params)
       planeResiduals_(pointResiduals_),
       pointCommon_(1, std::numeric_limits<double>::infinity()),
       planeCommon_(pointCommon_),
+      typicalResiduals_(std::log(pointResiduals_.quick.value()), 1),
       typicalDisagreement_(0, 1)
 {
     params_.check();
@@ -66,6 +73,14 @@ void NoiseScale::learn(const PoseAnalysis& analysis, double rate)
 {
     pointResiduals_.follow(analysis.pointVariance, rate);
     planeResiduals_.follow(analysis.planeVariance, rate);
+    const auto followLog = [rate](double variance, FrameMean& mean)
+    {
+        if (variance > 0)
+        {
+            mean.follow(std::log(plausible(variance)), rate);
+        }
+    };
+    followLog(analysis.pointVariance, typicalResiduals_);
 
     // What is expected is in proportion to what the solver was told beyond the residuals' variance.
     const auto needed = [](const Disagreement& d, double told)
@@ -74,10 +89,7 @@ void NoiseScale::learn(const PoseAnalysis& analysis, double rate)
         needed(analysis.pointDisagreement, pointCommon_.value() * params_.pointFactor);
     const double ofPlanes =
         needed(analysis.planeDisagreement, planeCommon_.value() * params_.planeFactor);
-    if (ofPoints > 0)
-    {
-        typicalDisagreement_.follow(std::log(plausible(ofPoints)), rate);
-    }
+    followLog(ofPoints, typicalDisagreement_);
     for (const auto& [variance, mean] :
          {std::pair(ofPoints, &pointCommon_), std::pair(ofPlanes, &planeCommon_)})
     {
@@ -99,21 +111,22 @@ void NoiseScale::learn(const PoseAnalysis& analysis, double rate)
 NoiseScale::TypicalPoints NoiseScale::typicalPoints() const
 {
     return {
-        pointResiduals_.typical(),
+        std::exp(typicalResiduals_.value()),
         std::exp(typicalDisagreement_.value()),
         typicalTurn_.numFrames() > 0 ? std::exp(typicalTurn_.value()) : 0};
 }
 
 double NoiseScale::overCautious() const
 {
-    const Residuals& of = pointResiduals_.areKnown() ? pointResiduals_ : planeResiduals_;
-    return of.typical() / of.cautious();
+    const bool hasPoints = pointResiduals_.quick.numFrames() > kFirstFrames;
+    const Residuals& of = hasPoints ? pointResiduals_ : planeResiduals_;
+    return of.quick.value() / of.cautious.value();
 }
 
 NoiseFactors NoiseScale::factors() const
 {
     return {
-        pointResiduals_.cautious() * pointCommon_.value() * params_.pointFactor,
-        planeResiduals_.cautious() * planeCommon_.value() * params_.planeFactor};
+        pointResiduals_.cautious.value() * pointCommon_.value() * params_.pointFactor,
+        planeResiduals_.cautious.value() * planeCommon_.value() * params_.planeFactor};
 }
 }  // namespace pointplane

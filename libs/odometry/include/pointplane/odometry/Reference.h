@@ -3,7 +3,7 @@
 
 #include <pointplane/core/types.h>
 #include <pointplane/odometry/ImageAligner.h>
-#include <pointplane/odometry/Verdict.h>
+#include <pointplane/odometry/surface_agreement.h>
 #include <pointplane/planes/PlaneFeature.h>
 #include <pointplane/planes/PlaneMatcher.h>
 #include <pointplane/points/PointTracker.h>

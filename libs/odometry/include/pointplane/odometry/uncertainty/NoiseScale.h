@@ -5,8 +5,6 @@
 #include <pointplane/odometry/uncertainty/FrameMean.h>
 #include <pointplane/pose/PoseSolver.h>
 
-#include <cmath>
-
 namespace pointplane
 {
 /** Learns the noise of points and planes: the ratio of their variance to the propagated one
@@ -77,7 +75,9 @@ class NoiseScale
      * hardly move. */
     [[nodiscard]] double ofFrame() const { return ofFrame_; }
 
-    /** What the points of a frame usually have, for covariances: geometric means. */
+    /** What the points of a frame usually have, for covariances: geometric means, which soon forget
+     * what the first frames said. A camera that turns fast in these has residuals of 50 times the
+     * propagated variance. */
     struct TypicalPoints
     {
         double residuals;     //!< variance, over the propagated one (v in docs/theory.md)
@@ -86,37 +86,29 @@ class NoiseScale
     };
     [[nodiscard]] TypicalPoints typicalPoints() const;
 
-    /** Variance that the residuals of a frame usually have, over the propagated one. */
+    /** Variance of the residuals, over the propagated one; the first guess is soon forgotten. */
     [[nodiscard]] NoiseFactors residuals() const
     {
-        return {pointResiduals_.typical(), planeResiduals_.typical()};
+        return {pointResiduals_.quick.value(), planeResiduals_.quick.value()};
     }
 
  private:
     void learn(const PoseAnalysis& analysis, double rate);
 
-    /** Variance of the residuals, over the propagated one. */
-    class Residuals
+    /** Of the residuals alone. */
+    struct Residuals
     {
-     public:
         explicit Residuals(double first);
         void follow(double variance, double rate);
-        [[nodiscard]] bool areKnown() const { return logTypical_.numFrames() > 1; }
-        /** For the solver: forgets the first guess by the time constant only. */
-        [[nodiscard]] double cautious() const { return cautious_.value(); }
-        /** Geometric mean, which soon forgets what the first frames said. A camera that turns fast
-         * in these has residuals of 50 times the propagated variance. */
-        [[nodiscard]] double typical() const { return std::exp(logTypical_.value()); }
-
-     private:
-        FrameMean cautious_, logTypical_;
+        FrameMean cautious;  //!< for the solver: forgets the first guess by the time constant only
+        FrameMean quick;     //!< forgets it after a few frames
     };
 
     TParams params_;
     Residuals pointResiduals_, planeResiduals_;
     FrameMean pointCommon_, planeCommon_;  //!< disagreement of the references
     /** Logarithms, for geometric means. */
-    FrameMean typicalDisagreement_, typicalTurn_, typicalScatter_;
+    FrameMean typicalResiduals_, typicalDisagreement_, typicalTurn_, typicalScatter_;
     double ofFrame_{1};
 };
 }  // namespace pointplane

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/core/se3.h>
-#include <pointplane/odometry/Verdict.h>
+#include <pointplane/odometry/surface_agreement.h>
 
 #include <limits>
 
@@ -16,7 +16,7 @@ constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
 /** Two frames of a desk, ten apart: its samples in the second, at the true motion times an error.
  */
-class VerdictTest : public testing::Test
+class SurfaceAgreement : public testing::Test
 {
  protected:
     static test::CachedSequence& desk()
@@ -50,20 +50,20 @@ class VerdictTest : public testing::Test
     Eigen::Isometry3d T_cur_ref = desk().sequence().trueMotion(50, 40);
 };
 
-TEST_F(VerdictTest, surfacesAreWhereTheTrueMotionPutsThem)
+TEST_F(SurfaceAgreement, surfacesAreWhereTheTrueMotionPutsThem)
 {
     const Agreement right = at(Vector6d::Zero());
     EXPECT_GT(right.seen(), 1500);
     EXPECT_GT(right.fraction(), 0.95);
 }
 
-TEST_F(VerdictTest, smallErrorsPass)
+TEST_F(SurfaceAgreement, smallErrorsPass)
 {
     EXPECT_GT(bestWrongBy(0.01, 0), 0.9);
     EXPECT_GT(bestWrongBy(0, 0.5), 0.9);
 }
 
-TEST_F(VerdictTest, errorsOfEveryDirectionLeaveFewerSurfaces)
+TEST_F(SurfaceAgreement, errorsOfEveryDirectionLeaveFewerSurfaces)
 {
     const double right = at(Vector6d::Zero()).fraction();
     EXPECT_LT(bestWrongBy(0.05, 0), right - 0.1);
@@ -72,7 +72,7 @@ TEST_F(VerdictTest, errorsOfEveryDirectionLeaveFewerSurfaces)
     EXPECT_LT(bestWrongBy(0, 20), 0.6);
 }
 
-TEST_F(VerdictTest, whatIsInFrontHidesAndWhatIsGoneHasVanished)
+TEST_F(SurfaceAgreement, whatIsInFrontHidesAndWhatIsGoneHasVanished)
 {
     // A person's width of the image, half a metre in front of it: nothing there agrees.
     const int all = at(Vector6d::Zero()).seen();
@@ -86,7 +86,7 @@ TEST_F(VerdictTest, whatIsInFrontHidesAndWhatIsGoneHasVanished)
     EXPECT_NEAR(vanished.vanished, 0.31 * all, 0.1 * all);
 }
 
-TEST_F(VerdictTest, holesSayNothing)
+TEST_F(SurfaceAgreement, holesSayNothing)
 {
     current.depth.colRange(0, 160).setTo(kNaN);
     const Agreement half = at(Vector6d::Zero());
@@ -97,7 +97,7 @@ TEST_F(VerdictTest, holesSayNothing)
     EXPECT_EQ(none.fraction(), 0) << "nothing speaks for the motion";
 }
 
-TEST_F(VerdictTest, thinThingsAreNotCounted)
+TEST_F(SurfaceAgreement, thinThingsAreNotCounted)
 {
     // A grating of 2 px bars half as far away: its depth jumps belong to neither side.
     RgbdFrame reference = desk().frame(40);
@@ -111,7 +111,7 @@ TEST_F(VerdictTest, thinThingsAreNotCounted)
 }
 
 /** Far away, depths of neighbours differ by more than distortion makes them: by noise. */
-TEST_F(VerdictTest, noiseIsNoDepthJump)
+TEST_F(SurfaceAgreement, noiseIsNoDepthJump)
 {
     test::GaussianSampler sampler(8);
     DepthNoise stereo;
@@ -135,7 +135,7 @@ TEST_F(VerdictTest, noiseIsNoDepthJump)
     }
 }
 
-TEST_F(VerdictTest, imagesTooSmallToSample)
+TEST_F(SurfaceAgreement, imagesTooSmallToSample)
 {
     RgbdFrame tiny = current;
     for (const int size : {0, 1, 2, 3})

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pointplane/odometry/Verdict.h>
+#include <pointplane/odometry/surface_agreement.h>
 
 #include "surface_comparison.h"
 
@@ -36,15 +36,15 @@ Agreement compareSurfaces(
     const DepthNoise& noise,
     double slack_m)
 {
-    using Verdict = ComparedDepth::Verdict;
+    using Sight = ComparedDepth::Sight;
     const ComparedDepth compared(current, T_cur_ref, noise, slack_m);
     Agreement out;
     for (const Eigen::Vector3f& p_ref : reference.points_cam)
     {
-        const Verdict verdict = compared(p_ref);
-        out.agrees += verdict == Verdict::Agrees;
-        out.hidden += verdict == Verdict::Hidden;
-        out.vanished += verdict == Verdict::Vanished;
+        const Sight sight = compared(p_ref);
+        out.agrees += sight == Sight::Agrees;
+        out.hidden += sight == Sight::Hidden;
+        out.vanished += sight == Sight::Vanished;
     }
     return out;
 }
