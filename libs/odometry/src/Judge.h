@@ -82,7 +82,7 @@ class Judge
      * wrong by 5 cm or 5 deg (docs/theory.md, "Verdict"): so much is between. */
     static constexpr double kConvincingSurfaces = 0.75;
 
-    /** So many surfaces are enough to compare: a share of a 4:3 view that is not of its holes. */
+    /** So many surfaces are enough to compare: a tenth of a view of 4:3. */
     static constexpr int kEnoughSurfaces = static_cast<int>(
         MovingRegions::kSureShare * PixelGrid::kSamples * PixelGrid::kSamples * 3 / 4);
     static_assert(kEnoughSurfaces == 480);
