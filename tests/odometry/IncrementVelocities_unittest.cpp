@@ -23,11 +23,13 @@ TEST(IncrementVelocities, betweenTwoByHand)
 {
     IncrementVelocities increments(kLongest, kTimeConstant);
     EXPECT_FALSE(increments.add(increment(1, 0.02)));
+    EXPECT_FALSE(increments.atEnd());
     const auto between = increments.add(increment(4, 0.04));
     ASSERT_TRUE(between);
     EXPECT_NEAR(between->velocity[2], 2, 1e-12);
     EXPECT_NEAR(between->dt, 0.06, 1e-12);
     EXPECT_NEAR(between->ratio, 2, 1e-12);
+    EXPECT_NEAR((*increments.atEnd())[5], 6, 1e-12) << "0.02 s after the middle of the latest";
     EXPECT_NEAR(increments.acceleration2()[0], 100 * 100, 1e-9);
 }
 
@@ -43,6 +45,7 @@ TEST(IncrementVelocities, constantAccelerationIsTold)
         const auto between = increments.add(increment(middle + acceleration * second / 2, second));
         ASSERT_TRUE(between);
         EXPECT_NEAR(between->velocity[0], middle, 1e-12);
+        EXPECT_NEAR((*increments.atEnd())[0], middle + acceleration * second, 1e-12);
         EXPECT_NEAR(increments.acceleration2()[3], 4, 1e-9);
     }
 }
@@ -71,6 +74,7 @@ TEST(IncrementVelocities, longStepsTellNoVelocityButAcceleration)
     IncrementVelocities increments(kLongest, kTimeConstant);
     (void)increments.add(increment(1, 0.15));
     EXPECT_FALSE(increments.add(increment(2, 0.15)));
+    EXPECT_FALSE(increments.atEnd());
     EXPECT_GT(increments.acceleration2()[0], 0);
 }
 
@@ -91,6 +95,7 @@ TEST(IncrementVelocities, interrupted)
     (void)increments.add(increment(2, 0.03));
     const Vector6d before = increments.acceleration2();
     increments.interrupt();
+    EXPECT_FALSE(increments.atEnd());
     EXPECT_FALSE(increments.add(increment(9, 0.03)));
     EXPECT_EQ(increments.acceleration2(), before);
 }

@@ -193,6 +193,24 @@ TEST(MotionModel, theVelocityBeforeLiesBetweenTheIncrements)
     EXPECT_FALSE(smoothed.isApprox(between, 0.02)) << smoothed.transpose();
 }
 
+/** Half of the extrapolation, after two increments; nothing after one. */
+TEST(MotionModel, followsIncrementsHalfway)
+{
+    MotionModel model = moving();
+    model.followIncrements();
+    EXPECT_EQ(model.velocity(), velocity());
+    MotionGaussian measured = measuredMotion();
+    measured.mean.T_prev_cur = se3Exp(1.2 * velocity() * kFrame);
+    measured.mean.velocity.setZero();
+    model.update(measured, kFrame);
+    model.followIncrements();
+    EXPECT_TRUE(model.velocity().isApprox(0.5 * 1.3 * velocity(), 1e-9));
+    model.coast(kFrame);
+    const Vector6d coasting = model.velocity();
+    model.followIncrements();
+    EXPECT_EQ(model.velocity(), coasting);
+}
+
 /** Rauch-Tung-Striebel against the joint Gaussian of the velocity before and the motion. */
 TEST(MotionModel, theVelocityBeforeIsSmoothed)
 {

@@ -29,6 +29,7 @@ double stepBetween(double earlier, double later)
 Track::Track(const OdometryParams& params)
     : maxGap_(params.pipeline.maxGap),
       fuses_(params.pipeline.fuses()),
+      isFrameToFrame_(params.reference.isFrameToFrame()),
       motion_(params.motionModel),
       history_(params.covariance),
       window_(params.reference)
@@ -169,7 +170,12 @@ std::optional<MotionModel::Smoothed> Track::follow(const MotionGaussian& motion,
         motion_.follow(motion.mean.T_prev_cur, dt);
         return {};
     }
-    return motion_.update(motion, dt);
+    const MotionModel::Smoothed previousVelocity = motion_.update(motion, dt);
+    if (isFrameToFrame_)
+    {
+        motion_.followIncrements();
+    }
+    return previousVelocity;
 }
 
 PoseGaussian Track::predict(double stamp, std::optional<Reference> unmatched)

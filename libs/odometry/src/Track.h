@@ -151,7 +151,7 @@ class Track
     void forgetOthers();
 
     double maxGap_;
-    bool fuses_;
+    bool fuses_, isFrameToFrame_;
     MotionModel motion_;
     PoseHistory history_;
     ReferenceWindow window_;

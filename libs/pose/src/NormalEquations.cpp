@@ -24,7 +24,8 @@ void NormalEquations::evaluate(const Motion& motion, double widening)
     if (pairs_.numPoints() > 0)
     {
         // Below one only by chance or by a pessimistic noise model: never tighten the gate for it.
-        scale_ = widening * std::max(1.0, std::sqrt(robustVariance()));
+        const double least = solver_.weighting == PoseSolver::Weighting::None ? 0.1 : 1.0;
+        scale_ = widening * std::max(least, std::sqrt(robustVariance()));
     }
     countInliers();
     pointSum_ = {};

@@ -9,8 +9,8 @@ namespace pointplane
 {
 namespace
 {
-/** Sigma of unweighted residuals: their least one [m], and the balance with the prior. */
-constexpr double kUnweightedSigma = 0.001;
+/** Sigma of unweighted residuals; sets only the balance with the prior. */
+constexpr double kUnweightedSigma = 0.01;
 
 /** Of a point or a plane in both views. */
 bool isFinite(

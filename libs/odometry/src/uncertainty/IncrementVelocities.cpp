@@ -20,6 +20,7 @@ IncrementVelocities::IncrementVelocities(double longest, double timeConstant)
 std::optional<IncrementVelocities::Between> IncrementVelocities::add(const Increment& next)
 {
     std::optional<Between> out;
+    atEnd_.reset();
     if (latest_)
     {
         learnAcceleration(next);
@@ -35,6 +36,7 @@ std::optional<IncrementVelocities::Between> IncrementVelocities::add(const Incre
                 perAxis(variances.head<3>().mean(), variances.tail<3>().mean()),
                 dt,
                 ratio};
+            atEnd_ = next.velocity + (next.velocity - last.velocity) * next.dt / dt;
         }
     }
     latest_ = next;
@@ -55,5 +57,9 @@ void IncrementVelocities::learnAcceleration(const Increment& next)
     acceleration2_ += rate * (a2 - acceleration2_);
 }
 
-void IncrementVelocities::interrupt() { latest_.reset(); }
+void IncrementVelocities::interrupt()
+{
+    latest_.reset();
+    atEnd_.reset();
+}
 }  // namespace pointplane

@@ -186,6 +186,14 @@ MotionModel::Smoothed MotionModel::update(const MotionGaussian& measured, double
     return out;
 }
 
+void MotionModel::followIncrements()
+{
+    if (increments_.atEnd())
+    {
+        velocity_ = 0.5 * (velocity_ + *increments_.atEnd());
+    }
+}
+
 /** By their variances, unless the camera has jerked in the dt [s] of the next increment. */
 void MotionModel::weigh(
     const IncrementVelocities::Between& between, double dt, Smoothed& smoothed) const

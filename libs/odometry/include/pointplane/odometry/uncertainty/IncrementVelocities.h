@@ -42,6 +42,10 @@ class IncrementVelocities
     /** The next increment will not begin where the latest ended. */
     void interrupt();
 
+    /** Velocity at the end of the latest increment, by constant acceleration over two of them that
+     * are short enough. */
+    [[nodiscard]] const std::optional<Vector6d>& atEnd() const { return atEnd_; }
+
     /** Mean square of the acceleration, per axis, the same for three axes [m^2/s^4, rad^2/s^4];
      * zero before there were two increments. */
     [[nodiscard]] const Vector6d& acceleration2() const { return acceleration2_; }
@@ -51,6 +55,7 @@ class IncrementVelocities
 
     double longest_, timeConstant_;
     std::optional<Increment> latest_;
+    std::optional<Vector6d> atEnd_;
     Vector6d acceleration2_{Vector6d::Zero()};
     int numAccelerations_{0};  //!< that acceleration2_ was learnt from
 };

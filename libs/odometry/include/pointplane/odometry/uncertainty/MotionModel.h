@@ -117,6 +117,11 @@ class MotionModel
      * references, so it wanders with them. The increments before and after miss jerks. */
     Smoothed update(const MotionGaussian& measured, double dt);
 
+    /** Moves the velocity half way to what the latest two increments say of it, by constant
+     * acceleration. For odometry from frame to frame: the next frame measures its velocity against
+     * this one, before a later increment can correct it. */
+    void followIncrements();
+
     /** The next motion starts at a frame to which others are compared: its pose has no error. */
     void startAtReference();
 
