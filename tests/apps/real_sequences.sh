@@ -88,6 +88,8 @@ for sigma in 0.0012 0.0015 0.0019; do
     check "fixed_$sigma" kinect1_fixed_person_part 1 0.008 0.4 0 \
         --set DepthNoise.kind=given --set DepthNoise.sigmaInverseDepth=$sigma
 done
+# From frame to frame, a velocity that later increments do not correct grows without end.
+check frame_to_frame icl_living_room_kt0_part 1 0.008 0.2 0 --set Reference.reference=previous
 covariances $xyz --gt-sigma-trans 0.0001 --gt-sigma-rot-deg 0.089,0.057,0.045
 covariances tum_fr1_rpy_part --gt-sigma-trans 0.0001 --gt-sigma-rot-deg 0.103,0.161,0.055
 covariances tum_fr3_structure_notexture_far_part --gt-sigma-trans 0.0001 --gt-sigma-rot-deg 0.140,0.060,0.065
