@@ -4,6 +4,7 @@
 #include <pointplane/core/se3.h>
 
 #include "hell_frames.h"
+#include "matchers.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -35,6 +36,16 @@ class AlignerTest : public testing::Test
     [[nodiscard]] int numPoints() const
     {
         return static_cast<int>(track_.previous().points.points.size());
+    }
+
+    /** The next frame, with light on a part of the image only. */
+    static RgbdFrame darkBut(const cv::Rect& part)
+    {
+        RgbdFrame out = frame(1);
+        const cv::Mat lit = out.gray(part).clone();
+        out.gray.setTo(0);
+        lit.copyTo(out.gray(part));
+        return out;
     }
 
     Alignment align(const RgbdFrame& frame)
@@ -108,12 +119,8 @@ TEST_F(AlignerTest, withoutFeaturesThereIsOnlyThePrediction)
  * the motion. It is compared with the surfaces anew, and each point in view is counted once. */
 TEST_F(AlignerTest, aMotionWithoutItsDoubtfulPointsIsComparedAnew)
 {
-    RgbdFrame dark = frame(1);
-    const cv::Rect corner(0, 140, 40, 40);
-    const cv::Mat lit = dark.gray(corner).clone();
-    dark.gray.setTo(0);
-    lit.copyTo(dark.gray(corner));
-    const Alignment alignment = align(dark);
+    const Alignment alignment = align(darkBut(cv::Rect(0, 140, 40, 40)));
+    EXPECT_TRUE(alignment.doubt.isZero(0));
     expectTrue(alignment, 1);
     const auto numDoubted = static_cast<int>(alignment.associations[0].doubtedPoints.size());
     EXPECT_GT(numDoubted, 0);
@@ -122,6 +129,24 @@ TEST_F(AlignerTest, aMotionWithoutItsDoubtfulPointsIsComparedAnew)
     EXPECT_LE(alignment.numSought, numPoints() - numDoubted);
     EXPECT_GT(alignment.agreement.fraction(), 0.9);
     EXPECT_LE(alignment.agreement.seen(), PixelGrid::kSamples * PixelGrid::kSamples);
+}
+
+/** Nothing is known of the motion over half a second, and few points agree. Their motion is the best
+ * guess, but the one without them may be right as well. */
+TEST_F(AlignerTest, aGuessIsAsUncertainAsItsDistanceFromTheOtherOne)
+{
+    RgbdFrame dark = darkBut(cv::Rect(0, 140, 40, 40));
+    dark.stamp = frame(0).stamp + 20;
+    const Alignment alignment = align(dark);
+    ASSERT_TRUE(alignment.isOfDoubtedPoints) << alignment.reason;
+    const PoseSolver solver(params_.poseSolver);
+    const Motion without = solver.solve(alignment.problem, alignment.predicted.motion.mean).motion.mean;
+    const Vector6d apart =
+        leftError(alignment.estimate.motion.mean.T_prev_cur, without.T_prev_cur);
+    EXPECT_GT(apart.norm(), 1e-4);
+    EXPECT_THAT(
+        alignment.doubt,
+        test::IsMatrixNear(Matrix6d(apart * apart.transpose()), 0.01 * apart.squaredNorm()));
 }
 }  // namespace
 }  // namespace pointplane

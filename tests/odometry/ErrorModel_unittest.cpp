@@ -77,6 +77,26 @@ TEST_F(ErrorModelTest, noiseByHand)
     EXPECT_NEAR(learn().noise(0, 0), params.covariance.noise + 2, 1e-12);
 }
 
+/** Points that may be wrong add what they may be wrong by, in either model. */
+TEST_F(ErrorModelTest, doubtIsNoise)
+{
+    for (const char* model : {"joint", "independent"})
+    {
+        params.covariance.model = model;
+        ErrorModel errors(params);
+        (void)errors.changeCamera(camera);
+        ErrorModel::Measured frame{
+            {&reference}, estimate, analysis, 1e-9, Matrix12d::Zero()};
+        const Matrix12d without = errors.learn(frame).noise;
+        frame.doubt(0, 0) = 0.25;
+        frame.doubt(0, 5) = frame.doubt(5, 0) = 0.1;
+        const Matrix12d added = errors.learn(frame).noise - without;
+        EXPECT_THAT(
+            Matrix6d(added.topLeftCorner<6, 6>()), test::IsMatrixNear(frame.doubt, 1e-12));
+        EXPECT_TRUE(added.bottomRows<6>().isZero(1e-12));
+    }
+}
+
 /** Planes err by the view as the noise of planes makes the pose err. Nothing is known of it but the
  * prior, by which both are as large as propagated. */
 TEST_F(ErrorModelTest, planesErrByTheirView)

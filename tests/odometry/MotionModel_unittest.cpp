@@ -79,7 +79,7 @@ TEST(MotionModel, processNoiseIsWhatTimeAdds)
     const auto expectIsAdded = [&](double dt)
     {
         const Matrix12d N = model.predictFromEstimate(dt).cov - carried(model, P, dt);
-        const Matrix12d noise = model.processNoise(dt);
+        const Matrix12d noise = model.processNoise(dt, Matrix6d::Zero());
         EXPECT_THAT(
             Matrix126d(noise.leftCols<6>()), test::IsMatrixNear(Matrix126d(N.leftCols<6>()), 1e-9));
         const double told = N(0, 6) * N(0, 6) / N(0, 0);
@@ -88,7 +88,26 @@ TEST(MotionModel, processNoiseIsWhatTimeAdds)
     model.startAtReference();
     expectIsAdded(kFrame);
     model.reset();  // nothing is left of what was measured
-    EXPECT_EQ(model.processNoise(kFrame)(0, 0), model.predict(kFrame).cov(0, 0));
+    EXPECT_EQ(model.processNoise(kFrame, Matrix6d::Zero())(0, 0), model.predict(kFrame).cov(0, 0));
+}
+
+/** What no feature shows is predicted, as in a frame that is predicted as a whole. */
+TEST(MotionModel, processNoiseOfAnUnmeasuredDirectionIsThatOfAPredictedFrame)
+{
+    MotionModel model = moving();
+    model.startAtReference();
+    Vector6d alongX = Vector6d::Zero();
+    alongX[0] = 1;
+    const Matrix12d none = model.processNoise(kFrame, Matrix6d::Zero());
+    const Matrix12d x = model.processNoise(kFrame, alongX.asDiagonal());
+    const Matrix12d all = model.processNoise(kFrame, Matrix6d::Identity());
+    EXPECT_THAT(all, test::IsMatrixNear(model.unforeseen(kFrame), 1e-12));
+    EXPECT_DOUBLE_EQ(x(0, 0), all(0, 0));
+    EXPECT_DOUBLE_EQ(x(6, 6), all(6, 6));
+    EXPECT_GT(x(0, 0), none(0, 0));
+    EXPECT_GT(x(6, 6), none(6, 6));
+    EXPECT_DOUBLE_EQ(x(1, 1), none(1, 1));
+    EXPECT_DOUBLE_EQ(x(7, 7), none(7, 7));
 }
 
 TEST(MotionModel, theVelocityDecays)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Aligner.h"
 
+#include <pointplane/core/PoseGaussian.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -219,8 +221,8 @@ bool Aligner::restsOnChance(const Alignment& alignment) const
 }
 
 /** Planes and prediction tell the motion without the points. If the prediction does not confirm it,
- * these points are the best guess: the motion stays, with the covariance that it has without them.
- */
+ * these points are the best guess: the motion stays. It may be the other one as well, so their
+ * distance adds to the covariance that it has without them. */
 void Aligner::distrustPoints(const Scene& scene, Alignment& alignment) const
 {
     const Motion motion = alignment.estimate.motion.mean;
@@ -234,6 +236,9 @@ void Aligner::distrustPoints(const Scene& scene, Alignment& alignment) const
     estimate(scene, motion, alignment);
     if (!Judge::isConfirmed(alignment))
     {
+        const Vector6d apart =
+            leftError(motion.T_prev_cur, alignment.estimate.motion.mean.T_prev_cur);
+        alignment.doubt = apart * apart.transpose();
         alignment.estimate.motion.mean = motion;
         alignment.isOfDoubtedPoints = true;
     }

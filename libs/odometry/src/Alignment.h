@@ -27,6 +27,9 @@ struct Alignment
     /** The motion was estimated with points that neither `problem` nor the covariance contains. So
      * it is no minimum of `problem`. */
     bool isOfDoubtedPoints{false};
+    /** How far they may be wrong: squared distance from the motion that is estimated without them.
+     */
+    Matrix6d doubt{Matrix6d::Zero()};
     std::vector<Mark> marks;  //!< of this and of other attempts at the frame
     std::string unsettled;    //!< why another motion may be the camera's (RivalMotions), or empty
     bool holds{false};        //!< the estimate is to be believed

@@ -304,12 +304,13 @@ JointCovariance::Measurement Odometry::Impl::learnErrors(
          alignment.estimate,
          analysis,
          dt,
-         track.motionNoise(dt),
+         track.motionNoise(dt, analysis.sensitivity.prior.topLeftCorner<6, 6>()),
          track.acceleration2(),
          errors.camera().rootMeanSquare(current.frame.shutter),
          current.bend,
          !alignment.isOfDoubtedPoints,
-         track.velocityCovs()});
+         track.velocityCovs(),
+         alignment.doubt});
 }
 
 bool Odometry::Impl::needsKeyframe(const Features& current, const Alignment& alignment) const

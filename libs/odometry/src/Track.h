@@ -88,7 +88,10 @@ class Track
     [[nodiscard]] Prediction prediction(double stamp);
 
     /** MotionModel::processNoise(). */
-    [[nodiscard]] Matrix12d motionNoise(double dt) const { return motion_.processNoise(dt); }
+    [[nodiscard]] Matrix12d motionNoise(double dt, const Matrix6d& open) const
+    {
+        return motion_.processNoise(dt, open);
+    }
 
     /** Covariance of the velocity of each reference that has one, by its id. */
     [[nodiscard]] std::map<int, Matrix6d> velocityCovs() const;

@@ -142,7 +142,7 @@ JointCovariance::Measurement ErrorModel::errorsOf(const Measured& frame) const
     {
         // Each increment errs by itself: its error adds to that of the previous pose.
         out.prior.topLeftCorner<6, 6>().setIdentity();
-        out.noise.topLeftCorner<6, 6>() = frame.estimate.pose().cov;
+        out.noise.topLeftCorner<6, 6>() = frame.estimate.pose().cov + frame.doubt;
         return out;
     }
     const Sensitivity& of = frame.analysis.sensitivity;
@@ -156,6 +156,7 @@ JointCovariance::Measurement ErrorModel::errorsOf(const Measured& frame) const
     out.noise = noise_.ofFrame() *
                     (params_.noise * points.residuals * of.points + planes_.own() * of.planes) +
                 accelerationWhileExposed(of, frame.shutter, frame.acceleration2);
+    out.noise.topLeftCorner<6, 6>() += frame.doubt;
     out.prior = of.prior;
     if (!fuses_)
     {

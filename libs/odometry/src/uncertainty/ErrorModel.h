@@ -89,6 +89,7 @@ class ErrorModel
          */
         bool isMinimum{true};
         std::map<int, Matrix6d> velocities{};  //!< covariances, of the references
+        Matrix6d doubt{Matrix6d::Zero()};      //!< of the pose, beyond what its features tell
     };
 
     /** Learns from the frame. \return what its estimate's errors come from */

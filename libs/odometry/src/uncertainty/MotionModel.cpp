@@ -84,7 +84,7 @@ MotionGaussian MotionModel::predictFromEstimate(double dt) const
     return predictFrom(velocity_, cov_, dt);
 }
 
-Matrix12d MotionModel::processNoise(double dt) const
+Matrix12d MotionModel::processNoise(double dt, const Matrix6d& open) const
 {
     Matrix12d out = predictFrom(velocity_, cov_ - measuredCov_, dt).cov;
     // The pose tells a part of the velocity. White acceleration leaves the rest; one that lasts for
@@ -92,7 +92,9 @@ Matrix12d MotionModel::processNoise(double dt) const
     const Matrix6d together = out.topRightCorner<6, 6>();
     const Matrix6d told = together.transpose() * out.topLeftCorner<6, 6>().ldlt().solve(together);
     const double share = dt / (dt + 15.0 / 4 * params_.accelerationTime);
-    out.bottomRightCorner<6, 6>() = told + share * (out.bottomRightCorner<6, 6>() - told);
+    const Matrix6d rest = out.bottomRightCorner<6, 6>() - told;
+    out.bottomRightCorner<6, 6>() = told + share * rest + (1 - share) * propagate(open, rest);
+    out.topLeftCorner<6, 6>() += propagate(open, jerk(dt));
     return out;
 }
 

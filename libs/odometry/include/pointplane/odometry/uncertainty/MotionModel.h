@@ -96,8 +96,12 @@ class MotionModel
 
     /** Covariance of p in docs/theory.md: that of predictFromEstimate() without the errors of the
      * previous pose and velocity, of which JointCovariance keeps account. Over steps shorter than
-     * an acceleration lasts, the pose tells the velocity better than white acceleration would. */
-    [[nodiscard]] Matrix12d processNoise(double dt) const;
+     * an acceleration lasts, a measured pose tells the velocity better than white acceleration
+     * would. Where the pose is not measured, it tells nothing, and a sudden acceleration stays
+     * unseen: then this is unforeseen().
+     * \param open how far the estimated pose is the predicted one (H^-1 H_0): zero in directions
+     * that are measured, one in those that are not */
+    [[nodiscard]] Matrix12d processNoise(double dt, const Matrix6d& open) const;
 
     /** Covariance of pose and velocity after `dt` [s] if the velocity before is known: by white
      * acceleration and, of the pose, by a sudden one. */
