@@ -100,6 +100,23 @@ class CalibrationFile : public ::testing::Test
     std::string path_{dir_ / "camera.ini"};
 };
 
+/** In .oni files, whose modes nobody chose. */
+TEST_F(CalibrationFile, colourMayHaveAnotherSizeThanDepth)
+{
+    CameraFacts f = facts(false);
+    f.colourMode = {320, 240, 30, ""};
+    f.colourFocal_px = 262.5;
+    for (const bool isNominal : {true, false})
+    {
+        const auto c =
+            isNominal ? nominalCalibration(f) : calibrationFromFile(write(kIni), "OPENNI2", f);
+        EXPECT_EQ(c.depth.ncols, 640U);
+        EXPECT_EQ(c.colour.ncols, 320U);
+        EXPECT_EQ(c.colour.nrows, 240U);
+        EXPECT_NEAR(c.colour.fx(), isNominal ? 262.5 : 260.6, 1e-9);
+    }
+}
+
 TEST_F(CalibrationFile, unregisteredDepthHasItsOwnCamera)
 {
     const auto c = calibrationFromFile(write(kIni), "OPENNI2", facts(false));
