@@ -186,7 +186,7 @@ TEST_F(CalibrationFile, yamlOfCameraCalibTellsTheColourCamera)
 TEST_F(CalibrationFile, scalesToTheMode)
 {
     auto f = facts(false);
-    f.mode = {320, 240, 30, ""};
+    f.mode = f.colourMode = {320, 240, 30, ""};
     const auto c = calibrationFromFile(
         write(kIni, "resolution = [640 488]", "resolution = [640 480]"), "OPENNI2", f);
     EXPECT_NEAR(c.colour.fx(), 260.6, 1e-9);
