@@ -230,24 +230,21 @@ RecordedFrame BagRecording::frame(const Picture& colour, const Picture& depth) c
     scan.unitsPerMetre = cameras_.unitsPerMetre;
     if (scan.depth.type() == CV_32FC1)
     {
-        setFloatDepth(scan, depth.image, options_.depthScale);
+        setFloatDepth(out, depth.image, options_.depthScale);
     }
-    if (!scan.depthCamera && scan.depth.size() != scan.colour.size())
+    const cv::Size ofCamera(scan.camera.width, scan.camera.height);
+    if (!scan.depthCamera && scan.colour.size() == ofCamera && scan.depth.size() != ofCamera)
     {
-        scan.depthCamera = DepthCamera{
-            scan.camera.scaled(static_cast<double>(scan.depth.cols) / scan.camera.width),
-            Eigen::Isometry3d::Identity()};
-        scan.depthCamera->camera.distortion = {};
+        setCameraOfRegisteredDepth(scan, "");
     }
     const PinholeCamera& ofDepth = scan.depthCamera ? scan.depthCamera->camera : scan.camera;
-    if (scan.colour.size() != cv::Size(scan.camera.width, scan.camera.height) ||
+    if (scan.colour.size() != ofCamera ||
         scan.depth.size() != cv::Size(ofDepth.width, ofDepth.height) ||
         scan.depth.type() != CV_16UC1 || scan.colour.depth() != CV_8U)
     {
         throw BadFrame(
             "colour is " + describe(scan.colour) + ", depth " + describe(scan.depth) +
-            "; expected are colour of 8 bit and " +
-            sizeText({scan.camera.width, scan.camera.height}) + ", depth of 16 bit and " +
+            "; expected are colour of 8 bit and " + sizeText(ofCamera) + ", depth of 16 bit and " +
             sizeText({ofDepth.width, ofDepth.height}) + ", as the calibration says");
     }
     if (const std::string problem = ofDepth.problem(); !problem.empty())

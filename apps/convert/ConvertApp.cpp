@@ -122,7 +122,9 @@ int convertByCommand(
 
 int runConvert(const std::vector<std::string>& args, std::ostream& out, std::ostream& err)
 {
-    CLI::App app{"Converts RGB-D recordings to MRPT rawlogs, losslessly.", "pointplane-convert"};
+    CLI::App app{
+        "Converts RGB-D recordings to MRPT rawlogs. Pixels and depth of 16 bit stay as they are.",
+        "pointplane-convert"};
     app.set_version_flag("--version", POINTPLANE_VERSION);
     app.require_subcommand(1);
     ConvertOptions options;

@@ -75,13 +75,13 @@ cv::Mat FolderRecording::colourOf(const ImageRef& image)
     return video_ ? video_->frame(image.key) : readFrameImage(image.path, cv::IMREAD_COLOR);
 }
 
-void FolderRecording::readDepth(const ImageRef& image, RegisteredScan& scan)
+void FolderRecording::readDepth(const ImageRef& image, RecordedFrame& frame)
 {
     cv::Mat depth = readFrameImage(image.path, cv::IMREAD_ANYDEPTH | cv::IMREAD_ANYCOLOR);
     if (depth.type() == CV_32FC1)
     {
         isFloat_ = true;
-        setFloatDepth(scan, depth, floatUnits_);
+        setFloatDepth(frame, depth, floatUnits_);
         return;
     }
     if (depth.type() != CV_16UC1)
@@ -93,8 +93,8 @@ void FolderRecording::readDepth(const ImageRef& image, RegisteredScan& scan)
             typeText(depth));
     }
     depth.setTo(0, depth == kNoReading);
-    scan.depth = depth;
-    scan.unitsPerMetre = unitsPerMetre_;
+    frame.scan.depth = depth;
+    frame.scan.unitsPerMetre = unitsPerMetre_;
 }
 
 std::optional<RecordedFrame> FolderRecording::next()
@@ -108,7 +108,7 @@ std::optional<RecordedFrame> FolderRecording::next()
     out.scan.stamp = fromSeconds(frame.stamp);
     out.depthDelay = frame.depthDelay;
     out.isNominal = layout_.cameraIsNominal;
-    readDepth(frame.depth, out.scan);
+    readDepth(frame.depth, out);
     if (!frames_.areDepthAlone())
     {
         out.scan.colour = colourOf(frame.colour);

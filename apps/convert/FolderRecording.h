@@ -28,7 +28,7 @@ class FolderRecording : public Recording
  private:
     void chooseCamera(const FolderOptions& options);
     [[nodiscard]] cv::Mat colourOf(const ImageRef& image);
-    void readDepth(const ImageRef& image, RegisteredScan& scan);
+    void readDepth(const ImageRef& image, RecordedFrame& frame);
 
     std::string folder_;
     FolderLayout layout_;

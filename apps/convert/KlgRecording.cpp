@@ -8,13 +8,13 @@
 #include <opencv2/imgproc.hpp>
 
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <iomanip>
 #include <limits>
 #include <sstream>
 
+#include "frame_images.h"
 #include <zlib.h>
 
 namespace pointplane
@@ -187,23 +187,12 @@ cv::Mat KlgRecording::colourOf(const std::vector<unsigned char>& bytes) const
         }
         return out;
     }
-    try
-    {
-        out = bytes.empty() ? cv::Mat() : cv::imdecode(bytes, cv::IMREAD_COLOR);
-    }
-    catch (const cv::Exception& e)
-    {
-        if (isOutOfMemory(e))
-        {
-            throw;  // says nothing about the frame
-        }
-        out.release();
-    }
+    out = decodedFrameImage(bytes, cv::IMREAD_COLOR, where() + ": colour");
     if (out.size() != size)
     {
         throw BadFrame(
-            where() + ": colour is damaged, or not " + std::to_string(size.width) + "x" +
-            std::to_string(size.height));
+            where() + ": colour is " + sizeText(out.size()) + ", not " + sizeText(size) +
+            " (give another size by --camera)");
     }
     if (!options_.bgr)
     {
@@ -230,11 +219,12 @@ std::optional<RecordedFrame> KlgRecording::next()
         return stopped();
     }
     constexpr std::int64_t kLatest = 10'000'000'000'000'000;  // [us] of the year 2286
-    if (std::abs(head.microseconds) > kLatest)
+    if (head.microseconds > kLatest || head.microseconds < -kLatest)
     {
         throw BadFrame(
             where() + ": stamp " + std::to_string(head.microseconds) +
-            " is after the year 2286; are stamps in nanoseconds? They must be in microseconds");
+            " is not between 1970 and 2286; are stamps in nanoseconds? They must be in "
+            "microseconds");
     }
     RecordedFrame out;
     out.isNominal = isNominal_;
@@ -242,7 +232,10 @@ std::optional<RecordedFrame> KlgRecording::next()
     out.scan.camera = camera_.camera;
     out.scan.unitsPerMetre = camera_.unitsPerMetre;
     out.scan.depth = depthOf(depth);
-    out.scan.colour = colourOf(colour);
+    if (!colour.empty())  // else depth is alone
+    {
+        out.scan.colour = colourOf(colour);
+    }
     return out;
 }
 

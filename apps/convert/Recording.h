@@ -10,17 +10,14 @@
 
 namespace pointplane
 {
-/** Units per metre of what is written of depth that comes in floating point: a quarter of a
- * millimetre, up to 16 m. */
-constexpr double kUnitsOfFloat = 4000;
-
 /** A frame of a recording. */
 struct RecordedFrame
 {
     RegisteredScan scan;
     /** Stamp of depth minus that of colour [s]; NaN = not known. */
     double depthDelay{std::numeric_limits<double>::quiet_NaN()};
-    bool isNominal{false};  //!< PinholeCamera::isNominal
+    bool isNominal{false};     //!< PinholeCamera::isNominal
+    std::size_t numTooFar{0};  //!< readings that were left out of depth
 };
 
 /** One frame cannot be read, the next one may. The message names file or message. */

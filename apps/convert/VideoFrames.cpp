@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "VideoFrames.h"
 
+#include <pointplane/core/check.h>
+
 #include <filesystem>
 
 #include "Recording.h"
@@ -16,10 +18,13 @@ VideoFrames::VideoFrames(const std::string& path) : path_(path)
             "; extract its frames to a folder rgb: ffmpeg -i rgb.mp4 rgb/%06d.png "
             "-start_number 0");
     }
+    // As they were taken: depth and intrinsics know nothing of how a phone was held.
+    capture_.set(cv::CAP_PROP_ORIENTATION_AUTO, 0);
 }
 
 cv::Mat VideoFrames::frame(long key)
 {
+    POINTPLANE_CHECK(key >= next_, path_ << ": frame " << key << " was read before");
     cv::Mat image;
     for (; next_ <= key; ++next_)
     {

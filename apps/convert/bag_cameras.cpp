@@ -144,16 +144,27 @@ using sensor_msgs::CameraInfo;
     return out;
 }
 
-/** Takes points from the axes of colour to those of depth; nothing: the bag does not tell. */
-[[nodiscard]] std::optional<Eigen::Isometry3d> depthFromColour(
-    const rosbag::Bag& bag, const ImageTopic& colour, const ImageTopic& depth)
+/** Takes points from the axes of colour to those of depth. \param[out] note set where the bag does
+ * not tell: they are taken to be the same */
+[[nodiscard]] Eigen::Isometry3d depthFromColour(
+    const rosbag::Bag& bag, const ImageTopic& colour, const ImageTopic& depth, std::string& note)
 {
     const auto ofDepth = extrinsicsOf(bag, depth), ofColour = extrinsicsOf(bag, colour);
     if (ofDepth && ofColour)
     {
         return *ofDepth * ofColour->inverse();
     }
-    return transformsOf(bag).between(depth.frame, colour.frame);
+    const StaticTransforms transforms = transformsOf(bag);
+    if (const auto T_depth_colour = transforms.between(depth.frame, colour.frame))
+    {
+        return *T_depth_colour;
+    }
+    std::string moving = transforms.movingAbove(depth.frame);
+    moving = moving.empty() ? transforms.movingAbove(colour.frame) : moving;
+    note = "no transform between " + depth.frame + " and " + colour.frame +
+           (moving.empty() ? "" : " that stays (that " + moving + " changes)") +
+           ": the two cameras are taken to be in one place";
+    return Eigen::Isometry3d::Identity();
 }
 }  // namespace
 
@@ -178,14 +189,8 @@ BagCameras readBagCameras(
     {
         return out;  // the depth image may yet have another size
     }
-    const auto T_depth_colour = depthFromColour(bag, colour, depth);
-    out.depth = DepthCamera{
-        cameraOf(bag, depth, options.file), T_depth_colour.value_or(Eigen::Isometry3d::Identity())};
-    if (!T_depth_colour)
-    {
-        out.note = "no transform between " + depth.frame + " and " + colour.frame +
-                   ": the two cameras are taken to be in one place";
-    }
+    const Eigen::Isometry3d T_depth_colour = depthFromColour(bag, colour, depth, out.note);
+    out.depth = DepthCamera{cameraOf(bag, depth, options.file), T_depth_colour};
     return out;
 }
 }  // namespace pointplane

@@ -99,12 +99,19 @@ ImageTopic chosenTopic(
     {
         return preferred.front();
     }
-    if (candidates.size() != 1)
+    if (candidates.empty())
+    {
+        throw InputError(
+            file + ": has no topic with " + kindName +
+            " images, and a frame needs colour and depth (images are on: " +
+            (names.empty() ? "none" : names) + "); --" + kindName +
+            "-topic takes others, infrared for instance, in their place");
+    }
+    if (candidates.size() > 1)
     {
         throw InputError(
             file + ": has " + std::to_string(candidates.size()) + " topics with " + kindName +
-            " images; choose one by --" + kindName +
-            "-topic (images are on: " + (names.empty() ? "none" : names) + ")");
+            " images; choose one by --" + kindName + "-topic (images are on: " + names + ")");
     }
     return candidates.front();
 }

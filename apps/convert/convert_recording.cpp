@@ -3,14 +3,13 @@
 
 #include <pointplane/core/counted.h>
 #include <pointplane/core/quantile.h>
-#include <pointplane/mrpt_io/ObservationConverter.h>
+#include <pointplane/mrpt_io/CameraNews.h>
 #include <pointplane/mrpt_io/OutputFile.h>
 #include <pointplane/mrpt_io/mrpt_poses.h>
 
 #include <opencv2/core.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <iomanip>
 #include <iterator>
 #include <optional>
@@ -25,31 +24,6 @@ namespace pointplane
 namespace
 {
 constexpr std::size_t kShown = 5;
-
-/** Delays this close are not told anew [s]. */
-constexpr double kSameDelay = 1e-4;
-
-/** Tells what is known of the camera where it changes: the delay between depth and colour, and
- * whether the intrinsics are nominal. */
-class CameraCommentWriter
-{
- public:
-    void write(ScanWriter& writer, const std::string& label, const RecordedFrame& frame)
-    {
-        const bool newDelay = !std::isnan(frame.depthDelay) &&
-                              !(std::abs(frame.depthDelay - shutter_.depthDelay) <= kSameDelay);
-        if (newDelay || frame.isNominal != isNominal_)
-        {
-            shutter_.depthDelay = frame.depthDelay;
-            isNominal_ = frame.isNominal;
-            writer.writeComment(frame.scan.stamp, cameraComment(label, shutter_, isNominal_));
-        }
-    }
-
- private:
-    ShutterModel shutter_;
-    bool isNominal_{false};
-};
 
 /** Of all readings [m]; 0: there are none. */
 [[nodiscard]] double medianDepth(const RegisteredScan& scan)
@@ -83,10 +57,11 @@ void requireUsable(const RecordingSummary& summary, bool strict)
     }
 }
 
-void count(const RegisteredScan& scan, RecordingSummary& out)
+void count(const RecordedFrame& frame, RecordingSummary& out)
 {
-    out.numWithoutDepth += cv::countNonZero(scan.depth) == 0 ? 1 : 0;
-    out.depth = out.depth > 0 ? out.depth : medianDepth(scan);
+    out.numWithoutDepth += cv::countNonZero(frame.scan.depth) == 0 ? 1 : 0;
+    out.numTooFar += frame.numTooFar;
+    out.depth = out.depth > 0 ? out.depth : medianDepth(frame.scan);
     ++out.numFrames;
 }
 
@@ -109,7 +84,7 @@ void count(const BadFrame& bad, RecordingSummary& out)
         bar.emplace(progress, standardErrorIsTerminal(), output.path);
     }
     RecordingSummary out;
-    CameraCommentWriter camera;
+    CameraNews camera(output.label);
     std::vector<double> stamps;
     for (bool more = true; more;)
     {
@@ -117,10 +92,14 @@ void count(const BadFrame& bad, RecordingSummary& out)
         {
             if (const auto frame = recording.next())
             {
-                camera.write(writer, output.label, *frame);
+                const std::string news = camera.before(frame->depthDelay, frame->isNominal);
+                if (!news.empty())
+                {
+                    writer.writeComment(frame->scan.stamp, news);
+                }
                 writer.write(frame->scan);
                 stamps.push_back(toSeconds(frame->scan.stamp));
-                count(frame->scan, out);
+                count(*frame, out);
             }
             else
             {
@@ -215,6 +194,11 @@ int report(
     else if (summary.numWithoutDepth > 0)
     {
         out << "depth: no reading in " << framesText(summary.numWithoutDepth) << "\n";
+    }
+    if (summary.numTooFar > 0)
+    {
+        out << "depth: " << counted(summary.numTooFar, "reading")
+            << " beyond 16 m left out, which floating point can hold and a rawlog cannot\n";
     }
     if (!summary.stamps.empty())
     {

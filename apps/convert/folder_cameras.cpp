@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "folder_cameras.h"
 
-#include <cmath>
 #include <cstdint>
 
 #include "frame_images.h"
@@ -69,17 +68,7 @@ void setCameras(RegisteredScan& scan, const FolderLayout& layout, const std::str
     }
     else if (scan.depth.size() != scan.colour.size())
     {
-        const PinholeCamera scaled =
-            scan.camera.scaled(static_cast<double>(scan.depth.cols) / scan.camera.width);
-        if (std::abs(scaled.height - scan.depth.rows) > 1)
-        {
-            throw BadFrame(
-                name + ": depth is " + sizeText(scan.depth.size()) + " and colour " +
-                sizeText(scan.colour.size()) + ", which are different views");
-        }
-        scan.depthCamera = DepthCamera{scaled, Eigen::Isometry3d::Identity()};
-        scan.depthCamera->camera.distortion = {};
-        scan.depthCamera->camera.height = scan.depth.rows;
+        setCameraOfRegisteredDepth(scan, name + ": ");
         checkCamera(scan.depthCamera->camera, layout.calibration, "depth");
     }
 }

@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pointplane/mrpt_io/ScanWriter.h>
-
 #include <opencv2/core/mat.hpp>
 
 #include <string>
+#include <vector>
+
+#include "Recording.h"
 
 namespace pointplane
 {
 /** An image of a frame. \throws BadFrame naming the file */
 [[nodiscard]] cv::Mat readFrameImage(const std::string& path, int flags);
+
+/** The same for its bytes. \param name of them */
+[[nodiscard]] cv::Mat decodedFrameImage(
+    const std::vector<unsigned char>& bytes, int flags, const std::string& name);
 
 /** As 640x480. */
 [[nodiscard]] std::string sizeText(const cv::Size& size);
@@ -18,6 +23,11 @@ namespace pointplane
 /** As "8 bit and 3 channels". */
 [[nodiscard]] std::string typeText(const cv::Mat& image);
 
-/** Depth that comes in floating point. \param unitsPerMetre of it; 0: metres */
-void setFloatDepth(RegisteredScan& scan, const cv::Mat& depth, double unitsPerMetre);
+/** Depth that comes in floating point, in quarters of a millimetre up to 16 m.
+ * \param unitsPerMetre of it; 0: metres */
+void setFloatDepth(RecordedFrame& frame, const cv::Mat& depth, double unitsPerMetre);
+
+/** Registered depth of another size than colour is as colour's camera sees it, without distortion.
+ * \throws BadFrame that begins with `where` if the two are different views */
+void setCameraOfRegisteredDepth(RegisteredScan& scan, const std::string& where);
 }  // namespace pointplane

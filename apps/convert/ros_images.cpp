@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "Recording.h"
+#include "frame_images.h"
 
 namespace pointplane
 {
@@ -44,27 +45,7 @@ struct CompressedDepthHeader
 
 [[nodiscard]] cv::Mat decoded(const std::uint8_t* data, std::size_t size, int flags)
 {
-    try
-    {
-        if (size > 0)
-        {
-            const cv::Mat bytes(
-                1, static_cast<int>(size), CV_8UC1, const_cast<std::uint8_t*>(data));
-            cv::Mat out = cv::imdecode(bytes, flags);
-            if (!out.empty())
-            {
-                return out;
-            }
-        }
-    }
-    catch (const cv::Exception& e)
-    {
-        if (isOutOfMemory(e))
-        {
-            throw;  // says nothing about the image
-        }
-    }
-    throw BadFrame("compressed image is damaged");
+    return decodedFrameImage({data, data + size}, flags, "compressed image");
 }
 
 [[nodiscard]] cv::Mat depthFromInverse(const cv::Mat& values, const CompressedDepthHeader& header)

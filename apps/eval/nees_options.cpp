@@ -137,7 +137,7 @@ void NeesCommandOptions::checkRange(
         if ((maxNees >= 0 && !(perDof <= maxNees)) ||
             (minNees >= 0 && !(perDof >= minNees)))  // nor NaN
         {
-            context.err << "pointplane-eval: NEES per dof " << numberText(perDof, 3) << " at "
+            context.err << context.program << ": NEES per dof " << numberText(perDof, 3) << " at "
                         << nameOf(result.interval) << " is outside the stated range\n";
             context.exitCode = kExitIncomplete;
         }

@@ -130,10 +130,12 @@ void OutputFiles::write(
 
 std::string format(const char* text, ...)
 {
-    char out[1024];
-    va_list args;
+    va_list args, again;
     va_start(args, text);
-    std::vsnprintf(out, sizeof out, text, args);
+    va_copy(again, args);
+    std::string out(static_cast<std::size_t>(std::vsnprintf(nullptr, 0, text, args)), '\0');
+    std::vsnprintf(out.data(), out.size() + 1, text, again);
+    va_end(again);
     va_end(args);
     return out;
 }
@@ -320,23 +322,25 @@ void checkThreshold(
 {
     if (threshold >= 0 && !(row.statistics.rmse <= threshold))
     {
-        context.err << format(
-            "pointplane-eval: %s %.6f %s exceeds the threshold %g %s\n",
-            name.c_str(),
-            row.statistics.rmse,
-            row.unit.c_str(),
-            threshold,
-            row.unit.c_str());
+        context.err << context.program
+                    << format(
+                           ": %s %.6f %s exceeds the threshold %g %s\n",
+                           name.c_str(),
+                           row.statistics.rmse,
+                           row.unit.c_str(),
+                           threshold,
+                           row.unit.c_str());
         context.exitCode = kExitIncomplete;
     }
     else if (row.unit == "m" && threshold > 1 && threshold > 100 * row.statistics.rmse)
     {
-        context.err << format(
-            "pointplane-eval: warning: the threshold is %g m, the %s %.6f m: is it in "
-            "millimetres?\n",
-            threshold,
-            name.c_str(),
-            row.statistics.rmse);
+        context.err << context.program
+                    << format(
+                           ": warning: the threshold is %g m, the %s %.6f m: is it in "
+                           "millimetres?\n",
+                           threshold,
+                           name.c_str(),
+                           row.statistics.rmse);
     }
 }
 }  // namespace pointplane

@@ -23,13 +23,14 @@ GrabberOutputs::GrabberOutputs(
     {
         LiveOptions live = options.liveOdometry;
         live.waits = isFile_;
+        live.knowsDelay = !isFile_;  // a file's streams both start at 0
         live_ = std::make_unique<LiveOdometry>(live, builder, out);
     }
     if (options.recordsRawlog())
     {
         RecordingOptions recording = options.recording;
         recording.marksEnds = true;
-        recording.tellDelay = !isFile_;  // a file's streams both start at 0
+        recording.tellDelay = !isFile_;
         writer_ = std::make_unique<RecordingWriter>(recording, builder);
     }
 }

@@ -66,6 +66,16 @@ void FrameSource::openNext()
     ++nextInput_;
 }
 
+void FrameSource::endAt(const std::string& damage)
+{
+    damage_ = damage;
+    if (const auto left = options_.inputs.size() - nextInput_; left > 0)
+    {
+        damage_ += "; not read: " + options_.inputs[nextInput_] +
+                   (left > 1 ? " and " + std::to_string(left - 1) + " more" : "");
+    }
+}
+
 bool FrameSource::refill()
 {
     while (pending_.empty())
@@ -73,13 +83,12 @@ bool FrameSource::refill()
         const auto object = reader_->next();
         if (!object)
         {
-            damage_ = reader_->ending().message;
-            if (const auto left = options_.inputs.size() - nextInput_; !damage_.empty() && left > 0)
+            if (const std::string& damage = reader_->ending().message; !damage.empty())
             {
-                damage_ += "; not read: " + options_.inputs[nextInput_] +
-                           (left > 1 ? " and " + std::to_string(left - 1) + " more" : "");
+                endAt(damage);
+                return false;
             }
-            if (!damage_.empty() || nextInput_ == options_.inputs.size())
+            if (nextInput_ == options_.inputs.size())
             {
                 return false;
             }
@@ -156,6 +165,12 @@ std::vector<std::string> FrameSource::notes() const
             out.push_back("not passed on: " + counted(count, "object") + " of class " + name);
         }
     }
+    for (const std::string& key : converter_.unknownKeys())
+    {
+        out.push_back(
+            "not used: key '" + key +
+            "' of comments about cameras, which this version does not know");
+    }
     if (isNominal_)
     {
         out.emplace_back(
@@ -171,7 +186,7 @@ std::vector<std::string> FrameSource::notes() const
     return out;
 }
 
-SourceItem FrameSource::item(const mrpt::obs::CObservation::Ptr& observation)
+std::optional<SourceItem> FrameSource::item(const mrpt::obs::CObservation::Ptr& observation)
 {
     SourceItem out;
     out.observation = observation;
@@ -187,7 +202,8 @@ SourceItem FrameSource::item(const mrpt::obs::CObservation::Ptr& observation)
         }
         catch (const InputError& e)
         {
-            throw InputError(reader_->path() + ": " + e.what());
+            endAt(reader_->path() + ": " + e.what());
+            return {};
         }
         return out;
     }
@@ -248,7 +264,7 @@ void FrameSource::deliver(SourceItem item)
 
 std::optional<SourceItem> FrameSource::next()
 {
-    while (ready_.empty() && refill() && !hasAllFrames())
+    while (ready_.empty() && damage_.empty() && !hasAllFrames() && refill())
     {
         const auto observation = pending_.front();
         pending_.pop_front();
@@ -261,9 +277,11 @@ std::optional<SourceItem> FrameSource::next()
             ++numReplaced_;
             continue;
         }
-        SourceItem out = item(observation);
-        const bool isWanted = numFrames_ > options_.first || options_.first == 0;
-        isWanted ? deliver(std::move(out)) : skip(std::move(out));
+        if (auto out = item(observation))
+        {
+            const bool isWanted = numFrames_ > options_.first || options_.first == 0;
+            isWanted ? deliver(std::move(*out)) : skip(std::move(*out));
+        }
     }
     if (ready_.empty())
     {

@@ -43,8 +43,8 @@ class FrameSource
      * \throws InputError if one of the rawlogs cannot be read */
     FrameSource(const OdometryOptions& options, const OutputGuard& guard);
 
-    /** Nothing at the end: of the input, of the frames wanted, or at damage (see damage()).
-     * \throws InputError if a camera comment cannot be understood */
+    /** Nothing at the end: of the input, of the frames wanted, or at damage (see damage()), which
+     * a comment about a camera can be, too. */
     [[nodiscard]] std::optional<SourceItem> next();
 
     /** One line; empty if the input was read to its end. */
@@ -64,7 +64,9 @@ class FrameSource
     void checkExternals(const mrpt::obs::CObservation3DRangeScan& scan) const;
     [[nodiscard]] static bool isMark(const mrpt::obs::CObservation& observation);
     [[nodiscard]] bool isOfEarlierRun(const mrpt::obs::CObservation& observation) const;
-    [[nodiscard]] SourceItem item(const mrpt::obs::CObservation::Ptr& observation);
+    void endAt(const std::string& damage);
+    /** Nothing if there is damage in it. */
+    [[nodiscard]] std::optional<SourceItem> item(const mrpt::obs::CObservation::Ptr& observation);
     /** Converts the scan, if it is of the camera in question and not before the first frame. */
     void addFrame(mrpt::obs::CObservation3DRangeScan& scan, SourceItem& out);
     [[nodiscard]] bool hasAllFrames() const;

@@ -189,12 +189,6 @@ void writeSequence(
     try
     {
         writeFrames(sequence, output, writer, progress);
-        if (hasPlaceBeside(output.path))
-        {
-            TextOutput file(groundTruthOf(output.path));
-            file.write(truth);
-            file.close();
-        }
         if (masks)
         {
             writeMasks(sequence, masks->partialPath());
@@ -203,6 +197,12 @@ void writeSequence(
         else
         {
             writer.close();
+        }
+        if (hasPlaceBeside(output.path))  // last: an earlier one stays with its rawlog till then
+        {
+            TextOutput file(groundTruthOf(output.path));
+            file.write(truth);
+            file.close();
         }
     }
     catch (const EnvironmentError&)

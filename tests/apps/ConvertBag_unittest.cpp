@@ -302,6 +302,19 @@ TEST_F(ConvertBag, imagesOfAnotherSizeThanTheirCalibrationAreToldWithBoth)
                   "calibration says"));
 }
 
+/** 21 columns of 64 go with 15.75 rows of 48. */
+TEST_F(ConvertBag, smallDepthMayBeRoundedToWholeRows)
+{
+    writeInfos();
+    writeColour(0);
+    bag_.write(
+        "/camera/depth/image",
+        timeOf(0),
+        imageOf(test::depthImage(0, 21, 15), "16UC1", "optical", timeOf(0)));
+    ASSERT_EQ(convert(), kExitOk) << text_;
+    EXPECT_EQ(scans().at(0)->cameraParams.nrows, 15U);
+}
+
 TEST_F(ConvertBag, depthOfAnotherCameraIsPlacedByTf)
 {
     bag_.write("/camera/rgb/camera_info", timeOf(0), cameraInfo("rgb_optical"));
@@ -331,6 +344,65 @@ TEST_F(ConvertBag, depthOfAnotherCameraIsPlacedByTf)
     // Colour is 25 mm to the left of depth: MRPT's y.
     EXPECT_NEAR(scan->relativePoseIntensityWRTDepth.y(), 0.025, 1e-9);
     EXPECT_NEAR(scan->relativePoseIntensityWRTDepth.x(), 0, 1e-9);
+}
+
+/** Of an arm that carries one of the cameras. */
+TEST_F(ConvertBag, aTransformThatChangesIsNotTaken)
+{
+    bag_.close();
+    for (const bool moves : {false, true})
+    {
+        bag_.open(path_, rosbag::bagmode::Write);
+        bag_.write("/camera/rgb/camera_info", timeOf(0), cameraInfo("rgb_optical"));
+        bag_.write("/camera/depth/camera_info", timeOf(0), cameraInfo("depth_optical", 50));
+        for (int i = 0; i < 2; ++i)
+        {
+            tf2_msgs::TFMessage tf;
+            geometry_msgs::TransformStamped link;
+            link.header.frame_id = "depth_optical";
+            link.child_frame_id = "rgb_optical";
+            link.transform.translation.x = moves ? 0.1 * i : 0.1;
+            link.transform.rotation.w = 1;
+            tf.transforms.push_back(link);
+            bag_.write("/tf", timeOf(i), tf);
+        }
+        bag_.write(
+            "/camera/rgb/image_color",
+            timeOf(0),
+            imageOf(test::colourImage(0), "bgr8", "rgb_optical", timeOf(0)));
+        writeDepth(0, "depth_optical");
+        ASSERT_EQ(convert(), kExitOk) << text_;
+        EXPECT_NEAR(scans().at(0)->relativePoseIntensityWRTDepth.y(), moves ? 0 : -0.1, 1e-9);
+        const std::string told = "that from depth_optical to rgb_optical changes";
+        EXPECT_EQ(text_.find(told) != std::string::npos, moves) << text_;
+    }
+}
+
+TEST_F(ConvertBag, whatIsMissingIsTold)
+{
+    writeInfos();
+    writeDepth(0);
+    EXPECT_EQ(convert(), kExitBadInput);
+    EXPECT_THAT(
+        text_,
+        HasSubstr("has no topic with colour images, and a frame needs colour and depth (images are "
+                  "on: /camera/depth/image); --colour-topic takes"));
+}
+
+TEST_F(ConvertBag, aCutPictureIsNamedAndLeftOut)
+{
+    writeInfos();
+    for (int i = 0; i < 2; ++i)
+    {
+        CompressedImage colour =
+            compressedOf(test::colourImage(i), ".jpg", "bgr8; jpeg compressed bgr8", timeOf(i));
+        colour.data.resize(colour.data.size() - (i == 0 ? 20 : 0));
+        bag_.write("/camera/rgb/image_raw/compressed", timeOf(i), colour);
+        writeDepth(i);
+    }
+    EXPECT_EQ(convert(), kExitIncomplete);
+    EXPECT_THAT(text_, HasSubstr("message 0: compressed image: stops before the end"));
+    EXPECT_EQ(frames().size(), 1U);
 }
 
 TEST_F(ConvertBag, ofRealSensesRecorder)

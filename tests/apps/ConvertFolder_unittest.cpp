@@ -400,9 +400,43 @@ TEST_F(ConvertFolder, strayScannerHasItsColourInAVideo)
     EXPECT_NEAR(frames()[2].gray.at<uchar>(20, 30), 0.114 * 200 + 0.587 * 50 + 0.299 * 30, 8);
 }
 
+/** A phone writes how it was held; its depth images and its calibration are as the sensor is. */
+TEST_F(ConvertFolder, aVideoIsNotTurned)
+{
+    writeFrames("in/rgb/%06d.png", "in/depth/%06d.png", 16);
+    std::filesystem::remove_all(dir_ / "in/rgb");
+    write("in/camera_matrix.csv", "60, 0, 31.5\n0, 60, 23.5\n0, 0, 1\n");
+    write(
+        "in/odometry.csv",
+        "timestamp, frame, x, y, z, qx, qy, qz, qw\n"
+        "7.5, 000000, 0,0,0,0,0,0,1\n7.6, 000001, 0,0,0,0,0,0,1\n7.7, 000002, 0,0,0,0,0,0,1\n");
+    cv::VideoWriter video(
+        dir_ / "in/rgb.mp4",
+        cv::CAP_FFMPEG,
+        cv::VideoWriter::fourcc('m', 'p', '4', 'v'),
+        60,
+        {64, 48});
+    ASSERT_TRUE(video.isOpened());
+    for (int i = 0; i < 3; ++i)
+    {
+        video.write(colourImage(i));
+    }
+    video.release();
+    // The matrix of the track, a quarter turn in the place of the identity.
+    std::string bytes = test::readBytes(dir_ / "in/rgb.mp4");
+    const std::string zero(4, '\0'), one("\0\1\0\0", 4), minusOne("\xFF\xFF\0\0", 4);
+    const std::string upright = one + zero + zero + zero + one;
+    const std::size_t at = bytes.find(upright, bytes.find("tkhd"));
+    ASSERT_NE(at, std::string::npos);
+    bytes.replace(at, upright.size(), zero + one + zero + minusOne + zero);
+    test::writeBytes(dir_ / "in/rgb.mp4", bytes);
+    ASSERT_EQ(run({"folder", in_}), kExitOk) << text_;
+    EXPECT_EQ(frames().at(0).gray.size(), cv::Size(64, 48));
+}
+
 TEST_F(ConvertFolder, depthInFloatingPointMetres)
 {
-    for (const std::string ending : {"tiff", "pfm"})
+    for (const std::string ending : {"tiff", "pfm", "exr"})
     {
         const std::string folder = "in/" + ending;
         writeFrames((folder + "/rgb/%d.png").c_str(), (folder + "/depth/%d.png").c_str());
@@ -453,6 +487,14 @@ TEST_F(ConvertFolder, depthInFloatingPointMayHaveAnotherUnit)
     writeImage("in/depth/1.tiff", cv::Mat(48, 64, CV_32FC1, cv::Scalar(0)));
     EXPECT_EQ(run({"folder", in_}), kExitOk) << text_;
     EXPECT_THAT(text_, HasSubstr("depth: no reading in 1 frame\n"));
+    EXPECT_THAT(text_, Not(HasSubstr("left out")));
+
+    cv::Mat far(48, 64, CV_32FC1, cv::Scalar(1.5));
+    far.row(3).setTo(20);
+    far.row(4).setTo(std::numeric_limits<float>::infinity());  // no reading
+    writeImage("in/depth/1.tiff", far);
+    EXPECT_EQ(run({"folder", in_}), kExitOk) << text_;
+    EXPECT_THAT(text_, HasSubstr("depth: 64 readings beyond 16 m left out"));
 }
 
 TEST_F(ConvertFolder, imagesWhoseNamesAreNoNumberAreCounted)

@@ -2,6 +2,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include <cstdint>
+#include <cstring>
+#include <limits>
 
 #include "converted_recordings.h"
 #include <zlib.h>
@@ -150,10 +152,46 @@ TEST_F(ConvertKlg, stampsInAnotherUnitAreRefused)
     EXPECT_EQ(convert(log(1, true, 1'500'000'000'000'000'000, 0)), kExitBadInput);
     EXPECT_THAT(
         text_,
-        HasSubstr("in.klg: frame 0: stamp 1500000000000000000 is after the year 2286; are stamps "
-                  "in nanoseconds?"));
+        HasSubstr("in.klg: frame 0: stamp 1500000000000000000 is not between 1970 and 2286; are "
+                  "stamps in nanoseconds?"));
+    EXPECT_EQ(convert(log(1, true, std::numeric_limits<std::int64_t>::min(), 0)), kExitBadInput);
+    EXPECT_THAT(text_, HasSubstr("stamp -9223372036854775808 is not between"));
     EXPECT_FALSE(std::filesystem::exists(out_));
     EXPECT_EQ(convert(log(4, true, 1'500'000'000'000'000, 1'000'000)), kExitOk) << text_;
+}
+
+TEST_F(ConvertKlg, depthMayBeAlone)
+{
+    std::string bytes;
+    append(bytes, std::int32_t{2});
+    for (int i = 0; i < 2; ++i)
+    {
+        const std::string depth = bytesOf(test::depthImage(i));
+        append(bytes, std::int64_t{5000000 + 33333 * i});
+        append(bytes, static_cast<std::int32_t>(depth.size()));
+        append(bytes, std::int32_t{0});
+        bytes += depth;
+    }
+    ASSERT_EQ(convert(bytes), kExitOk) << text_;
+    ASSERT_EQ(frames().size(), 2U);
+    EXPECT_TRUE(frames()[1].gray.empty());
+    EXPECT_NEAR(frames()[1].depth.at<float>(20, 30), 1.001, 1e-6);
+}
+
+/** A decoder would show what is missing in grey. */
+TEST_F(ConvertKlg, aCutPictureIsLeftOut)
+{
+    const std::string whole = log(1, true);
+    std::int32_t depthSize = 0, colourSize = 0;
+    std::memcpy(&depthSize, &whole[12], 4);
+    std::memcpy(&colourSize, &whole[16], 4);
+    colourSize -= 20;
+    std::string bytes = log(2, true);
+    std::memcpy(&bytes[16], &colourSize, 4);
+    bytes.erase(whole.size() - 20, 20);
+    EXPECT_EQ(convert(bytes), kExitIncomplete);
+    EXPECT_THAT(text_, HasSubstr("frame 0: colour: stops before the end of the image"));
+    EXPECT_EQ(frames().size(), 1U);
 }
 
 TEST_F(ConvertKlg, damagedFramesAreLeftOut)

@@ -627,7 +627,7 @@ TEST_F(OdometryApp, badInputIsNamedWithExitCode2)
     }
     expect({dir_ / "comments.rawlog", "-o", out_}, "no CObservation3DRangeScan");
     CObservationComment comment;
-    comment.text = "pointplane-camera label=RGBD readout=1";
+    comment.text = "pointplane-camera label=RGBD depthDelay=late";
     {
         RawlogWriter writer(dir_ / "shutter.rawlog");
         writer.write(comment);
@@ -635,7 +635,31 @@ TEST_F(OdometryApp, badInputIsNamedWithExitCode2)
     }
     expect(
         {dir_ / "shutter.rawlog", "-o", out_},
-        "shutter.rawlog: comment 'pointplane-camera': unknown key 'readout'");
+        "shutter.rawlog: comment 'pointplane-camera': 'late' is not a number of seconds");
+}
+
+TEST_F(OdometryApp, aCommentThatCannotBeReadEndsTheRunAtItsPlaceOnly)
+{
+    RawlogWriter writer(in_);
+    const auto tell = [&](const std::string& text)
+    {
+        CObservationComment comment;
+        comment.text = "pointplane-camera label=RGBD " + text;
+        writer.write(comment);
+    };
+    tell("temperature=20");
+    for (int i = 0; i < 3; ++i)
+    {
+        writer.write(*sampleScan(i, 64, 48));
+    }
+    tell("depthDelay=late");
+    writer.write(*sampleScan(3, 64, 48));
+    writer.close();
+    const Outcome outcome = run({in_, "-o", out_});
+    EXPECT_EQ(outcome.code, kExitIncomplete);
+    EXPECT_EQ(numPoses(out_), 3U);
+    EXPECT_THAT(outcome.err, HasSubstr(": 'late' is not a number of seconds (key depthDelay)"));
+    EXPECT_THAT(outcome.out, HasSubstr("not used: key 'temperature' of comments about cameras"));
 }
 
 TEST_F(OdometryApp, unwritableOutputIsExitCode3)
@@ -720,6 +744,19 @@ TEST_F(OdometryApp, firstAndCount)
     EXPECT_THAT(readBytes(dir_ / "d.csv"), HasSubstr("\n2,1000.062500000,first"));
     const Outcome none = run({in_, "--first", "8", "-o", out_});
     EXPECT_EQ(none.code, kExitBadInput);
+}
+
+/** A pipe may have nothing more for a long time. */
+TEST_F(OdometryApp, nothingIsReadBehindTheFramesWanted)
+{
+    RawlogWriterOptions options;
+    options.flushEveryObjects = 1;
+    test::writeObservations(in_, 4, options);
+    const std::string bytes = readBytes(in_);
+    writeBytes(in_, bytes.substr(0, bytes.size() * 7 / 8));
+    const Outcome outcome = run({in_, "--count", "3", "-o", out_});
+    EXPECT_EQ(outcome.code, kExitOk) << outcome.err;
+    EXPECT_EQ(numPoses(out_), 3U);
 }
 
 /** Comments about cameras as `tells` has them, then the scans from `from` on. */

@@ -15,6 +15,9 @@ fail "unfinished" "$(grep -rnIiE 'not (yet )?implemented|placeholder|for now\b|t
 fail "a path of one machine" \
     "$(grep -rnIE '/(work|root|home/[a-z]+)/' "${texts[@]}" tests benchmarks --exclude-dir=architecture)"
 fail "tests that do not run" "$(grep -rnE 'DISABLED_' tests --include='*.cpp' --include='*.h')"
+fail "a number in the program's locale, not number_text.h" \
+    "$(grep -rnE 'printf|mrpt::format' libs --include='*.cpp' --include='*.h' -A8 |
+        grep -E '"[^"]*%[-+#0-9.*]*[aefgAEFG][^"]*"')"
 fail "no SPDX line" \
     "$(grep -rL 'SPDX-License-Identifier: BSD-3-Clause' libs apps --include='*.h' --include='*.cpp')"
 exit $failed

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/grabber/LiveOdometry.h>
+#include <pointplane/grabber/RecordingWriter.h>
 #include <pointplane/mrpt_io/RawlogReader.h>
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/image_file.h>
 
 #include <mrpt/obs/CObservationComment.h>
+#include <mrpt/obs/CObservationRobotPose.h>
 
+#include <opencv2/imgproc.hpp>
+
+#include <filesystem>
 #include <memory>
 #include <new>
 #include <ostream>
@@ -14,6 +19,7 @@
 #include <string>
 #include <vector>
 
+#include "RenderedMotion.h"
 #include "TempDir.h"
 #include <gtest/gtest.h>
 
@@ -68,8 +74,10 @@ TEST(LiveOdometry, anErrorEndsItAndNothingElse)
     std::ostream out(&memory);
     out.exceptions(std::ios::badbit);
 
+    const test::TempDir dir;
     LiveOptions options;
     options.waits = true;
+    options.poseRawlog = dir / "poses.rawlog";
     LiveOdometry live(options, builder, out);
     for (int k = 0; k < 6; ++k)
     {
@@ -79,6 +87,8 @@ TEST(LiveOdometry, anErrorEndsItAndNothingElse)
 
     EXPECT_EQ(live.stats().problem, "out of memory; --live ends there, the rest went on");
     EXPECT_EQ(live.stats().processed, 2U);
+    EXPECT_FALSE(std::filesystem::exists(options.poseRawlog));
+    EXPECT_TRUE(std::filesystem::exists(options.poseRawlog + ".partial"));
 }
 
 /** As in the rawlog of pointplane-odometry: else a prediction counts as measured. */
@@ -165,5 +175,88 @@ TEST(LiveOdometry, aMaskOfAnotherSizeIsRefusedBeforeTheFirstFrame)
         problem,
         options.mask +
             ": is 10x48, but images of camera 'OPENNI2' are 64x48; draw it in that size");
+}
+
+/** A pair of a simulated motion, with depth some time after colour. */
+ImagePair rendered(const test::PlainFrame& frame, double stamp, double delay)
+{
+    ImagePair pair;
+    pair.stamp = stamp;
+    pair.depth.pixels = frame.depth;
+    pair.depth.deviceTime = stamp + delay;
+    pair.colour.stream = StreamKind::Colour;
+    pair.colour.layout = PixelLayout::Rgb8;
+    pair.colour.deviceTime = stamp;
+    cv::cvtColor(frame.colour, pair.colour.pixels, cv::COLOR_BGR2RGB);
+    return pair;
+}
+
+/** Poses of the odometry over a recording, as pointplane-odometry reads it. */
+std::vector<mrpt::poses::CPose3DPDFGaussian> replayed(const std::string& path)
+{
+    std::vector<mrpt::poses::CPose3DPDFGaussian> out;
+    VisualOdometry odometry;
+    RawlogReader reader(path);
+    while (const auto object = reader.next())
+    {
+        if (const auto* comment = dynamic_cast<const mrpt::obs::CObservationComment*>(object.get()))
+        {
+            odometry.converter().readComment(*comment);
+        }
+        if (const auto* scan =
+                dynamic_cast<const mrpt::obs::CObservation3DRangeScan*>(object.get()))
+        {
+            out.push_back(odometry.process(*scan).pose);
+        }
+    }
+    return out;
+}
+
+/** Both know of the same camera: that its intrinsics are nominal, and when depth comes late. */
+TEST(LiveOdometry, liveAndReplayAgree)
+{
+    const test::TempDir dir;
+    constexpr int kFrames = 6, kColumns = 320, kLines = 240;
+    const test::RenderedMotion motion(kFrames, kColumns, kLines);
+    CameraFacts facts;
+    facts.mode = {kColumns, kLines, 30, ""};
+    facts.registered = true;
+    facts.colourFocal_px = test::RenderedMotion::kFocal_px * kColumns / 640;
+    const ObservationBuilder builder(nominalCalibration(facts));
+    RecordingOptions recording;
+    recording.path = dir / "recording.rawlog";
+    recording.tellDelay = true;
+    LiveOptions options;
+    options.waits = true;
+    options.knowsDelay = true;
+    options.poseRawlog = dir / "poses.rawlog";
+    std::ostringstream out;
+    RecordingWriter writer(recording, builder);
+    LiveOdometry live(options, builder, out);
+    for (int k = 0; k < kFrames; ++k)
+    {
+        const double delay = k < 3 ? 0.01 : -0.01;
+        const ImagePair pair =
+            rendered(motion.frames()[static_cast<std::size_t>(k)], 1.7e9 + k / 30.0, delay);
+        ASSERT_TRUE(writer.push(pair));
+        live.add(pair);
+    }
+    writer.finish();
+    live.finish();
+
+    const auto expected = replayed(recording.path);
+    std::size_t k = 0;
+    RawlogReader reader(options.poseRawlog);
+    while (const auto object = reader.next())
+    {
+        if (const auto* pose = dynamic_cast<const mrpt::obs::CObservationRobotPose*>(object.get()))
+        {
+            ASSERT_LT(k, expected.size());
+            EXPECT_EQ(pose->pose.mean, expected[k].mean) << "frame " << k;
+            EXPECT_EQ(pose->pose.cov, expected[k].cov) << "frame " << k;
+            ++k;
+        }
+    }
+    EXPECT_EQ(k, static_cast<std::size_t>(kFrames));
 }
 }  // namespace

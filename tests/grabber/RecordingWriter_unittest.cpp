@@ -3,11 +3,14 @@
 #include <pointplane/grabber/RecordingWriter.h>
 #include <pointplane/mrpt_io/ObservationConverter.h>
 #include <pointplane/mrpt_io/errors.h>
+#include <pointplane/mrpt_io/rawlog_names.h>
 
 #include <mrpt/io/lazy_load_path.h>
 #include <mrpt/obs/CRawlog.h>
 
+#include <chrono>
 #include <csignal>
+#include <thread>
 
 #include "grabber_testing.h"
 #include "rawlog_samples.h"
@@ -227,6 +230,64 @@ TEST_F(Recording, aCutBetweenTwoFramesIsTold)
             EXPECT_GE(numCuts, 9U);
         }
     }
+}
+
+TEST_F(Recording, aLabelLeadsToNoOtherFolder)
+{
+    RgbdCalibration named = calibration();
+    named.sensorLabel = "../../front";
+    const ObservationBuilder builder(named);
+    auto o = options();
+    o.encoding.storage = ImageStorage::External;
+    RecordingWriter writer(o, builder);
+    ASSERT_TRUE(writer.push(makePair(frames_[0], stamp(0))));
+    writer.finish();
+    const fs::directory_iterator files(imagesFolderOf(o.path));
+    EXPECT_EQ(std::distance(begin(files), end(files)), 2);
+    EXPECT_EQ(test::scansOf(o.path).at(0)->sensorLabel, "../../front");
+}
+
+/** Of a thread that encodes: the other one then has all that came before, and nothing more. */
+TEST_F(Recording, isNotMarkedAsWholeAfterAFailure)
+{
+    auto o = options();
+    o.marksEnds = true;
+    o.encoding.storage = ImageStorage::External;
+    o.numThreads = 1;
+    RecordingWriter writer(o, builder_);
+    for (std::size_t k = 0; k < 5; ++k)
+    {
+        ASSERT_TRUE(writer.push(makePair(frames_[k], stamp(k))));
+    }
+    while (writer.stats().framesWritten < 5)
+    {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    const std::string folder = imagesFolderOf(o.path);
+    fs::rename(folder, dir_ / "elsewhere");
+    test::writeBytes(folder, "in the way");
+    while (!writer.hasFailed())
+    {
+        (void)writer.push(makePair(frames_[5], stamp(5)));
+    }
+    EXPECT_THROW(writer.finish(), EnvironmentError);
+    EXPECT_EQ(test::readAll(o.path).ending.kind, RawlogEnd::Truncated);
+}
+
+/** A clock that is set back does not lead back to the file before. */
+TEST_F(Recording, splitsOnceWhereStampsGoBack)
+{
+    auto o = options();
+    o.splitAfter = 0.5;
+    RecordingWriter writer(o, builder_);
+    for (const double second : {0.0, 0.6, 0.1, -3.0, 0.7, 1.1})
+    {
+        ASSERT_TRUE(writer.push(makePair(frames_[0], kFirstStamp + second)));
+    }
+    writer.finish();
+    const auto paths = writer.paths();
+    ASSERT_EQ(paths.size(), 3U);
+    EXPECT_EQ(test::readAll(paths[1]).objects.size(), 4U);
 }
 
 TEST_F(Recording, tellsThatIntrinsicsAreNominal)

@@ -100,6 +100,23 @@ class CalibrationFile : public ::testing::Test
     std::string path_{dir_ / "camera.ini"};
 };
 
+/** In .oni files, whose modes nobody chose. */
+TEST_F(CalibrationFile, colourMayHaveAnotherSizeThanDepth)
+{
+    CameraFacts f = facts(false);
+    f.colourMode = {320, 240, 30, ""};
+    f.colourFocal_px = 262.5;
+    for (const bool isNominal : {true, false})
+    {
+        const auto c =
+            isNominal ? nominalCalibration(f) : calibrationFromFile(write(kIni), "OPENNI2", f);
+        EXPECT_EQ(c.depth.ncols, 640U);
+        EXPECT_EQ(c.colour.ncols, 320U);
+        EXPECT_EQ(c.colour.nrows, 240U);
+        EXPECT_NEAR(c.colour.fx(), isNominal ? 262.5 : 260.6, 1e-9);
+    }
+}
+
 TEST_F(CalibrationFile, unregisteredDepthHasItsOwnCamera)
 {
     const auto c = calibrationFromFile(write(kIni), "OPENNI2", facts(false));
@@ -169,7 +186,7 @@ TEST_F(CalibrationFile, yamlOfCameraCalibTellsTheColourCamera)
 TEST_F(CalibrationFile, scalesToTheMode)
 {
     auto f = facts(false);
-    f.mode = {320, 240, 30, ""};
+    f.mode = f.colourMode = {320, 240, 30, ""};
     const auto c = calibrationFromFile(
         write(kIni, "resolution = [640 488]", "resolution = [640 480]"), "OPENNI2", f);
     EXPECT_NEAR(c.colour.fx(), 260.6, 1e-9);

@@ -194,6 +194,31 @@ TEST_F(ExternalImages, ofAnEarlierRawlogStayUntilTheNewOneIsComplete)
 }
 
 /** First beside the link: somebody may have put them there. */
+/** Stamps repeat where a clock is coarse. */
+TEST_F(ExternalImages, ofFramesWithTheSameStampAreTwo)
+{
+    ScanWriter writer(path_, "RGBD", true);
+    for (const int value : {10, 20})
+    {
+        scan_.colour.setTo(value);
+        scan_.depth.setTo(100 * value);
+        writer.write(scan_);
+    }
+    writer.close();
+    ObservationConverter converter;
+    converter.setExternalsDirectory(imagesFolderOf(path_));
+    const auto scans = scansOf(path_);
+    ASSERT_EQ(scans.size(), 2U);
+    for (int i = 0; i < 2; ++i)
+    {
+        const RgbdFrame frame = converter.convert(*scans[static_cast<std::size_t>(i)]).frame;
+        EXPECT_EQ(frame.gray.at<uchar>(5, 5), 10 * (i + 1));
+        EXPECT_FLOAT_EQ(frame.depth.at<float>(5, 5), static_cast<float>(i + 1));
+    }
+    writeComplete(30);  // they are replaced as others are
+    EXPECT_EQ(filesIn(dir_ / "a_Images").size(), 2U);
+}
+
 TEST_F(ExternalImages, areFoundThroughALink)
 {
     writeComplete(10);

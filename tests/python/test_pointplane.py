@@ -120,8 +120,8 @@ class Rawlogs(unittest.TestCase):
     def test_a_comment_that_cannot_be_understood_is_told_with_its_file(self):
         with tempfile.TemporaryDirectory() as folder:
             path = folder + "/comment.rawlog"
-            write_comment(path, b"pointplane-camera label=RGBD delay=1")
-            with self.assertRaisesRegex(pointplane.InputError, "comment.rawlog: .*key 'delay'"):
+            write_comment(path, b"pointplane-camera label=RGBD depthDelay=late")
+            with self.assertRaisesRegex(pointplane.InputError, "comment.rawlog: .*key depthDelay"):
                 list(pointplane.read_rawlog(path))
 
     def test_help_names_types_as_python_does(self):

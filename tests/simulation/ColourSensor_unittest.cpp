@@ -57,6 +57,26 @@ TEST(ColourSensor, inLowLightShotNoiseGrowsByTheRootOfTheGain)
     }
 }
 
+/** Of an edge between black and white. */
+TEST(ColourSensor, blurHasTheSigmaAskedFor)
+{
+    SimulationParams params = SimulationParams::ideal();
+    for (const double sigma : {0.5, 1.0, 2.0, 5.0})
+    {
+        params.lensBlurPx = sigma;
+        cv::Mat edge = grey(0);
+        edge.colRange(320, 640).setTo(cv::Scalar::all(255));
+        const cv::Mat out = ColourSensor(params, 1).sense({edge}, 0, 1);
+        double square = 0;
+        for (int u = 280; u < 360; ++u)
+        {
+            const int step = out.at<cv::Vec3b>(9, u)[0] - out.at<cv::Vec3b>(9, u - 1)[0];
+            square += step / 255.0 * (u - 320) * (u - 320);
+        }
+        EXPECT_NEAR(std::sqrt(square), sigma, 0.06 * sigma);
+    }
+}
+
 TEST(ColourSensor, vignettingDarkensCorners)
 {
     SimulationParams params = SimulationParams::ideal();

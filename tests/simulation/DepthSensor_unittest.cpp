@@ -157,6 +157,20 @@ TEST(DepthSensor, stepsInDepthGrowWithItsSquare)
     }
 }
 
+/** Of which a reading has more than an integer holds. */
+TEST(DepthSensor, tinyStepsAreNone)
+{
+    SimulationParams params = only();
+    params.disparityStepPx = 1e-9;
+    const Scene scene = sceneOf(1);
+    const CastImage cast = slantedWall(params.camera(), 2, 0.5);
+    const cv::Mat depth = DepthSensor(params, scene).sense(cast, 1);
+    for (int u = 0; u < kWidth; u += 7)
+    {
+        EXPECT_NEAR(depth.at<float>(9, u) * cast.inverseDepth.at<float>(9, u), 1, 1e-5);
+    }
+}
+
 TEST(DepthSensor, noReadingOutOfRange)
 {
     SimulationParams params = only();

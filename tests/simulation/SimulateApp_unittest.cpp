@@ -3,17 +3,20 @@
 
 #include <pointplane/evaluation/trajectory_text.h>
 #include <pointplane/mrpt_io/mrpt_poses.h>
+#include <pointplane/mrpt_io/rawlog_names.h>
 #include <pointplane/simulation/SimulatedSequence.h>
 
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <future>
 #include <iterator>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "SequenceWriter.h"
@@ -483,6 +486,27 @@ TEST(SimulateApp, aFullDiskIsReportedAndLeavesNothingThatLooksComplete)
             EXPECT_EQ(*code, 3) << external << " with " << kilobytes << " kB";
         }
     }
+}
+
+/** Else it would be beside frames that it does not tell of. */
+TEST(SimulateApp, theGroundTruthAppearsAfterTheRawlogOnly)
+{
+    namespace fs = std::filesystem;
+    const test::TempDir dir;
+    const std::string path = dir / "a.rawlog";
+    std::thread somebody(
+        [&]
+        {
+            while (!fs::exists(path + ".partial"))
+            {
+                std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            }
+            fs::create_directories(path + "/in the way");
+        });
+    const Finished result = run(smallRun(path));
+    somebody.join();
+    EXPECT_EQ(result.code, 3);
+    EXPECT_FALSE(fs::exists(groundTruthOf(path)));
 }
 
 TEST(SimulateApp, listsItsSettingsAndScenes)

@@ -5,7 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include "short_number.h"
 
 namespace pointplane
 {
@@ -23,13 +24,6 @@ double roundStep(double step)
         }
     }
     return 10 * power;
-}
-
-std::string shortLabel(double value)
-{
-    char text[32];
-    std::snprintf(text, sizeof text, "%g", value);
-    return text;
 }
 
 std::vector<ChartTick> evenTicks(double min, double max, double step)
@@ -115,7 +109,7 @@ std::vector<ChartTick> ChartAxis::decadeTicks(double spacing) const
             if (value >= min_ * (1 - 1e-9) && value <= max_ * (1 + 1e-9))
             {
                 const bool labelled = k == 1 || (!many && (k == 2 || k == 5));
-                out.push_back({value, labelled ? shortLabel(value) : ""});
+                out.push_back({value, labelled ? shortNumber(value) : ""});
             }
         }
     }

@@ -4,8 +4,9 @@
 #include <pointplane/evaluation/ate.h>
 #include <pointplane/evaluation/scored_trajectories.h>
 
-#include <cstdio>
 #include <stdexcept>
+
+#include "short_number.h"
 
 namespace pointplane
 {
@@ -86,19 +87,13 @@ AteResult absoluteTrajectoryError(
 
 std::string describe(const AteOptions& options, const AteResult& result, std::size_t estimatePoses)
 {
-    const char* alignment = options.alignment == Alignment::Se3         ? "SE(3) aligned"
-                            : options.alignment == Alignment::FirstPose ? "first pose aligned"
-                                                                        : "not aligned";
-    char out[256];
-    std::snprintf(
-        out,
-        sizeof out,
-        "TUM protocol (evaluate_ate), %s, association %g s%s, %zu of %zu poses, ",
-        alignment,
-        options.maxDifference,
-        describeChanges(options.offset, options.scale).c_str(),
-        result.errors.size(),
-        estimatePoses);
-    return out + describe(result.coverage);
+    const std::string alignment = options.alignment == Alignment::Se3         ? "SE(3) aligned"
+                                  : options.alignment == Alignment::FirstPose ? "first pose aligned"
+                                                                              : "not aligned";
+    return "TUM protocol (evaluate_ate), " + alignment + ", association " +
+           shortNumber(options.maxDifference) + " s" +
+           describeChanges(options.offset, options.scale) + ", " +
+           std::to_string(result.errors.size()) + " of " + std::to_string(estimatePoses) +
+           " poses, " + describe(result.coverage);
 }
 }  // namespace pointplane

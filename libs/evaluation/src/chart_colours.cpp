@@ -8,6 +8,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "short_number.h"
+
 namespace pointplane
 {
 namespace
@@ -72,9 +74,10 @@ std::string chartStyle(bool dark)
                 name,
             "fill:" + value);
     };
-    char text[96];
-    std::snprintf(text, sizeof text, "font:%gpx system-ui,\"DejaVu Sans\",sans-serif;", kFontSize);
-    rule("text", text + std::string("fill:") + theme.ink);
+    rule(
+        "text",
+        "font:" + shortNumber(kFontSize) +
+            "px system-ui,\"DejaVu Sans\",sans-serif;fill:" + theme.ink);
     rule(".grid", std::string("stroke:") + theme.grid + ";stroke-width:1");
     rule(".zero", std::string("stroke:") + theme.muted + ";stroke-width:1");
     rule(".axis", std::string("stroke:") + theme.muted + ";stroke-width:1");

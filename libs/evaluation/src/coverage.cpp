@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/counted.h>
 #include <pointplane/core/number_text.h>
 #include <pointplane/evaluation/coverage.h>
 #include <pointplane/evaluation/stamp_intervals.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <iterator>
 
 namespace pointplane
@@ -132,27 +132,12 @@ Coverage coverageOf(const Trajectory& groundTruth, const Trajectory& estimate, d
 
 std::string describe(const Coverage& coverage)
 {
-    char out[160];
-    if (coverage.ofRecording)
-    {
-        std::snprintf(
-            out,
-            sizeof out,
-            "coverage %.1f %% of the recording: %zu frame%s tracked, %zu predicted, %zu lost",
-            100 * coverage.share,
-            coverage.tracked,
-            coverage.tracked == 1 ? "" : "s",
-            coverage.predicted,
-            coverage.lost);
-    }
-    else
-    {
-        std::snprintf(
-            out,
-            sizeof out,
-            "coverage %.1f %% of the ground truth's time, frames not marked",
-            100 * coverage.share);
-    }
+    const std::string out =
+        "coverage " + numberText(100 * coverage.share, 1) +
+        (coverage.ofRecording ? " % of the recording: " + counted(coverage.tracked, "frame") +
+                                    " tracked, " + std::to_string(coverage.predicted) +
+                                    " predicted, " + std::to_string(coverage.lost) + " lost"
+                              : " % of the ground truth's time, frames not marked");
     // Ground truth often begins a little before the recording, and ends a little after it.
     const bool isPart = coverage.ofRecording && coverage.ofTruth < 0.9 * coverage.share;
     return out +

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/core/covariance.h>
+#include <pointplane/core/number_text.h>
 #include <pointplane/core/se3.h>
 #include <pointplane/evaluation/nees.h>
 #include <pointplane/evaluation/scored_trajectories.h>
@@ -7,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <stdexcept>
 
@@ -112,12 +112,10 @@ Matrix6d definiteCovariance(const Trajectory& estimate, std::size_t i, std::size
     const Matrix6d cov = incrementCovariance(estimate, i, j);
     if (!isPositiveDefinite(cov))
     {
-        char stamps[128];
-        std::snprintf(
-            stamps, sizeof stamps, "%.6f to %.6f s", estimate.stamps[i], estimate.stamps[j]);
         throw UntoldCovariance(
-            "'" + estimate.name + "': the covariance of the increment from " + stamps +
-            " is not positive definite");
+            "'" + estimate.name + "': the covariance of the increment from " +
+            numberText(estimate.stamps[i], 6) + " to " + numberText(estimate.stamps[j], 6) +
+            " s is not positive definite");
     }
     return cov;
 }

@@ -3,8 +3,9 @@
 #include <pointplane/evaluation/nees_interval.h>
 
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
+
+#include "short_number.h"
 
 namespace pointplane
 {
@@ -36,8 +37,6 @@ std::string nameOf(const NeesInterval& interval)
     {
         return "start";
     }
-    char out[64];
-    std::snprintf(out, sizeof out, "%g%s", interval.delta, nameOf(interval.unit).c_str());
-    return out;
+    return shortNumber(interval.delta) + nameOf(interval.unit);
 }
 }  // namespace pointplane

@@ -5,10 +5,11 @@
 #include <pointplane/evaluation/units.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <numeric>
 #include <random>
 #include <stdexcept>
+
+#include "short_number.h"
 
 namespace pointplane
 {
@@ -28,11 +29,9 @@ void requireTwo(
 {
     if (pairs.size() < 2)
     {
-        char length[32];
-        std::snprintf(length, sizeof length, "%.3g ", index.back() - index.front());
         throw std::runtime_error(
-            "'" + estimate.name + "' covers " + length + nameOf(options.unit) +
-            ": fewer than two pairs of poses are " + nameOfDelta(options) +
+            "'" + estimate.name + "' covers " + shortNumber(index.back() - index.front(), 3) + " " +
+            nameOf(options.unit) + ": fewer than two pairs of poses are " + nameOfDelta(options) +
             " apart (those with the last pose do not count); choose a smaller delta");
     }
 }

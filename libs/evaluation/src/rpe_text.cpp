@@ -2,10 +2,10 @@
 #include <pointplane/evaluation/rpe.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <stdexcept>
 
 #include "rpe_pairs.h"
+#include "short_number.h"
 
 namespace pointplane
 {
@@ -46,9 +46,7 @@ std::string nameOf(DeltaUnit unit)
 
 std::string nameOfDelta(const RpeOptions& options)
 {
-    char text[64];
-    std::snprintf(text, sizeof text, "%g %s", options.delta, nameOf(options.unit).c_str());
-    return text;
+    return shortNumber(options.delta) + " " + nameOf(options.unit);
 }
 
 std::string describe(const RpeOptions& options)
@@ -64,14 +62,10 @@ std::string describe(const RpeOptions& options)
 
 std::string describe(const RpeOptions& options, const RpeResult& result)
 {
-    char counts[160];
-    std::snprintf(
-        counts,
-        sizeof counts,
-        ", %zu of %zu pairs%s, ",
-        result.translation.count,
-        result.candidatePairs,
-        result.randomPairs ? (" drawn with seed " + std::to_string(options.seed)).c_str() : "");
+    const std::string counts =
+        ", " + std::to_string(result.translation.count) + " of " +
+        std::to_string(result.candidatePairs) + " pairs" +
+        (result.randomPairs ? " drawn with seed " + std::to_string(options.seed) : "") + ", ";
     const std::size_t alone = options.fixedDelta ? numWithThemselves(result) : 0;
     const std::size_t off = result.pairsOffDelta - std::min(alone, result.pairsOffDelta);
     return describe(options) + counts +

@@ -6,9 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 #include <utility>
+
+#include "short_number.h"
 
 namespace pointplane
 {
@@ -112,17 +113,11 @@ void checkPositions(const Trajectory& trajectory, double scale)
         const double distance = scale * trajectory.poses[i].translation().lpNorm<Eigen::Infinity>();
         if (!(distance <= kFarthest))
         {
-            char text[160];
-            std::snprintf(
-                text,
-                sizeof text,
-                " is %g m away from the origin, beyond %g m, where digits are lost; are positions "
-                "in metres?",
-                distance,
-                kFarthest);
             throw std::runtime_error(
                 trajectory.name + ": the position at " + numberText(trajectory.stamps[i], 6) +
-                " s" + (scale == 1 ? "" : " times " + numberText(scale, 3)) + text);
+                " s" + (scale == 1 ? "" : " times " + numberText(scale, 3)) + " is " +
+                shortNumber(distance) + " m away from the origin, beyond " +
+                shortNumber(kFarthest) + " m, where digits are lost; are positions in metres?");
         }
     }
 }

@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/evaluation/svg_chart.h>
 
-#include <cstdio>
-
 #include "chart_parts.h"
+#include "short_number.h"
 #include "svg_elements.h"
 
 namespace pointplane
 {
 namespace
 {
+std::string scaleOf(double from, double to, const ChartAxis& axis)
+{
+    return shortNumber(from) + " " + shortNumber(to) + " " + shortNumber(axis.min()) + " " +
+           shortNumber(axis.max()) + (axis.logarithmic() ? " 1" : " 0");
+}
+
 using svg::number;
 
 std::string elementOf(const Chart& chart, const std::string& attributes, const std::string& style)
@@ -26,21 +31,8 @@ std::string elementOf(const Chart& chart, const std::string& attributes, const s
         const ChartSeries& series = chart.series[k];
         // For the pointer: whose the points are and what their pixels mean.
         const ChartAxis& y = plot.yOf(series);
-        char scale[256];
-        std::snprintf(
-            scale,
-            sizeof scale,
-            "%g %g %g %g %d %g %g %g %g %d",
-            plot.left,
-            plot.right,
-            plot.x->min(),
-            plot.x->max(),
-            plot.x->logarithmic() ? 1 : 0,
-            plot.bottom,
-            plot.top,
-            y.min(),
-            y.max(),
-            y.logarithmic() ? 1 : 0);
+        const std::string scale =
+            scaleOf(plot.left, plot.right, *plot.x) + " " + scaleOf(plot.bottom, plot.top, y);
         out += "<g data-name=\"" + xmlEscaped(series.name) + "\" data-scale=\"" + scale + "\">\n" +
                seriesOf(plot, k) + "</g>\n";
     }

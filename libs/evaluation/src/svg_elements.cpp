@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "svg_elements.h"
 
+#include <pointplane/core/number_text.h>
 #include <pointplane/evaluation/svg_chart.h>
-
-#include <cstdio>
 
 namespace pointplane
 {
@@ -11,9 +10,7 @@ namespace svg
 {
 std::string number(double value)
 {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.1f", value);
-    const std::string out = text;
+    const std::string out = numberText(value, 1);
     return out.size() > 2 && out.compare(out.size() - 2, 2, ".0") == 0
                ? out.substr(0, out.size() - 2)
                : out;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/grabber/Capture.h>
 
+#include <utility>
+
 #include "drivers.h"
 #include "oni_file.h"
 
@@ -56,7 +58,8 @@ CaptureEnd Capture::run(const std::atomic<bool>& stop)
 
 CaptureEnd Capture::capture(const std::atomic<bool>& stop)
 {
-    lastDepth_ = lastColour_ = lastPair_ = warmUpStart_ = hostTime();
+    double now = hostTime();
+    lastDepth_ = lastColour_ = lastPair_ = warmUpStart_ = now;
     while (!stop)
     {
         CameraImage image;
@@ -80,7 +83,9 @@ CaptureEnd Capture::capture(const std::atomic<bool>& stop)
                 }
                 break;
         }
-        if (isStalled(hostTime()))
+        const double before = std::exchange(now, hostTime());
+        addPause(now - before - std::chrono::duration<double>(kPoll).count());
+        if (isStalled(now))
         {
             return CaptureEnd::Stalled;
         }
@@ -200,6 +205,16 @@ void Capture::publish(double stamp)
         stats_.frameRate = static_cast<double>(ratePairs_ - 1) / (stamp - rateStart_);
         rateStart_ = stamp;
         ratePairs_ = 1;
+    }
+}
+
+void Capture::addPause(double pause)
+{
+    if (pause > 0)
+    {
+        lastDepth_ += pause;
+        lastColour_ += pause;
+        lastPair_ += pause;
     }
 }
 

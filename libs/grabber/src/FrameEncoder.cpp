@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/number_text.h>
 #include <pointplane/grabber/DurableFile.h>
 #include <pointplane/grabber/FrameEncoder.h>
 #include <pointplane/mrpt_io/mrpt_poses.h>
@@ -136,8 +137,9 @@ std::vector<std::uint8_t> FrameEncoder::encode(
             writeFile(imagesFolder + "/" + name, content.data(), content.size());
             externalBytes += content.size();
         };
-        const auto stem =
-            mrpt::format("3DCAM_%s_%.06f", observation.sensorLabel.c_str(), pair.stamp);
+        std::string label = observation.sensorLabel;
+        std::replace(label.begin(), label.end(), '/', '_');  // no other folder
+        const std::string stem = "3DCAM_" + label + "_" + numberText(pair.stamp, 6);
         const auto range = rangeFileContent(pair.depth.pixels);
         write(stem + "_RANGES.bin", compressed(range.data(), range.size()));
         observation.setRangeFile(stem + "_RANGES.bin");

@@ -126,7 +126,7 @@ FreenectCamera::FreenectCamera(
             "cannot open Kinect " + device.uri + ": " + FreenectContext::lastError() +
             " (used by another program or by the kernel's gspca_kinect, or not in group plugdev?)");
     }
-    facts_.mode = {kWidth, kHeight, kFps, "RGB888"};
+    facts_.mode = facts_.colourMode = {kWidth, kHeight, kFps, "RGB888"};
     facts_.hasColour = !settings.depthOnly;
     freenect_set_user(device_, this);
     chooseDepthMode(settings);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/number_text.h>
 #include <pointplane/grabber/LiveOdometry.h>
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/image_file.h>
@@ -7,8 +8,9 @@
 #include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CObservationRobotPose.h>
 
-#include <cstdio>
+#include <iomanip>
 #include <ostream>
+#include <sstream>
 
 #include "lowPriority.h"
 
@@ -20,25 +22,27 @@ constexpr int kPoseSize = 6;
 
 std::string lineOf(const RobotMotion& motion, double stamp)
 {
-    std::string line = mrpt::format("%.6f %s", stamp, toString(motion.status));
+    std::ostringstream line = numberStream();
+    line << std::setprecision(6) << std::fixed << stamp << " " << toString(motion.status);
     for (int i = 0; i < kPoseSize; ++i)
     {
-        line += mrpt::format(" %.6f", motion.pose.mean[static_cast<unsigned>(i)]);
+        line << " " << motion.pose.mean[static_cast<unsigned>(i)];
     }
+    line << std::scientific;
     for (int row = 0; row < kPoseSize; ++row)
     {
         for (int col = row; col < kPoseSize; ++col)
         {
-            line += mrpt::format(" %.6e", motion.pose.cov(row, col));
+            line << " " << motion.pose.cov(row, col);
         }
     }
-    return line;
+    return line.str();
 }
 }  // namespace
 
 LiveOdometry::LiveOdometry(
     const LiveOptions& options, const ObservationBuilder& builder, std::ostream& out)
-    : options_(options), builder_(builder), out_(out)
+    : options_(options), builder_(builder), out_(out), camera_(builder.calibration().sensorLabel)
 {
     if (!options_.config.empty())
     {
@@ -93,6 +97,7 @@ void LiveOdometry::work()
         }
         catch (const std::exception& e)
         {
+            rawlog_.reset();  // stays partial
             giveUp(e, "--live ends there");
             break;
         }
@@ -107,8 +112,19 @@ void LiveOdometry::giveUp(const std::exception& e, const std::string& what)
     stats_.problem = oneLine(e) + "; " + what + ", the rest went on";
 }
 
+/** What the recording would tell before this frame. */
+void LiveOdometry::readNews(const ImagePair& pair)
+{
+    mrpt::obs::CObservationComment comment;
+    comment.text = camera_.before(
+        options_.knowsDelay ? pair.depthDelay() : ShutterModel::kUnknown,
+        builder_.calibration().isNominal);
+    odometry_.converter().readComment(comment);
+}
+
 void LiveOdometry::process(const ImagePair& pair)
 {
+    readNews(pair);
     mrpt::obs::CObservation3DRangeScan observation;
     builder_.fill(pair, observation);
     const RobotMotion motion = odometry_.process(observation);

@@ -2,6 +2,7 @@
 #include "OpenNi2Camera.h"
 
 #include <array>
+#include <cstdint>
 #include <thread>
 
 #include "OpenNi2Events.h"
@@ -67,6 +68,14 @@ CameraImage OpenNi2Camera::copy(const openni::VideoFrameRef& frame, StreamKind s
     image.depthUnit = format == openni::PIXEL_FORMAT_DEPTH_100_UM ? 1e-4 : 1e-3;
     const auto layout = layoutOf(format);
     image.layout = layout.layout;
+    const int rowBytes = frame.getWidth() * static_cast<int>(CV_ELEM_SIZE(layout.cvType));
+    const std::int64_t bytes = std::int64_t{frame.getStrideInBytes()} * frame.getHeight();
+    if (frame.getStrideInBytes() < rowBytes || frame.getDataSize() < bytes)
+    {
+        throw EnvironmentError(
+            "camera " + facts_.device.uri + " sent " + std::to_string(frame.getDataSize()) +
+            " bytes for an image of " + toString(videoModeOf(frame.getVideoMode())));
+    }
     const cv::Mat borrowed(
         frame.getHeight(),
         frame.getWidth(),

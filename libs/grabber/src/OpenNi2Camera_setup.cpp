@@ -125,6 +125,17 @@ void OpenNi2Camera::setUpFile()
     {
         throw InputError("'" + facts_.device.uri + "' cannot be played");
     }
+    for (auto* stream : {&depth_, &colour_})
+    {
+        if (stream->isValid() && preference(stream->getVideoMode().getPixelFormat()) == 0)
+        {
+            throw InputError(
+                "'" + facts_.device.uri + "': its " + (stream == &depth_ ? "depth" : "colour") +
+                " stream, " + toString(videoModeOf(stream->getVideoMode())) +
+                ", is in a format that is not supported" +
+                (stream == &depth_ ? "" : "; --depth-only leaves it out"));
+        }
+    }
     // Speed -1 waits for the reader: at speed 1 frames are lost. Repeat is on by default.
     playback->setSpeed(-1.0F);
     playback->setRepeatEnabled(false);
@@ -201,6 +212,7 @@ void OpenNi2Camera::describeOptics()
     if (facts_.hasColour)
     {
         const auto colourMode = colour_.getVideoMode();
+        facts_.colourMode = videoModeOf(colourMode);
         facts_.colourFocal_px = focalLength(colour_, colourMode.getResolutionX());
         if (facts_.registered && (colourMode.getResolutionX() != mode.getResolutionX() ||
                                   colourMode.getResolutionY() != mode.getResolutionY()))

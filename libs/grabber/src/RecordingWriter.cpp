@@ -2,12 +2,11 @@
 #include <pointplane/core/check.h>
 #include <pointplane/grabber/DurableFile.h>
 #include <pointplane/grabber/RecordingWriter.h>
-#include <pointplane/mrpt_io/ObservationConverter.h>
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/rawlog_names.h>
 #include <pointplane/mrpt_io/recording_marks.h>
 
-#include <cmath>
+#include <algorithm>
 #include <filesystem>
 
 namespace pointplane
@@ -19,9 +18,6 @@ using Clock = std::chrono::steady_clock;
 
 // Encoded frames that may wait for the writer, besides those in the queue.
 constexpr std::size_t kMaxEncoded = 16;
-
-// Delays this close are not told anew [s].
-constexpr double kSameDelay = 1e-4;
 }  // namespace
 
 std::string segmentPath(const std::string& path, int segment)
@@ -35,6 +31,7 @@ std::string segmentPath(const std::string& path, int segment)
 RecordingWriter::RecordingWriter(RecordingOptions options, const ObservationBuilder& builder)
     : options_(std::move(options)),
       builder_(builder),
+      told_(builder.calibration().sensorLabel),
       queue_(options_.queueFrames),
       encoded_(kMaxEncoded)
 {
@@ -117,12 +114,15 @@ RecordingWriter::Job RecordingWriter::makeJob(const ImagePair& pair) const
     job.pair = pair;
     if (options_.splitAfter > 0.0 && numJobs_ > 0)
     {
-        job.segment = static_cast<int>((pair.stamp - firstStamp_) / options_.splitAfter);
+        // A file that is done stays so, whatever the clock does.
+        job.segment = std::max(
+            openedSegment_, static_cast<int>((pair.stamp - firstStamp_) / options_.splitAfter));
     }
     job.opensFile = job.segment != openedSegment_;
-    job.tellsDelay =
-        options_.tellDelay && !pair.colour.pixels.empty() &&
-        (job.segment != toldSegment_ || std::abs(pair.depthDelay() - toldDelay_) > kSameDelay);
+    const RgbdCalibration& calibration = builder_.calibration();
+    job.told = job.opensFile ? CameraNews(calibration.sensorLabel) : told_;
+    job.news = job.told.before(
+        options_.tellDelay ? pair.depthDelay() : ShutterModel::kUnknown, calibration.isNominal);
     return job;
 }
 
@@ -133,11 +133,7 @@ void RecordingWriter::accepted(const Job& job)
         firstStamp_ = job.pair.stamp;
     }
     openedSegment_ = job.segment;
-    if (job.tellsDelay)
-    {
-        toldDelay_ = job.pair.depthDelay();
-        toldSegment_ = job.segment;
-    }
+    told_ = job.told;
 }
 
 bool RecordingWriter::tryPush(const ImagePair& pair)
@@ -169,12 +165,9 @@ std::vector<std::string> RecordingWriter::commentsOf(const Job& job) const
     {
         out.emplace_back(kRecordingBegins);
     }
-    const RgbdCalibration& calibration = builder_.calibration();
-    if (job.tellsDelay || (job.opensFile && calibration.isNominal))
+    if (!job.news.empty())
     {
-        ShutterModel shutter;
-        shutter.depthDelay = job.tellsDelay ? job.pair.depthDelay() : ShutterModel::kUnknown;
-        out.push_back(cameraComment(calibration.sensorLabel, shutter, calibration.isNominal));
+        out.push_back(job.news);
     }
     return out;
 }
@@ -218,7 +211,7 @@ void RecordingWriter::writeLoop()
         {
             if (record->segment != segment_)
             {
-                closeSegment();
+                closeSegment(true);
                 openSegment(record->segment);
             }
             pending_.push_back(std::move(*record));
@@ -233,13 +226,13 @@ void RecordingWriter::writeLoop()
             nextSync = Clock::now() + options_.syncInterval;
         }
     }
-    closeSegment();
+    closeSegment(!failed_);  // a thread that encodes may have given up
 }
 
-void RecordingWriter::closeSegment()
+void RecordingWriter::closeSegment(bool isWhole)
 {
     syncSegment();
-    if (options_.marksEnds && file_->numBytes() > 0)
+    if (isWhole && options_.marksEnds && file_->numBytes() > 0)
     {
         const auto bytes =
             FrameEncoder(options_.encoding, builder_).encode(kRecordingEnds, latestStamp_);

@@ -37,6 +37,12 @@ mrpt::img::TCamera pinhole(const VideoMode& mode, double focal_px)
     return camera;
 }
 
+/** Registered depth has the mode of colour. */
+const VideoMode& colourModeOf(const CameraFacts& facts)
+{
+    return facts.hasColour && !facts.registered ? facts.colourMode : facts.mode;
+}
+
 /** The driver has already moved depth into the colour camera's ideal pinhole. */
 void makeRegistered(RgbdCalibration& calibration)
 {
@@ -106,7 +112,7 @@ RgbdCalibration fromIni(
         calibration.source = "'" + path + "', sections [" + section + "_LEFT], [" + section +
                              "_RIGHT], [" + section + "_LEFT2RIGHT_POSE]";
     }
-    fitToMode(calibration.colour, facts.mode, path + ": section [" + section + "_RIGHT]");
+    fitToMode(calibration.colour, colourModeOf(facts), path + ": section [" + section + "_RIGHT]");
     if (facts.registered)
     {
         makeRegistered(calibration);
@@ -159,7 +165,7 @@ RgbdCalibration nominalCalibration(const CameraFacts& facts)
     calibration.isNominal = true;
     calibration.depth = pinhole(facts.mode, facts.depthFocal_px);
     calibration.colour =
-        pinhole(facts.mode, facts.hasColour ? facts.colourFocal_px : facts.depthFocal_px);
+        facts.hasColour ? pinhole(colourModeOf(facts), facts.colourFocal_px) : calibration.depth;
     calibration.colourWrtDepth =
         opticalAxes() + mrpt::poses::CPose3D(facts.colourOffset, 0, 0, 0, 0, 0);
     if (facts.registered || !facts.hasColour)

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace pointplane
 {
@@ -22,6 +23,22 @@ constexpr double kMaxSplat_px = 50;
 {
     const float difference = 0.5F * (1 / after - 1 / before);
     return std::abs(difference) <= kMaxGradient ? difference : 0.0F;  // false for NaN
+}
+
+/** Slopes per target pixel of what has these per source pixel: by the transposed inverse of the
+ * steps, with the larger pivot. */
+[[nodiscard]] Eigen::Vector2d slopesInTarget(
+    const Eigen::Matrix2d& steps, double slopeU, double slopeV)
+{
+    Eigen::Vector2d first = steps.col(0), second = steps.col(1);
+    if (std::abs(first.x()) < std::abs(second.x()))
+    {
+        first.swap(second);
+        std::swap(slopeU, slopeV);
+    }
+    const double m = second.x() / first.x();
+    const double perV = (slopeV - m * slopeU) / (second.y() - m * first.y());
+    return {(slopeU - first.y() * perV) / first.x(), perV};
 }
 
 /** x as a whole number of [low, high]; NaN is low. */
@@ -48,21 +65,31 @@ DepthRegistration::DepthRegistration(
     }
 }
 
-Eigen::Vector2d DepthRegistration::pixelStep(int u, int v) const
+Eigen::Matrix2d DepthRegistration::pixelSteps(int u, int v) const
 {
-    const auto ray = [&](int column, int row)
+    const auto ray = [&](int column, int row) -> Eigen::Vector2f
     {
         return rays_
             [static_cast<std::size_t>(row) * static_cast<std::size_t>(source_.width) +
-             static_cast<std::size_t>(column)];
+             static_cast<std::size_t>(column)]
+                .head<2>();
     };
     const int left = std::max(u - 1, 0), right = std::min(u + 1, source_.width - 1);
     const int above = std::max(v - 1, 0), below = std::min(v + 1, source_.height - 1);
-    const double perColumn = static_cast<double>(ray(right, v).x() - ray(left, v).x());
-    const double perRow = static_cast<double>(ray(u, below).y() - ray(u, above).y());
-    return {
-        right > left ? target_.fx * perColumn / (right - left) : target_.fx / source_.fx,
-        below > above ? target_.fy * perRow / (below - above) : target_.fy / source_.fy};
+    const Eigen::Vector2d f(target_.fx, target_.fy);
+    Eigen::Matrix2d steps;
+    steps << f.x() / source_.fx, 0, 0, f.y() / source_.fy;  // of a single column or row
+    if (right > left)
+    {
+        const Eigen::Vector2f columns = ray(right, v) - ray(left, v);
+        steps.col(0) = f.cwiseProduct(columns.cast<double>()) / static_cast<double>(right - left);
+    }
+    if (below > above)
+    {
+        const Eigen::Vector2f rows = ray(u, below) - ray(u, above);
+        steps.col(1) = f.cwiseProduct(rows.cast<double>()) / static_cast<double>(below - above);
+    }
+    return steps;
 }
 
 void DepthRegistration::splat(const cv::Mat& depth, int u, int v, cv::Mat& out) const
@@ -81,8 +108,9 @@ void DepthRegistration::splat(const cv::Mat& depth, int u, int v, cv::Mat& out) 
     const double centreV = target_.fy * p.y() * inverse + target_.cy;
     // Size of one source pixel in the target, a little more against rounding at shared borders.
     const double zoom = static_cast<double>(z) * inverse;
-    const Eigen::Vector2d step = zoom * pixelStep(u, v);
-    const double sizeU = 1.01 * std::abs(step.x()), sizeV = 1.01 * std::abs(step.y());
+    const Eigen::Matrix2d steps = zoom * pixelSteps(u, v);
+    const Eigen::Vector2d size = 1.01 * steps.cwiseAbs().rowwise().sum();
+    const double sizeU = size.x(), sizeV = size.y();
     const int firstU = indexWithin(0, out.cols, std::ceil(centreU - sizeU / 2));
     const int lastU = indexWithin(-1, out.cols - 1, std::floor(centreU + sizeU / 2));
     const int firstV = indexWithin(0, out.rows, std::ceil(centreV - sizeV / 2));
@@ -97,7 +125,8 @@ void DepthRegistration::splat(const cv::Mat& depth, int u, int v, cv::Mat& out) 
         inside ? gradient(depth.at<float>(v, u - 1), depth.at<float>(v, u + 1)) : 0.0F;
     const float slopeV =
         inside ? gradient(depth.at<float>(v - 1, u), depth.at<float>(v + 1, u)) : 0.0F;
-    const double perU = slopeU / step.x(), perV = slopeV / step.y();
+    const Eigen::Vector2d slopes = slopesInTarget(steps, slopeU, slopeV);
+    const double perU = slopes.x(), perV = slopes.y();
     for (int row = firstV; row <= lastV; ++row)
     {
         auto* line = out.ptr<float>(row);

@@ -31,8 +31,9 @@ class DepthRegistration
     [[nodiscard]] cv::Mat render(const cv::Mat& depth) const;
 
  private:
-    /** From one source pixel to the next, in the target [px], for a surface as far from both. */
-    [[nodiscard]] Eigen::Vector2d pixelStep(int u, int v) const;
+    /** From one source pixel to the next column and to the next row, in the target [px], for a
+     * surface as far from both. */
+    [[nodiscard]] Eigen::Matrix2d pixelSteps(int u, int v) const;
     void splat(const cv::Mat& depth, int u, int v, cv::Mat& out) const;
 
     PinholeCamera source_;

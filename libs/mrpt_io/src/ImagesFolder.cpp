@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "exchange_folders.h"
 #include <fcntl.h>
 
 namespace pointplane
@@ -85,10 +86,7 @@ void ImagesFolder::exchange()
         !(isDone = rename(partial_, path_, RENAME_EXCHANGE)) &&
         (errno == EINVAL || errno == ENOSYS))
     {
-        // Disks of a network cannot exchange: the earlier folder steps aside.
-        const std::string aside = path_ + ".earlier";
-        isDone =
-            rename(path_, aside, 0) && rename(partial_, path_, 0) && rename(aside, partial_, 0);
+        isDone = exchangeInSteps(path_, partial_);
     }
     if (!isDone)
     {

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 
 #include "DepthRegistration.h"
@@ -85,6 +86,7 @@ struct ObservationConverter::Impl
 
     std::string externals;
     std::map<std::string, CameraComment> told;  // by label
+    std::set<std::string> unknownKeys;
 
     // The latest registration: its ray table is the costly part.
     mutable std::optional<DepthRegistration> registrationCache;
@@ -241,7 +243,13 @@ std::string ObservationConverter::readComment(const mrpt::obs::CObservationComme
         return "";
     }
     impl_->told[parsed->label] = *parsed;
+    impl_->unknownKeys.insert(parsed->unknownKeys.begin(), parsed->unknownKeys.end());
     return parsed->label;
+}
+
+const std::set<std::string>& ObservationConverter::unknownKeys() const
+{
+    return impl_->unknownKeys;
 }
 
 ConvertedFrame ObservationConverter::convert(const CObservation3DRangeScan& scan) const

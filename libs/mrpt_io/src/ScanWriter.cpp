@@ -77,7 +77,8 @@ void setDepth(CObservation3DRangeScan& out, const RegisteredScan& scan)
     }
 }
 
-/** Whether the name is one that is given here: a stamp, and `_rgb.png` or `_depth.bin`. */
+/** Whether the name is one that is given here: a stamp, a number of frames that share it, and
+ * `_rgb.png` or `_depth.bin`. */
 [[nodiscard]] bool isImageName(const std::string& name)
 {
     const std::size_t end = name.find_first_not_of("0123456789.-");
@@ -88,11 +89,11 @@ void setDepth(CObservation3DRangeScan& out, const RegisteredScan& scan)
 
 /** The file's bytes where the image came from one, else a PNG. \return its name */
 std::string writeColourFile(
-    const RegisteredScan& scan, const std::string& folder, const std::string& stamp)
+    const RegisteredScan& scan, const std::string& folder, const std::string& beginning)
 {
     const bool copied = !scan.colourFile.empty();
     const std::string name =
-        stamp + "_rgb" + (copied ? fs::path(scan.colourFile).extension().string() : ".png");
+        beginning + "_rgb" + (copied ? fs::path(scan.colourFile).extension().string() : ".png");
     const std::string path = (fs::path(folder) / name).string();
     if (!copied)
     {
@@ -165,6 +166,13 @@ void ScanWriter::writeComment(mrpt::Clock::time_point stamp, const std::string& 
     writer_.write(comment);
 }
 
+std::string ScanWriter::imageName(mrpt::Clock::time_point stamp)
+{
+    const std::string text = stampText(stamp);
+    const int number = ++numOfStamp_[text];
+    return number == 1 ? text : text + "-" + std::to_string(number);
+}
+
 void ScanWriter::write(const RegisteredScan& scan)
 {
     const cv::Size size(scan.camera.width, scan.camera.height);
@@ -186,10 +194,10 @@ void ScanWriter::write(const RegisteredScan& scan)
     setDepth(out, scan);
     out.hasIntensityImage = !scan.colour.empty();
     out.intensityImageChannel = CObservation3DRangeScan::CH_VISIBLE;
-    const std::string stamp = stampText(scan.stamp);
+    const std::string name = images_ ? imageName(scan.stamp) : "";
     if (out.hasIntensityImage && images_)
     {
-        out.intensityImage.setExternalStorage(writeColourFile(scan, images_->partialPath(), stamp));
+        out.intensityImage.setExternalStorage(writeColourFile(scan, images_->partialPath(), name));
     }
     else if (out.hasIntensityImage)
     {
@@ -197,7 +205,7 @@ void ScanWriter::write(const RegisteredScan& scan)
     }
     if (images_)
     {
-        moveRangeToFile(out, images_->partialPath(), stamp + "_depth.bin");
+        moveRangeToFile(out, images_->partialPath(), name + "_depth.bin");
     }
     writer_.write(out);
 }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/number_text.h>
 #include <pointplane/mrpt_io/VisualOdometry.h>
 #include <pointplane/mrpt_io/params_ini.h>
-
-#include <mrpt/core/format.h>
 
 #include <limits>
 #include <utility>
@@ -47,7 +46,7 @@ RobotMotion VisualOdometry::process(const ConvertedFrame& converted)
     {
         motion.reason = converted.problem;
     }
-    const auto stamp = [&] { return mrpt::format("%.6f", converted.frame.stamp); };
+    const auto stamp = [&] { return numberText(converted.frame.stamp, 6); };
     if (motion.status == TrackingStatus::Predicted || motion.status == TrackingStatus::Lost)
     {
         MRPT_LOG_WARN_STREAM(stamp() << ": " << toString(motion.status) << ": " << motion.reason);

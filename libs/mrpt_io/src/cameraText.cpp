@@ -76,9 +76,8 @@ void set(CameraComment& comment, const std::string& key, const std::string& valu
                                              : nullptr;
     if (target == nullptr)
     {
-        throw problem(
-            "unknown key '" + key +
-            "' (known: label, intrinsics, readoutColour, readoutDepth, depthDelay)");
+        comment.unknownKeys.push_back(key);
+        return;
     }
     const auto number = parseFinite(value);
     if (!number)

@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace pointplane
 {
@@ -13,6 +14,7 @@ struct CameraComment
     std::string label;
     ShutterModel shutter;
     bool isNominal{false};
+    std::vector<std::string> unknownKeys;
 };
 
 /** Empty if the text does not start with "pointplane-camera". \throws InputError naming the key */

@@ -149,10 +149,14 @@ constexpr const char* kCut = "stops before the end of the image";
 
 cv::Mat readImageFile(const std::string& path, int flags)
 {
-    const Bytes bytes = bytesOf(path);
+    return decodedImage(bytesOf(path), flags, path);
+}
+
+cv::Mat decodedImage(const std::vector<unsigned char>& bytes, int flags, const std::string& name)
+{
     if (const char* problem = problemOf(bytes))
     {
-        throw InputError(path + ": " + problem);
+        throw InputError(name + ": " + problem);
     }
     cv::Mat image;
     try
@@ -165,11 +169,11 @@ cv::Mat readImageFile(const std::string& path, int flags)
         {
             throw;  // says nothing about the image
         }
-        throw InputError(path + ": " + e.err);
+        throw InputError(name + ": " + e.err);
     }
     if (image.empty())
     {
-        throw InputError(path + ": is not an image, or damaged");
+        throw InputError(name + ": is not an image, or damaged");
     }
     return image;
 }

@@ -70,7 +70,8 @@ cv::Mat ColourSensor::sense(
     if (params_.lensBlurPx > 0)
     {
         const double sigma = params_.lensBlurPx * params_.width / 640.0;
-        cv::GaussianBlur(picture, picture, {3, 3}, sigma, sigma, cv::BORDER_REPLICATE);
+        const int side = 1 + 2 * std::max(1, static_cast<int>(std::ceil(3 * sigma - 1)));
+        cv::GaussianBlur(picture, picture, {side, side}, sigma, sigma, cv::BORDER_REPLICATE);
     }
     if (params_.imageNoise == 0 && params_.vignetting == 0 && params_.exposureSwing == 0)
     {

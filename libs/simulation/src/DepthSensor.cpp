@@ -134,7 +134,7 @@ cv::Mat DepthSensor::sense(const CastImage& cast, std::uint64_t frameKey) const
         {
             for (float& value : q)
             {
-                value = step * static_cast<float>(static_cast<int>(value * perStep + 0.5F));
+                value = step * std::floor(value * perStep + 0.5F);
             }
         }
         auto* out = depth.ptr<float>(v);

@@ -53,7 +53,8 @@ struct CameraSettings
 struct CameraFacts
 {
     DeviceInfo device;
-    VideoMode mode;                  //!< in use
+    VideoMode mode;                  //!< in use, of depth
+    VideoMode colourMode;            //!< the same if depth is registered
     bool isFile{false};              //!< a recording: delivered as fast as it is read, without loss
     bool hasColour{true};            //!< false in depth-only mode
     bool registered{false};          //!< depth pixels lie on the colour image

@@ -4,6 +4,7 @@
 #include <opencv2/core/mat.hpp>
 
 #include <cstdint>
+#include <limits>
 
 namespace pointplane
 {
@@ -41,7 +42,11 @@ struct ImagePair
     CameraImage colour;  //!< without pixels when the camera has no colour
     double stamp{0};     //!< [s] UTC, of the colour image if there is one
 
-    /** By the camera's own clock [s]. */
-    [[nodiscard]] double depthDelay() const { return depth.deviceTime - colour.deviceTime; }
+    /** By the camera's own clock [s]; NaN without colour. */
+    [[nodiscard]] double depthDelay() const
+    {
+        return colour.pixels.empty() ? std::numeric_limits<double>::quiet_NaN()
+                                     : depth.deviceTime - colour.deviceTime;
+    }
 };
 }  // namespace pointplane

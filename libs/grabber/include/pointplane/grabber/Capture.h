@@ -69,6 +69,8 @@ class Capture
     void warmUp(const CameraImage& image);
     void finishWarmUp();
     [[nodiscard]] std::optional<CaptureEnd> record(CameraImage image);
+    /** The camera is not to blame for the time in which nobody listened to it. */
+    void addPause(double pause);
     [[nodiscard]] bool isStalled(double now);
     [[nodiscard]] double stampOf(const ImagePair& pair) const;
     [[nodiscard]] bool isStampStream(const CameraImage& image) const;

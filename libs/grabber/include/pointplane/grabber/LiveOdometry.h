@@ -3,6 +3,7 @@
 
 #include <pointplane/grabber/LatestPair.h>
 #include <pointplane/grabber/ObservationBuilder.h>
+#include <pointplane/mrpt_io/CameraNews.h>
 #include <pointplane/mrpt_io/RawlogWriter.h>
 #include <pointplane/mrpt_io/VisualOdometry.h>
 
@@ -22,6 +23,7 @@ struct LiveOptions
     std::string mask;        //!< image file; empty = none
     std::string poseRawlog;  //!< empty = none
     bool waits{false};       //!< the source can wait: every frame is processed
+    bool knowsDelay{false};  //!< of depth after colour: images have device times
 };
 
 struct LiveStats
@@ -55,6 +57,7 @@ class LiveOdometry
  private:
     void work();
     void process(const ImagePair& pair);
+    void readNews(const ImagePair& pair);
     void giveUp(const std::exception& e, const std::string& what);
     void write(const RobotMotion& motion, mrpt::Clock::time_point stamp);
 
@@ -62,6 +65,7 @@ class LiveOdometry
     const ObservationBuilder& builder_;
     std::ostream& out_;
     VisualOdometry odometry_;
+    CameraNews camera_;
     std::unique_ptr<RawlogWriter> rawlog_;
     LatestPair latest_;
     mutable std::mutex mutex_;

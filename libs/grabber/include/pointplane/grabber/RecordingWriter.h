@@ -4,6 +4,7 @@
 #include <pointplane/core/BoundedQueue.h>
 #include <pointplane/grabber/FrameEncoder.h>
 #include <pointplane/grabber/ReorderBuffer.h>
+#include <pointplane/mrpt_io/CameraNews.h>
 
 #include <atomic>
 #include <chrono>
@@ -80,7 +81,8 @@ class RecordingWriter
         std::uint64_t number{0};
         int segment{0};
         bool opensFile{false};
-        bool tellsDelay{false};
+        CameraNews told{""};
+        std::string news;  //!< comment before the frame, or empty
         ImagePair pair;
     };
     struct Record
@@ -94,7 +96,7 @@ class RecordingWriter
     [[nodiscard]] Job makeJob(const ImagePair& pair) const;
     void accepted(const Job& job);
     [[nodiscard]] std::vector<std::string> commentsOf(const Job& job) const;
-    void closeSegment();
+    void closeSegment(bool isWhole);
     [[nodiscard]] std::string imagesFolder(int segment) const;
     [[nodiscard]] std::string rawlogPath(int segment) const;
     void openSegment(int segment);
@@ -110,8 +112,7 @@ class RecordingWriter
     const ObservationBuilder& builder_;
     std::uint64_t numJobs_{0};  // of the pushing thread
     double firstStamp_{0};
-    double toldDelay_{0};  // of the last segment that told one
-    int toldSegment_{-1};
+    CameraNews told_;  // in the opened segment
     int openedSegment_{-1};
     BoundedQueue<Job> queue_;
     ReorderBuffer<Record> encoded_;

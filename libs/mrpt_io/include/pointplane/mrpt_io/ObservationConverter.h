@@ -6,8 +6,8 @@
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CObservationComment.h>
 
-#include <map>
 #include <memory>
+#include <set>
 #include <string>
 
 namespace pointplane
@@ -49,8 +49,11 @@ class ObservationConverter
      *     pointplane-camera label=L readoutColour=0.02 readoutDepth=0.02 depthDelay=-0.01
      * (seconds; see ShutterModel; absent = not known; a blank in the label is %20). Other comments
      * are ignored. \return whose it is, L; empty: it is another comment
-     * \throws InputError naming the key if such a comment cannot be understood */
+     * \throws InputError naming the key if a value cannot be understood */
     std::string readComment(const mrpt::obs::CObservationComment& comment);
+
+    /** Keys of such comments that were ignored: a newer version may know them. */
+    [[nodiscard]] const std::set<std::string>& unknownKeys() const;
 
     /** \param scan not changed; external data that were read are not kept in it
      * \return the frame or, whatever is wrong with the observation, the problem; never throws for

@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 #include <opencv2/core/mat.hpp>
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -58,9 +59,13 @@ class ScanWriter
     void discard() noexcept;
 
  private:
+    /** How the names of a frame's files begin: frames may share a stamp. */
+    [[nodiscard]] std::string imageName(mrpt::Clock::time_point stamp);
+
     RawlogWriter writer_;
     std::string label_;
     std::unique_ptr<ImagesFolder> images_;  //!< none: embedded
+    std::map<std::string, int> numOfStamp_;
 };
 
 /** Fewest and most units per metre: metres, micrometres. */

@@ -15,6 +15,10 @@ namespace pointplane
  * \throws InputError naming the file, or the folder that is missing */
 [[nodiscard]] cv::Mat readImageFile(const std::string& path, int flags);
 
+/** The same for the bytes of a file. \param name of them, for errors */
+[[nodiscard]] cv::Mat decodedImage(
+    const std::vector<unsigned char>& bytes, int flags, const std::string& name);
+
 /** Reads a mask for Odometry::setMask(). \return withoutRobot() of it
  * \throws InputError naming the file, also for what withoutRobot() refuses */
 [[nodiscard]] cv::Mat readMask(const std::string& path);
