@@ -48,6 +48,7 @@ struct PointTracker::Sought
     size_t ref;
     cv::Point2f predicted, position;
     bool found{false};
+    Likeness likeness{};  //!< where the search ended
 };
 
 struct PointTracker::Found
@@ -152,21 +153,51 @@ std::vector<PointTracker::Sought> PointTracker::inView(
     return out;
 }
 
-/** The search ended nearby, on what looks like the point. */
-bool PointTracker::isFound(
-    const Sought& point,
+template <class Condition>
+void PointTracker::keepIf(std::vector<Sought>& points, const Condition& condition)
+{
+    const auto isLeftOut = [&](const Sought& point) { return !condition(point.likeness); };
+    points.erase(std::remove_if(points.begin(), points.end(), isLeftOut), points.end());
+}
+
+/** Those whose search ended nearby, on what looks like the point. */
+std::vector<PointTracker::Sought> PointTracker::foundOf(
+    const std::vector<Sought>& sought,
     const PointReference& reference,
     const cv::Mat& gray,
     const Search& search) const
 {
-    if (!point.found || cv::norm(point.position - point.predicted) > search.radius_px ||
-        !isWellInside(point.position, gray))
+    std::vector<Sought> out;
+    for (const Sought& point : sought)
     {
-        return false;
+        if (point.found && cv::norm(point.position - point.predicted) <= search.radius_px &&
+            isWellInside(point.position, gray))
+        {
+            out.push_back(point);
+            out.back().likeness =
+                reference.patches->refined.compare(point.ref, gray, point.position);
+        }
     }
-    constexpr double kMostBrighter = 30;  // [grey]; exposure does not change it by so much
-    const Likeness likeness = reference.patches->refined.compare(point.ref, gray, point.position);
-    return std::abs(likeness.brighter) < kMostBrighter && likeness.zncc >= params_.minZncc;
+    keepIf(out, [&](const Likeness& of) { return of.zncc >= params_.minZncc; });
+    constexpr double kMostBrighter = 30;  // [grey], than all have become together
+    const double factor = commonlyBrighter(out);
+    keepIf(
+        out,
+        [&](const Likeness& of)
+        { return std::abs(of.brighter - factor * of.grey) < kMostBrighter; });
+    return out;
+}
+
+/** By which factor of their grey value most points have become brighter, minus 1: by a lamp, or by
+ * automatic exposure. */
+double PointTracker::commonlyBrighter(const std::vector<Sought>& found)
+{
+    std::vector<double> factors;
+    for (const Sought& point : found)
+    {
+        factors.push_back(point.likeness.brighter / std::max(1.0, point.likeness.grey));
+    }
+    return factors.empty() ? 0 : median(std::move(factors));
 }
 
 /** Exactly where it is, and in space, with what is not known of it. */
@@ -250,14 +281,11 @@ std::vector<PointTrack> PointTracker::track(
             }
         });
     std::vector<Found> found;
-    for (const Sought& point : sought)
+    for (const Sought& point : foundOf(sought, reference, frame.gray, search))
     {
-        if (isFound(point, reference, frame.gray, search))
+        if (auto track = trackOf(point, reference, frame, T_cur_ref, search))
         {
-            if (auto track = trackOf(point, reference, frame, T_cur_ref, search))
-            {
-                found.push_back(*track);
-            }
+            found.push_back(*track);
         }
     }
     return withNoise(found);
