@@ -7,8 +7,8 @@ namespace pointplane
 {
 namespace
 {
-/** Nothing is known of the motion over half a second: whole images tell it, if they are searched.
- */
+/** Nothing is known of the motion over a second and a half: whole images tell it, if they are
+ * searched. */
 TEST(Pipeline, searchImages)
 {
     for (const bool searches : {true, false})

@@ -32,6 +32,8 @@ double vignettingBetween(
 /** Where a wide search ends, from the point's place: patches are only shifted there, so a turn of
  * six degrees costs this much. */
 constexpr double kUnrefined_px = 0.5;
+
+constexpr double kMostBrighter = 30;  //!< [grey]; exposure does not change a point by so much
 }  // namespace
 
 struct PointTracker::Search
@@ -179,7 +181,6 @@ std::vector<PointTracker::Sought> PointTracker::foundOf(
         }
     }
     keepIf(out, [&](const Likeness& of) { return of.zncc >= params_.minZncc; });
-    constexpr double kMostBrighter = 30;  // [grey], than all have become together
     const double factor = commonlyBrighter(out);
     keepIf(
         out,
@@ -188,16 +189,18 @@ std::vector<PointTracker::Sought> PointTracker::foundOf(
     return out;
 }
 
-/** By which factor of their grey value most points have become brighter, minus 1: by a lamp, or by
- * automatic exposure. */
+/** By which factor of their grey value points have become brighter, minus 1, where most have become
+ * so by more than exposure makes them: a lamp was switched on or off. */
 double PointTracker::commonlyBrighter(const std::vector<Sought>& found)
 {
-    std::vector<double> factors;
+    std::vector<double> changes, factors;
     for (const Sought& point : found)
     {
+        changes.push_back(point.likeness.brighter);
         factors.push_back(point.likeness.brighter / std::max(1.0, point.likeness.grey));
     }
-    return factors.empty() ? 0 : median(std::move(factors));
+    const bool isLit = !found.empty() && std::abs(median(std::move(changes))) >= kMostBrighter;
+    return isLit ? median(std::move(factors)) : 0;
 }
 
 /** Exactly where it is, and in space, with what is not known of it. */
