@@ -59,7 +59,7 @@ class CameraCommentWriter
         scan.depth.begin<std::uint16_t>(),
         scan.depth.end<std::uint16_t>(),
         std::back_inserter(readings),
-        [](std::uint16_t reading) { return reading > 0; });
+        [](std::uint16_t reading) { return reading != 0 && reading != kSaturatedDepth; });
     if (readings.empty())
     {
         return 0;
