@@ -84,11 +84,11 @@ function(pointplane_add_app name)
 endfunction()
 
 # pointplane_add_tests(LIB [NAME name] CONCEPTS a b ... [LINK lib ...] [INCLUDE dir ...] [DEFINE X=1 ...]
-# [LABELS label ...] [REAL_TIME]): tests/LIB/a_unittest.cpp and so on as one gtest binary, test_LIB or
+# [LABELS label ...] [REAL_TIME regex]): tests/LIB/a_unittest.cpp and so on as one gtest binary, test_LIB or
 # test_LIB_name; each TEST is one ctest entry named LIB/Suite.name, labelled LIB and what LABELS adds.
-# REAL_TIME: runs with no other test beside it.
+# REAL_TIME: tests whose names match run with no other test beside them.
 function(pointplane_add_tests lib)
-  cmake_parse_arguments(ARG "REAL_TIME" "NAME" "CONCEPTS;LINK;INCLUDE;DEFINE;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "" "NAME;REAL_TIME" "CONCEPTS;LINK;INCLUDE;DEFINE;LABELS" ${ARGN})
   set(target test_${lib})
   if(ARG_NAME)
     string(APPEND target _${ARG_NAME})
@@ -109,8 +109,7 @@ function(pointplane_add_tests lib)
   endif()
   set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   gtest_discover_tests(${target} TEST_PREFIX "${lib}/" DISCOVERY_TIMEOUT 60
-                       PROPERTIES TIMEOUT ${POINTPLANE_TEST_TIMEOUT} RUN_SERIAL ${ARG_REAL_TIME}
-                                  LABELS ${lib})
+                       PROPERTIES TIMEOUT ${POINTPLANE_TEST_TIMEOUT} LABELS ${lib})
   if(ARG_LABELS)
     # gtest_discover_tests() splits lists: a second label would be taken for the next property.
     set(labels_file ${CMAKE_CURRENT_BINARY_DIR}/${target}_labels.cmake)
@@ -119,5 +118,15 @@ function(pointplane_add_tests lib)
          "  set_tests_properties(\${test} PROPERTIES LABELS \"${lib};${ARG_LABELS}\")\n"
          "endforeach()\n")
     set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${labels_file})
+  endif()
+  if(ARG_REAL_TIME)
+    set(serial_file ${CMAKE_CURRENT_BINARY_DIR}/${target}_serial.cmake)
+    file(WRITE ${serial_file}
+         "set(tests \${${target}_TESTS})\n"
+         "list(FILTER tests INCLUDE REGEX \"${ARG_REAL_TIME}\")\n"
+         "if(tests)\n"
+         "  set_tests_properties(\${tests} PROPERTIES RUN_SERIAL ON)\n"
+         "endif()\n")
+    set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${serial_file})
   endif()
 endfunction()

@@ -19,8 +19,6 @@ namespace pointplane
 namespace
 {
 namespace fs = std::filesystem;
-
-constexpr std::uint16_t kNoReading = 65535;  //!< 7-Scenes; farther than any camera sees
 }  // namespace
 
 FolderRecording::FolderRecording(const FolderOptions& options)
@@ -92,7 +90,7 @@ void FolderRecording::readDepth(const ImageRef& image, RecordedFrame& frame)
             "of " +
             typeText(depth));
     }
-    depth.setTo(0, depth == kNoReading);
+    depth.setTo(0, depth == kSaturatedDepth);
     frame.scan.depth = depth;
     frame.scan.unitsPerMetre = unitsPerMetre_;
 }

@@ -33,7 +33,7 @@ constexpr std::size_t kShown = 5;
         scan.depth.begin<std::uint16_t>(),
         scan.depth.end<std::uint16_t>(),
         std::back_inserter(readings),
-        [](std::uint16_t reading) { return reading > 0; });
+        [](std::uint16_t reading) { return reading != 0 && reading != kSaturatedDepth; });
     if (readings.empty())
     {
         return 0;

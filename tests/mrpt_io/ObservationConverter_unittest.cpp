@@ -103,6 +103,38 @@ TEST(ObservationConverter, monochromeAndDeepImages)
     EXPECT_EQ(converted.frame.gray.at<std::uint8_t>(3, 3), 0x40);
 }
 
+/** Cameras of 10, 12 or 14 bit leave the upper bits empty. */
+TEST(ObservationConverter, deepImagesAreAsBrightAsTheirCameraCanBe)
+{
+    const ObservationConverter converter;
+    const auto middleOf = [&](int brightest, const char* label)
+    {
+        const auto scan = sampleScan(0);
+        scan->sensorLabel = label;
+        cv::Mat pixels(24, 32, CV_16UC1, cv::Scalar(brightest / 2.0));
+        pixels.at<std::uint16_t>(0, 0) = static_cast<std::uint16_t>(brightest);
+        scan->intensityImage = mrpt::img::CImage(pixels, mrpt::img::DEEP_COPY);
+        return converter.convert(*scan).frame.gray.at<std::uint8_t>(3, 3);
+    };
+    EXPECT_EQ(middleOf(1023, "ten"), 128);
+    EXPECT_EQ(middleOf(4095, "twelve"), 128);
+    EXPECT_EQ(middleOf(16383, "fourteen"), 128);
+    EXPECT_EQ(middleOf(65535, "sixteen"), 128);
+    EXPECT_EQ(middleOf(4095, "sixteen"), 8) << "a dark image is dark";
+    EXPECT_EQ(middleOf(1023, "twelve"), 32);
+    EXPECT_EQ(middleOf(4095, "ten"), 128) << "it has more bits than were seen";
+}
+
+TEST(ObservationConverter, saturatedDepthIsNoReading)
+{
+    const auto scan = sampleScan(0);
+    scan->rangeImage(0, 0) = 65535;
+    scan->rangeImage(0, 1) = 65534;
+    const ConvertedFrame converted = ObservationConverter().convert(*scan);
+    EXPECT_TRUE(std::isnan(converted.frame.depth.at<float>(0, 0)));
+    EXPECT_FLOAT_EQ(converted.frame.depth.at<float>(0, 1), 65.534F);
+}
+
 TEST(ObservationConverter, depthAloneIsEnough)
 {
     const auto scan = sampleScan(0);

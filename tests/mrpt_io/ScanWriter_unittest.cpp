@@ -356,9 +356,10 @@ TEST(ScanWriter, namesTheFolderThatCannotBeMade)
 TEST(DepthInUnits, roundsAndLeavesOutWhatDoesNotFit)
 {
     constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-    const cv::Mat depth = (cv::Mat_<float>(1, 6) << 1.0F, 1.00011F, kNan, 0.0F, -1.0F, 13.2F);
+    const cv::Mat depth =
+        (cv::Mat_<float>(1, 7) << 1.0F, 1.00011F, kNan, 0.0F, -1.0F, 13.107F, 13.2F);
     const cv::Mat units = depthInUnits(depth, 5000);
-    const cv::Mat expected = (cv::Mat_<std::uint16_t>(1, 6) << 5000, 5001, 0, 0, 0, 0);
+    const cv::Mat expected = (cv::Mat_<std::uint16_t>(1, 7) << 5000, 5001, 0, 0, 0, 0, 0);
     EXPECT_EQ(cv::norm(units, expected, cv::NORM_INF), 0);
 }
 

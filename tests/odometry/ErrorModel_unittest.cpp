@@ -265,6 +265,31 @@ TEST_F(ErrorModelTest, whatIsLearntOfTheCameraIsPassedOn)
     EXPECT_NEAR(model.camera().errors()[kDepthDelay], 0.001, 1e-12);
 }
 
+/** Twice what the frame tells of the delay, its velocities may have told by mistake (S of 1e6
+ * against an information of 1e5, which counts for a tenth): 0.5 of the variance would stay, 2/3 do.
+ */
+TEST_F(ErrorModelTest, timesAreToldAsWellAsVelocitiesAreKnown)
+{
+    analysis.camera.information(kDepthDelay, kDepthDelay) = 1e5;
+    const auto gain = [&](double ofReference, double ofFrame)
+    {
+        ErrorModel model(params);
+        (void)model.changeCamera({});
+        estimate.motion.cov.setZero();
+        estimate.motion.cov(6, 6) = ofFrame;
+        ErrorModel::Measured frame{{&reference}, estimate, analysis, 1e-9, Matrix12d::Zero()};
+        frame.velocities[reference.id] = ofReference * Matrix6d::Identity();
+        return model.learn(frame).cameraGain(kDepthDelay, kDepthDelay);
+    };
+    EXPECT_NEAR(gain(1, 1), 0.5, 1e-9) << "of global shutters, velocities tell nothing";
+    CameraByVelocity& change = analysis.cameraByVelocity[reference.id];
+    change.setZero();
+    change(kDepthDelay, 0) = 1e3;
+    EXPECT_NEAR(gain(0, 0), 0.5, 1e-9);
+    EXPECT_NEAR(gain(1, 0), 2.0 / 3, 1e-9);
+    EXPECT_NEAR(gain(0, 1), 0.5, 1e-9) << "the solution follows the frame's own velocity";
+}
+
 TEST_F(ErrorModelTest, independentIncrementsErrAsTheSolverSays)
 {
     params.covariance.model = "independent";

@@ -5,6 +5,7 @@
 #include <map>
 #include <vector>
 
+#include "monte_carlo.h"
 #include <gtest/gtest.h>
 
 namespace pointplane
@@ -52,6 +53,33 @@ TEST(ErrorsByView, tellNoiseFromErrorsByTheView)
         EXPECT_NEAR(errors.own(), own, 0.03 * (own + byView));
         EXPECT_NEAR(errors.byView(), byView, 0.03 * (own + byView));
     }
+}
+
+/** Ratios of variances scatter as chi-squares do: what is learnt is right on average, and as exact
+ * as 60 frames of 27 degrees of freedom tell. */
+TEST(ErrorsByView, areUnbiasedUnderNoise)
+{
+    constexpr int kDof = 9, kDraws = 300;
+    constexpr double kByFrame = 2, kByView = 8;
+    test::GaussianSampler random(1);
+    double own = 0, byView = 0;
+    for (int draw = 0; draw < kDraws; ++draw)
+    {
+        ErrorsByView errors(2);
+        for (int frame = 0; frame < 300; ++frame)
+        {
+            std::vector<ReferenceVariance> noisy = residuals(kByFrame, kByView);
+            for (ReferenceVariance& of : noisy)
+            {
+                of.variance *= random.vector<kDof>().squaredNorm() / kDof;
+            }
+            errors.update(noisy, kCorrelation, 1.0 / 30);
+        }
+        own += errors.own() / kDraws;
+        byView += errors.byView() / kDraws;
+    }
+    EXPECT_NEAR(own, kByFrame, 0.05 * kByFrame);
+    EXPECT_NEAR(byView, kByView, 0.05 * kByView);
 }
 
 /** The prior counts as the three dimensions of a plane. One reference with one plane, y = 4 at the

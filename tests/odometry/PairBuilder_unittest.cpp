@@ -104,6 +104,56 @@ TEST_F(PairBuilderTest, knowsHowTheReferenceChangesWithItsVelocity)
     }
 }
 
+/** What is learnt of the lens moves the features as their columns say. */
+TEST_F(PairBuilderTest, knowsHowFeaturesChangeWithTheLens)
+{
+    reference.T_world_cam = se3Exp((Vector6d() << 0.1, 0, -0.2, 0.3, 0.1, 0.2).finished());
+    reference.velocity = Vector6d::Zero();
+    // Both views agree: the point that both together tell is the measured one.
+    PointFeature& cur = association.points.front().cur;
+    cur.p_cam.mean = reference.T_world_cam * cur.p_cam.mean;
+    current.frame.camera.isNominal = true;
+    const auto started = [&]
+    {
+        CameraCalibrator out({}, {});
+        out.start(current.frame.camera, calibrationVariances({}, current.frame.camera));
+        return out;
+    };
+    calibrator = started();
+    build();
+    PairBuilder(previous, current, calibrator)
+        .addCameraErrors(
+            {association}, {Eigen::Isometry3d::Identity(), Vector6d::Zero()}, points, planes);
+    const PointPair point = points.front();
+    const PlanePair plane = planes.front();
+    for (const int error : {kPrincipalPointX, kPrincipalPointY, kFocalLength, kRadial})
+    {
+        PoseAnalysis frame;
+        const double information = 10 / calibrator.cov()(error, error);
+        frame.camera.information(error, error) = information;
+        frame.camera.gradient[error] = -1e-5 * information;
+        frame.cameraByReference = frame.camera;
+        calibrator = started();
+        (void)calibrator.update(frame);
+        const double learnt = calibrator.errors()[error];
+        ASSERT_GT(learnt, 1e-6) << error;
+        build();
+        const auto expectColumn =
+            [&](const Eigen::Vector3d& moved, const Eigen::Vector3d& before, const ByCamera& by)
+        {
+            EXPECT_THAT(
+                Eigen::Vector3d((moved - before) / learnt),
+                test::IsMatrixNear(Eigen::Vector3d(by.col(error)), 1e-3 * by.norm()))
+                << error;
+        };
+        expectColumn(points.front().ref.mean, point.ref.mean, point.dRef_dCamera);
+        expectColumn(points.front().cur.mean, point.cur.mean, point.dCur_dCamera);
+        EXPECT_GT(point.dCur_dCamera.col(error).norm(), 1e-5) << error;
+        expectColumn(planes.front().ref.theta_m, plane.ref.theta_m, plane.dRef_dCamera);
+        expectColumn(planes.front().cur.theta_m, plane.cur.theta_m, plane.dCur_dCamera);
+    }
+}
+
 /** Two images of a camera that moves on as before, in the same rows: they do not show how fast. To
  * take an unknown velocity for none would say that the camera has just started. */
 TEST_F(PairBuilderTest, aReferenceOfUnknownVelocityWasAsFastAsTheFrame)

@@ -57,6 +57,27 @@ TEST(ReferenceWindow, previousFirstThenKeyframesNewestFirst)
     EXPECT_EQ(window.previous().id, 4);
 }
 
+TEST(ReferenceWindow, asManyPlacesAreKeptAsWanted)
+{
+    for (const int most : {0, 2, 20})
+    {
+        ReferenceWindow::TParams params;
+        params.maxKeyframes = 1;
+        params.maxPlaces = most;
+        ReferenceWindow window(params);
+        for (int id = 1; id <= 5; ++id)
+        {
+            window.add(reference(id, id), true);
+        }
+        Ids kept;
+        for (const Reference& place : window.places())
+        {
+            kept.push_back(place.id);
+        }
+        EXPECT_EQ(kept, most == 0 ? Ids() : most == 2 ? Ids({3, 4}) : Ids({1, 2, 3, 4}));
+    }
+}
+
 TEST(ReferenceWindow, oldestKeyframeIsDropped)
 {
     ReferenceWindow::TParams params;

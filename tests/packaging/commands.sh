@@ -169,9 +169,10 @@ in_lab() {
 
 # copy_tree: the sources, to be written into.
 copy_tree() {
+    [[ -e $root/.git ]] || { echo "skipped: no clone"; exit 0; }
     mkdir tree
     (cd "$root" && git ls-files -z --cached --others --exclude-standard | xargs -0 cp --parents -t "$work/tree") ||
-        { echo "skipped: no clone"; exit 0; }
+        exit 1
     cd tree || exit 1
 }
 

@@ -5,9 +5,12 @@
 #include <opencv2/video/tracking.hpp>
 
 #include <cmath>
+#include <vector>
 
 #include "image_noise.h"
+#include "monte_carlo.h"
 #include "texture.h"
+#include "warped_patches.h"
 #include <gtest/gtest.h>
 
 using namespace pointplane;
@@ -72,6 +75,40 @@ TEST(PatchUncertainty, OfAnEdgeIsInfiniteAlongIt)
     EXPECT_GT(cov(1, 1), 1e5);
     EXPECT_NEAR(cov(0, 0), u.best() * u.best(), 1e-9);
     EXPECT_NEAR(cov(0, 1), 0, 1e-6);
+}
+
+/** Images of a texture, each with noise of its own: its corner is found as well as told. */
+TEST(PatchUncertainty, OfATextureIsThatOfMonteCarlo)
+{
+    constexpr int kSize = 40, kDraws = 1000;
+    constexpr double kNoise = 3;
+    const cv::Point2f centre(20, 20);
+    const test::Texture texture(4, 7, 30);
+    cv::Mat_<double> clean(kSize, kSize);
+    clean.forEach([&](double& grey, const int* at) { grey = texture(at[1], at[0]); });
+    test::GaussianSampler random(1);
+    const auto grey = [&](int u, int v) { return clean(v, u); };
+    const auto draw = [&] { return test::renderImage(kSize, kSize, grey, kNoise, &random); };
+    for (const Brightness brightness : {Brightness::Constant, Brightness::Shifted})
+    {
+        std::vector<Eigen::Vector2d> errors;
+        Eigen::Matrix2d told = Eigen::Matrix2d::Zero();
+        for (int i = 0; i < kDraws; ++i)
+        {
+            const cv::Mat reference = draw();
+            const Patch patch(reference, derivativesOf(reference), centre, kWindowPx / 2);
+            const PatchUncertainty uncertainty = patchUncertainty(patch, kNoise, brightness);
+            told += uncertainty.covariance(1) / kDraws;
+            WarpedPatches patches;
+            patches.reserve(1, kWindowPx / 2);
+            patches.add(patch, brightness, uncertainty.measured(1));
+            cv::Point2f found = centre;
+            ASSERT_TRUE(patches.refine(0, draw(), Eigen::Matrix2d::Identity(), found));
+            errors.emplace_back(
+                static_cast<double>(found.x - centre.x), static_cast<double>(found.y - centre.y));
+        }
+        EXPECT_LT(test::whitenedDifference(test::sampleCovariance<2>(errors), told), 0.2);
+    }
 }
 
 TEST(PatchUncertainty, ASlopeGoesWhereItsBrightnessIs)

@@ -364,6 +364,44 @@ TEST(PoseSolver, studentTBearsAWrongPlane)
 }
 
 /** One bad feature must not take the place of all the others. */
+/** A prediction that is off by more than expected counts as Student's t says: as a Gaussian one
+ * whose information is (dof + 6) / (dof + its squared norm) of what it claims. */
+TEST(PoseSolver, studentTBearsAWrongPrediction)
+{
+    PairWorld world(31);
+    world.addPoints(4);
+    PoseSolver::TParams student = test::gaussianSolver();
+    student.priorStudentDof = 5;
+    student.maxIterations = 100;
+    PoseGaussian prior;
+    prior.cov = 1e-4 * Matrix6d::Identity();
+    const auto norm2 = [&](const PoseEstimate& e)
+    { return leftError(e.pose().mean, prior.mean).squaredNorm() / 1e-4; };
+    const auto meanWith = [&](const PoseSolver::TParams& params, double weight)
+    {
+        const PoseGaussian weighed{prior.mean, prior.cov / weight};
+        return solve(params, world.drawPoints(0), {}, weighed);
+    };
+
+    world.T_prev_cur.translation().x() = 0.06;
+    const PoseEstimate robust = meanWith(student, 1);
+    ASSERT_GT(norm2(robust), 12);
+    const double weight = 11 / (5 + norm2(robust));
+    const auto gaussian = [&](double factor)
+    {
+        PoseSolver::TParams params = test::gaussianSolver();
+        params.maxIterations = 100;
+        return meanWith(params, factor).pose().mean;
+    };
+    EXPECT_THAT(robust.pose().mean, test::IsNearPose(gaussian(weight), 1e-5, 1e-5));
+    EXPECT_GT((robust.pose().mean.translation() - gaussian(1).translation()).norm(), 1e-3);
+
+    world.T_prev_cur.translation().x() = 0.01;
+    const PoseEstimate expected = meanWith(student, 1);
+    ASSERT_LT(norm2(expected), 6);
+    EXPECT_THAT(expected.pose().mean, test::IsNearPose(gaussian(1), 1e-9, 1e-9));
+}
+
 TEST(PoseSolver, pairsThatAreNotFiniteCountForNothing)
 {
     const double nan = std::numeric_limits<double>::quiet_NaN();

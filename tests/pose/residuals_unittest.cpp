@@ -229,6 +229,46 @@ TEST(Residuals, changeWithTheCamera)
     check(randomPlanePair(sampler), planeResidualClosestPoint, plane);
 }
 
+/** The reference's features have moved with its velocity. */
+TEST(Residuals, changeWithTheReferencesVelocity)
+{
+    test::GaussianSampler sampler(6);
+    const Motion motion = randomMotion(sampler);
+    const auto check = [&](auto pair, auto residual, auto&& meanOf)
+    {
+        pair.dRef_dV = randomMatrix36(sampler);
+        const auto with = [&](const Vector6d& velocity) -> Eigen::Vector3d
+        {
+            auto moved = pair;
+            meanOf(moved.ref) += pair.dRef_dV * velocity;
+            return residual(moved, motion).r;
+        };
+        const Matrix36d expected = test::numericJacobian(with, Vector6d::Zero().eval());
+        EXPECT_THAT(residual(pair, motion).ofReferenceVelocity, test::IsMatrixNear(expected, 1e-5));
+    };
+    const auto point = [](auto& g) -> Eigen::Vector3d& { return g.mean; };
+    const auto plane = [](auto& g) -> Eigen::Vector3d& { return g.theta_m; };
+    check(randomPointPair(sampler), pointResidual, point);
+    check(randomPlanePair(sampler), planeResidualMinimal, plane);
+    check(randomPlanePair(sampler), planeResidualClosestPoint, plane);
+}
+
+TEST(Residuals, covariancesOfTransformedPlanesAreOfFirstOrder)
+{
+    test::GaussianSampler sampler(7);
+    for (int i = 0; i < 20; ++i)
+    {
+        const Eigen::Isometry3d T = randomPose(sampler);
+        const PlaneGaussian plane = randomPlanePair(sampler).cur;
+        const auto moved = [&](const Eigen::Vector3d& theta_m) -> Eigen::Vector3d
+        { return minimalForm(transformed(T, hessianForm(theta_m))); };
+        const Eigen::Matrix3d J = test::numericJacobian(moved, plane.theta_m);
+        EXPECT_THAT(transformJacobian(T, plane.theta_m), test::IsMatrixNear(J, 1e-6));
+        EXPECT_LT(
+            test::whitenedDifference(transformed(T, plane).cov_m, propagate(J, plane.cov_m)), 1e-6);
+    }
+}
+
 TEST(Residuals, covariancesAreThoseOfMonteCarlo)
 {
     test::GaussianSampler sampler(4);

@@ -133,13 +133,59 @@ TEST_F(DepthNoiseLearnerTest, noNoiseIsRendered)
     expectGiven(noise);
 }
 
+/** A hand scanner over a table: what is near is known, and beyond, what is given. */
 TEST_F(DepthNoiseLearnerTest, nearReadingsDoNotTellHowNoiseGrows)
 {
-    const DepthNoise noise =
-        learnt(0.2, 0.4, [&](double z) { return inMillimetres(z + 0.4e-3 * normal()); }, {});
-    EXPECT_EQ(noise.kind, "timeOfFlight");
-    EXPECT_NEAR(noise.sigmaDepth, 1.4 * std::hypot(0.4e-3, 1e-3 / std::sqrt(12)), 2e-4);
-    EXPECT_LT(noise.sigmaInverseDepth, 1e-5);
+    const auto scanner = [&](double z) { return inMillimetres(z + 0.4e-3 * normal()); };
+    DepthNoise given;
+    for (const char* kind : {"learn", "activeStereo"})
+    {
+        given.kind = kind;
+        const DepthNoise noise = learnt(0.2, 0.4, scanner, given);
+        EXPECT_EQ(noise.kind, kind);
+        EXPECT_NEAR(noise.sigmaDepth, 1.4 * std::hypot(0.4e-3, 1e-3 / std::sqrt(12)), 2e-4);
+        EXPECT_EQ(noise.sigmaInverseDepth, given.sigmaInverseDepth);
+    }
+    given.kind = "timeOfFlight";  // which does not grow
+    EXPECT_LT(learnt(0.2, 0.4, scanner, given).sigmaInverseDepth, 1e-5);
+}
+
+TEST_F(DepthNoiseLearnerTest, aKindThatIsSaidHasTheGivenNoiseUntilItIsMeasured)
+{
+    for (const char* kind : {"timeOfFlight", "activeStereo"})
+    {
+        DepthNoise given;
+        given.kind = kind;
+        DepthNoiseLearner learner(given);
+        expectGiven(learner.noise());
+        learner.update(cv::Mat(20, 20, CV_32FC1, cv::Scalar(1)));  // four cells
+        learner.update(cv::Mat(240, 320, CV_32FC1, cv::Scalar(std::nan(""))));
+        expectGiven(learner.noise());
+    }
+}
+
+/** Before a wall square to it, all readings of a quiet camera round to the same millimetre. */
+TEST_F(DepthNoiseLearnerTest, aQuietCameraIsNotRendered)
+{
+    for (const double sigma : {0.05e-3, 0.1e-3, 0.2e-3, 0.5e-3})
+    {
+        for (const double far : {2.0003, 2.1, 3.0})
+        {
+            for (const double near : {2.0003, 1.2})
+            {
+                const DepthNoise noise = learnt(
+                    near, far, [&](double z) { return inMillimetres(z + sigma * normal()); }, {});
+                EXPECT_NE(noise.kind, "rendered") << sigma << ", " << near << " to " << far;
+                // Rounded readings tell no less than the rounding.
+                EXPECT_GT(noise.sigmaZ(2), 1e-3 / std::sqrt(12)) << sigma << ", " << near;
+                const bool isSquare = near == far;
+                if (!isSquare)
+                {
+                    EXPECT_EQ(noise.kind, "timeOfFlight") << sigma << ", " << near << " " << far;
+                }
+            }
+        }
+    }
 }
 
 TEST_F(DepthNoiseLearnerTest, whatIsSaidIsKept)

@@ -23,7 +23,7 @@ bool areNear(
     const double worst = (actual - expected).cwiseAbs().maxCoeff();
     out << "largest difference " << worst << "\nactual:\n" << actual << "\nexpected:\n" << expected;
     explanation = out.str();
-    return actual.allFinite() && worst <= tolerance;
+    return actual.allFinite() && expected.allFinite() && worst <= tolerance;
 }
 
 bool areNear(

@@ -86,6 +86,7 @@ struct ObservationConverter::Impl
 
     std::string externals;
     std::map<std::string, CameraComment> told;  // by label
+    mutable std::map<std::string, int> grayBits;  // likewise; of 16 bit images so far
     std::set<std::string> unknownKeys;
 
     // The latest registration: its ray table is the costly part.
@@ -97,13 +98,17 @@ struct ObservationConverter::Impl
 cv::Mat ObservationConverter::Impl::intensityOf(const CObservation3DRangeScan& scan) const
 {
     const mrpt::img::CImage& image = scan.intensityImage;
+    int& bits = grayBits.try_emplace(scan.sensorLabel, kFewestBits).first->second;
     if (image.isExternallyStored())
     {
-        return grayOf(readImageFile(
-            resolved(image.getExternalStorageFile()), cv::IMREAD_ANYCOLOR | cv::IMREAD_ANYDEPTH));
+        return grayOf(
+            readImageFile(
+                resolved(image.getExternalStorageFile()),
+                cv::IMREAD_ANYCOLOR | cv::IMREAD_ANYDEPTH),
+            bits);
     }
     requireUsable(!image.isEmpty(), "intensity image is empty");
-    return grayOf(image.asCvMatRef());
+    return grayOf(image.asCvMatRef(), bits);
 }
 
 cv::Mat ObservationConverter::Impl::depthOf(

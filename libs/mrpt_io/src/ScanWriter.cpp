@@ -19,7 +19,6 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <limits>
 
 namespace pointplane
 {
@@ -224,7 +223,6 @@ std::string problemOfDepthUnits(double unitsPerMetre)
 
 cv::Mat depthInUnits(const cv::Mat& depth, double unitsPerMetre)
 {
-    constexpr double kLargest = std::numeric_limits<std::uint16_t>::max();
     cv::Mat out(depth.size(), CV_16UC1);
     for (int v = 0; v < depth.rows; ++v)
     {
@@ -233,8 +231,9 @@ cv::Mat depthInUnits(const cv::Mat& depth, double unitsPerMetre)
         for (int u = 0; u < depth.cols; ++u)
         {
             const double units = static_cast<double>(from[u]) * unitsPerMetre;
-            to[u] = units > 0 && units <= kLargest ? static_cast<std::uint16_t>(std::lround(units))
-                                                   : std::uint16_t{0};
+            to[u] = units > 0 && units <= kSaturatedDepth - 1
+                        ? static_cast<std::uint16_t>(std::lround(units))
+                        : std::uint16_t{0};
         }
     }
     return out;

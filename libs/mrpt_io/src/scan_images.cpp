@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scan_images.h"
 
+#include <pointplane/mrpt_io/ScanWriter.h>
+
 #include <opencv2/imgproc.hpp>
 
 #include <cstddef>
@@ -22,12 +24,18 @@ void requireUsable(bool condition, const std::string& problem)
     }
 }
 
-cv::Mat grayOf(const cv::Mat& image)
+cv::Mat grayOf(const cv::Mat& image, int& bits)
 {
     cv::Mat bytes = image;
     if (image.depth() == CV_16U)
     {
-        image.convertTo(bytes, CV_8U, 1.0 / 256);
+        double brightest = 0;
+        cv::minMaxIdx(image.reshape(1), nullptr, &brightest);
+        while (brightest >= 1 << bits)
+        {
+            bits += 2;
+        }
+        image.convertTo(bytes, CV_8U, 256.0 / (1 << bits));
     }
     requireUsable(bytes.depth() == CV_8U, "intensity image is neither 8 nor 16 bit");
     cv::Mat gray;
@@ -56,7 +64,8 @@ cv::Mat depthInMetres(const mrpt::math::CMatrix_u16& raw, float units)
         auto* out = depth.ptr<float>(v);
         for (int u = 0; u < cols; ++u)
         {
-            out[u] = in[u] == 0 ? kNoDepth : static_cast<float>(in[u]) * units;
+            const bool isReading = in[u] != 0 && in[u] != kSaturatedDepth;
+            out[u] = isReading ? static_cast<float>(in[u]) * units : kNoDepth;
         }
     }
     return depth;

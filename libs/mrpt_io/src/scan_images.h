@@ -25,10 +25,13 @@ void requireUsable(bool condition, const std::string& problem);
 /** @name Images of a scan as the odometry takes them
  * @{ */
 
-/** CV_8UC1. \param image of 8 or 16 bit, grey, BGR or BGRA \throws FrameProblem */
-[[nodiscard]] cv::Mat grayOf(const cv::Mat& image);
+/** CV_8UC1. \param image of 8 or 16 bit, grey, BGR or BGRA
+ * \param bits that its camera has used of 16, kFewestBits at first: grows to 10, 12, 14 or 16
+ * \throws FrameProblem */
+[[nodiscard]] cv::Mat grayOf(const cv::Mat& image, int& bits);
+constexpr int kFewestBits = 8;
 
-/** CV_32FC1, NaN = no reading. \param raw readings; 0 is none */
+/** CV_32FC1, NaN = no reading. \param raw readings; 0 and kSaturatedDepth are none */
 [[nodiscard]] cv::Mat depthInMetres(const mrpt::math::CMatrix_u16& raw, float units);
 
 /** Distances along the rays to distances along the optical axis. */

@@ -190,13 +190,14 @@ Alignment Odometry::Impl::align(const Features& current, FrameDiagnostics& diagn
         params.pipeline.searchImages ? recognise(frontEnd, current, track) : std::nullopt;
     if (place)
     {
-        const Track before = track;
-        track.recall(*place);
-        out = aligner.align(frontEnd, current, track, errors, diagnostics);
-        if (!out.holds)
+        // On a copy: key frames that may be in view make room only for a place that is.
+        Track recalled = track;
+        recalled.recall(*place);
+        FrameDiagnostics ofRecalled = diagnostics;
+        if (aligner.align(frontEnd, current, recalled, errors, ofRecalled).holds)
         {
-            track = before;  // key frames that may be in view do not make room for it
-            out.associations.clear();
+            track.recall(*place);
+            out = aligner.align(frontEnd, current, track, errors, diagnostics);
         }
     }
     if (!out.holds && track.restartAtUnmatched())

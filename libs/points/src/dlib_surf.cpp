@@ -34,9 +34,11 @@ struct DlibSurf::IntegralImage
     [[nodiscard]] long nc() const { return sums.cols - 1; }
     [[nodiscard]] int get_sum_of_area(const dlib::rectangle& r) const
     {
-        const int* top = sums.ptr<int>(static_cast<int>(r.top()));
-        const int* bottom = sums.ptr<int>(static_cast<int>(r.bottom() + 1));
-        return bottom[r.right() + 1] - bottom[r.left()] - top[r.right() + 1] + top[r.left()];
+        // Modulo 2^32: the sums of large images overflow, those of areas do not.
+        const auto* top = sums.ptr<unsigned>(static_cast<int>(r.top()));
+        const auto* bottom = sums.ptr<unsigned>(static_cast<int>(r.bottom() + 1));
+        return static_cast<int>(
+            bottom[r.right() + 1] - bottom[r.left()] - top[r.right() + 1] + top[r.left()]);
     }
 
     cv::Mat sums;

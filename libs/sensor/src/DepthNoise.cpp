@@ -43,7 +43,9 @@ std::string describe(const DepthNoise& noise)
     }
     std::ostringstream out = numberStream();
     out << std::setprecision(2)
-        << (noise.kind == "learn" ? "assumed (nothing told it)" : noise.kind);
+        << (noise.kind != "learn" ? noise.kind
+            : noise.learntTo > 0  ? "of a kind that shows beyond 0.75 m"
+                                  : "assumed (nothing told it)");
     for (const double z : distances)
     {
         out << ", " << 1e3 * unbent.sigmaZ(z) << " mm at " << z << " m";

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "noise_at_depths.h"
 
@@ -52,6 +53,21 @@ constexpr double kLessNoise = 0.5, kMoreNoise = 2;
 constexpr double kRenderedSigma = 1e-4;  // [m]
 
 [[nodiscard]] double depthOfBin(int bin) { return kLeastDepth * std::exp2(0.5 * (bin + 0.5)); }
+
+/** Of its values, some lie between the least and the largest. Otherwise they are rounded to one or
+ * two, which hides their noise. */
+[[nodiscard]] bool hasThreeLevels(const cv::Mat& cell)
+{
+    float least = std::numeric_limits<float>::infinity(), largest = 0;
+    const auto widen = [&](float z)
+    {
+        least = z < least ? z : least;
+        largest = z > largest ? z : largest;
+    };
+    const auto isBetween = [&](float z) { return z > least && z < largest; };
+    std::for_each(cell.begin<float>(), cell.end<float>(), widen);
+    return std::any_of(cell.begin<float>(), cell.end<float>(), isBetween);
+}
 
 /** A quantile of a histogram of logarithms. \return 0 where it is empty */
 template <class Histogram>
@@ -139,7 +155,7 @@ void DepthNoiseLearner::addCell(const cv::Mat& depth, int u0, int v0, Counts& co
         }
     }
     const double n = A(0, 0);
-    if (n < kLeastValid * kCellPx * kCellPx)
+    if (n < kLeastValid * kCellPx * kCellPx || !hasThreeLevels(depth({u0, v0, kCellPx, kCellPx})))
     {
         return;
     }
@@ -199,21 +215,22 @@ std::string DepthNoiseLearner::judgedKind(const std::vector<NoiseAtDepth>& depth
     {
         return "structuredLight";
     }
-    if (depths.empty())
+    const std::vector<NoiseAtDepth> far = farOf(depths);
+    if (far.empty())
     {
         return "learn";  // nothing told it yet
     }
     if (std::any_of(
-            depths.begin(),
-            depths.end(),
+            far.begin(),
+            far.end(),
             [](const NoiseAtDepth& at) { return at.sigma < kRenderedSigma; }))
     {
         return "rendered";
     }
-    const double level = noiseLevelOf(depths, given_.sigmaInverseDepth);
-    return level < kLessNoise || !growsLikeTriangulation(depths) ? "timeOfFlight"
-           : level > kMoreNoise                                  ? "activeStereo"
-                                                                 : "structuredLight";
+    const double level = noiseLevelOf(far, given_.sigmaInverseDepth);
+    return level < kLessNoise || !growsLikeTriangulation(far) ? "timeOfFlight"
+           : level > kMoreNoise                               ? "activeStereo"
+                                                              : "structuredLight";
 }
 
 void DepthNoiseLearner::decide()
@@ -227,18 +244,15 @@ void DepthNoiseLearner::decide()
     noise_.kind = given_.kind == "learn" ? judgedKind(depths) : given_.kind;
     noise_.sigmaDepth = noise_.sigmaRelative = 0;
     const bool isStructured = noise_.kind == "structuredLight";
-    if (noise_.kind == "learn" || noise_.kind == "rendered" ||
+    if (depths.empty() || noise_.kind == "rendered" ||
         (isStructured && (given_.kind != "learn" || hasLevels())))
     {
         return;
     }
     const VarianceFit fit(depths);
-    if (!depths.empty())
-    {
-        const double half = std::exp2(0.25);  // of a bin
-        noise_.learntFrom = depths.front().depth / half;
-        noise_.learntTo = depths.back().depth * half;
-    }
+    const double half = std::exp2(0.25);  // of a bin
+    noise_.learntFrom = depths.front().depth / half;
+    noise_.learntTo = depths.back().depth * half;
     if (isStructured)
     {
         // Its size without its levels: another camera perhaps, with more noise than is known.
@@ -249,6 +263,9 @@ void DepthNoiseLearner::decide()
     const Eigen::Vector2d variance = fit.solution();
     noise_.sigmaRelative = kBend;
     noise_.sigmaDepth = kBeyondCell * std::sqrt(variance.x());
-    noise_.sigmaInverseDepth = std::max(1e-6, kBeyondCell * std::sqrt(variance.y()));
+    if (noise_.kind == "timeOfFlight" || !farOf(depths).empty())
+    {
+        noise_.sigmaInverseDepth = std::max(1e-6, kBeyondCell * std::sqrt(variance.y()));
+    }
 }
 }  // namespace pointplane

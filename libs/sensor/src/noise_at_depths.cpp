@@ -18,18 +18,22 @@ constexpr double kTriangulation = 1, kLeastSpread = 0.1;
 constexpr double kTwoDistances = 1e-6;
 }  // namespace
 
+std::vector<NoiseAtDepth> farOf(std::vector<NoiseAtDepth> depths)
+{
+    const auto isNear = [](const NoiseAtDepth& at) { return at.depth <= kNearestStep; };
+    depths.erase(std::remove_if(depths.begin(), depths.end(), isNear), depths.end());
+    return depths;
+}
+
 double noiseLevelOf(const std::vector<NoiseAtDepth>& depths, double sigmaInverseDepth)
 {
     double sum = 0, cells = 0;
     for (const auto& [z, sigma, n] : depths)
     {
-        if (z > kNearestStep)
-        {
-            sum += n * std::log(std::max(sigma, kLeastSigma) / (sigmaInverseDepth * z * z));
-            cells += n;
-        }
+        sum += n * std::log(std::max(sigma, kLeastSigma) / (sigmaInverseDepth * z * z));
+        cells += n;
     }
-    return cells > 0 ? std::exp(sum / cells) : 0;
+    return std::exp(sum / cells);
 }
 
 bool growsLikeTriangulation(const std::vector<NoiseAtDepth>& depths)
@@ -37,15 +41,12 @@ bool growsLikeTriangulation(const std::vector<NoiseAtDepth>& depths)
     double cells = 0, sumX = 0, sumXX = 0, sumY = 0, sumXY = 0;
     for (const auto& [z, sigma, n] : depths)
     {
-        if (z > kNearestStep)
-        {
-            const double x = std::log(z), y = std::log(std::max(sigma, kLeastSigma));
-            cells += n;
-            sumX += n * x;
-            sumXX += n * x * x;
-            sumY += n * y;
-            sumXY += n * x * y;
-        }
+        const double x = std::log(z), y = std::log(std::max(sigma, kLeastSigma));
+        cells += n;
+        sumX += n * x;
+        sumXX += n * x * x;
+        sumY += n * y;
+        sumXY += n * x * y;
     }
     const double spread = cells * sumXX - sumX * sumX;
     return spread < std::pow(kLeastSpread * cells, 2) ||

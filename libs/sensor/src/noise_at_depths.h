@@ -18,8 +18,11 @@ using NoiseAtDepth = DepthNoiseLearner::NoiseAtDepth;
 constexpr double kNearestStep = 0.75;  //!< nearer, millimetres are coarser than disparities [m]
 constexpr double kLeastSigma = 1e-6;   //!< [m]
 
-/** Mean logarithm of the noise over that of structured light, where that is larger than what
- * rounding makes. \return as a factor; 0 if all depths are nearer */
+/** Those that are farther than kNearestStep. */
+[[nodiscard]] std::vector<NoiseAtDepth> farOf(std::vector<NoiseAtDepth> depths);
+
+/** Mean logarithm of the noise over that of structured light. \param depths at least one
+ * \return as a factor */
 [[nodiscard]] double noiseLevelOf(
     const std::vector<NoiseAtDepth>& depths, double sigmaInverseDepth);
 

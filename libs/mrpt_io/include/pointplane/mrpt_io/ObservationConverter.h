@@ -26,7 +26,8 @@ struct ConvertedFrame
  *
  * It takes any rangeUnits and image size, range_is_depth off, external images and ranges, lens
  * distortion, negative fy. Intensity may be in colour, monochrome or missing; if it is missing, the
- * frame's `gray` is empty and its camera the depth camera. Depth that is not registered to the
+ * frame's `gray` is empty and its camera the depth camera. Of 16 bit intensity, the bits count that
+ * the camera has used so far. Depth that is not registered to the
  * intensity image (other intrinsics, size, or relativePoseIntensityWRTDepth) is rendered into the
  * intensity camera. maxRange is ignored: writers leave it at its default while measuring farther.
  *

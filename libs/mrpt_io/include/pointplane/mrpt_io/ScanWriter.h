@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 #include <opencv2/core/mat.hpp>
 
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
@@ -67,6 +68,9 @@ class ScanWriter
     std::unique_ptr<ImagesFolder> images_;  //!< none: embedded
     std::map<std::string, int> numOfStamp_;
 };
+
+/** A 16 bit reading that is none, as 0: farther than its units reach. */
+constexpr std::uint16_t kSaturatedDepth = 65535;
 
 /** Fewest and most units per metre: metres, micrometres. */
 constexpr double kLeastDepthUnits = 1, kMostDepthUnits = 1e6;
