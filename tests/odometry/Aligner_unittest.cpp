@@ -131,8 +131,8 @@ TEST_F(AlignerTest, aMotionWithoutItsDoubtfulPointsIsComparedAnew)
     EXPECT_LE(alignment.agreement.seen(), PixelGrid::kSamples * PixelGrid::kSamples);
 }
 
-/** Nothing is known of the motion over half a second, and few points agree. Their motion is the best
- * guess, but the one without them may be right as well. */
+/** Nothing is known of the motion over half a second, and few points agree. Their motion is the
+ * best guess, but the one without them may be right as well. */
 TEST_F(AlignerTest, aGuessIsAsUncertainAsItsDistanceFromTheOtherOne)
 {
     RgbdFrame dark = darkBut(cv::Rect(0, 140, 40, 40));
@@ -140,9 +140,9 @@ TEST_F(AlignerTest, aGuessIsAsUncertainAsItsDistanceFromTheOtherOne)
     const Alignment alignment = align(dark);
     ASSERT_TRUE(alignment.isOfDoubtedPoints) << alignment.reason;
     const PoseSolver solver(params_.poseSolver);
-    const Motion without = solver.solve(alignment.problem, alignment.predicted.motion.mean).motion.mean;
-    const Vector6d apart =
-        leftError(alignment.estimate.motion.mean.T_prev_cur, without.T_prev_cur);
+    const Motion without =
+        solver.solve(alignment.problem, alignment.predicted.motion.mean).motion.mean;
+    const Vector6d apart = leftError(alignment.estimate.motion.mean.T_prev_cur, without.T_prev_cur);
     EXPECT_GT(apart.norm(), 1e-4);
     EXPECT_THAT(
         alignment.doubt,

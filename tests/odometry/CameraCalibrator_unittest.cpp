@@ -264,6 +264,19 @@ TEST(CameraCalibrator, learnsAShutterByHand)
     EXPECT_EQ(fixed.complete({}).readoutColour, 0.021);
 }
 
+/** What moves with a time that is not known well errs by the time and by its uncertainty. */
+TEST(CameraCalibrator, rootMeanSquaresByHand)
+{
+    const CameraCalibrator calibrator = calibratorOf({});
+    const ShutterModel learnt = calibrator.rootMeanSquare({});
+    EXPECT_NEAR(learnt.readoutColour, std::hypot(0.021, 0.005), 1e-12);
+    EXPECT_NEAR(learnt.readoutDepth, std::hypot(0.022, 0.005), 1e-12);
+    EXPECT_NEAR(learnt.depthDelay, -std::hypot(0.003, 0.005), 1e-12);
+    const ShutterModel told = calibrator.rootMeanSquare({0.03, kUnknown, kUnknown});
+    EXPECT_NEAR(told.readoutColour, 0.03, 1e-12);
+    EXPECT_NEAR(told.readoutDepth, std::hypot(0.022, 0.005), 1e-12);
+}
+
 /** Images may be turned: the first row or the last one may be exposed first. */
 TEST(CameraCalibrator, findsOutWhichRowIsTheFirst)
 {

@@ -85,14 +85,12 @@ TEST_F(ErrorModelTest, doubtIsNoise)
         params.covariance.model = model;
         ErrorModel errors(params);
         (void)errors.changeCamera(camera);
-        ErrorModel::Measured frame{
-            {&reference}, estimate, analysis, 1e-9, Matrix12d::Zero()};
+        ErrorModel::Measured frame{{&reference}, estimate, analysis, 1e-9, Matrix12d::Zero()};
         const Matrix12d without = errors.learn(frame).noise;
         frame.doubt(0, 0) = 0.25;
         frame.doubt(0, 5) = frame.doubt(5, 0) = 0.1;
         const Matrix12d added = errors.learn(frame).noise - without;
-        EXPECT_THAT(
-            Matrix6d(added.topLeftCorner<6, 6>()), test::IsMatrixNear(frame.doubt, 1e-12));
+        EXPECT_THAT(Matrix6d(added.topLeftCorner<6, 6>()), test::IsMatrixNear(frame.doubt, 1e-12));
         EXPECT_TRUE(added.bottomRows<6>().isZero(1e-12));
     }
 }

@@ -2,56 +2,70 @@
 #include <pointplane/odometry/Odometry.h>
 #include <pointplane/simulation/SimulatedSequence.h>
 
-#include <algorithm>
 #include <iostream>
 
+#include "hell_frames.h"
 #include <gtest/gtest.h>
 
 namespace pointplane
 {
 namespace
 {
-/** Distance between the last estimated and the last true position, start aligned [m]. */
-struct EndErrors
+/** What became of an odometry on the whole sequence. */
+struct Course
 {
-    double planes{0}, both{0};
+    Odometry odometry;
+    OdometryResult last;
+    double nees{0};  //!< of increments, per degree of freedom: mean
     int untracked{0};
-};
 
-EndErrors run(const SimulationParams& params)
+    void process(const SimulatedSequence& sequence, int i, const RgbdFrame& frame)
+    {
+        last = odometry.process(frame);
+        if (i > 0)
+        {
+            const Eigen::Isometry3d truth = sequence.trueMotion(i - 1, i);
+            const double sigmas = test::normalisedError(truth, last.increment);
+            nees += sigmas * sigmas / (sequence.numFrames() - 1);
+            untracked += last.status == TrackingStatus::Tracked ? 0 : 1;
+        }
+    }
+
+    /** Expects an end at most so far from the true one, start aligned [m]. */
+    void expectEnd(const SimulatedSequence& sequence, const char* features, double most) const
+    {
+        const Eigen::Isometry3d end = sequence.trueMotion(0, sequence.numFrames() - 1);
+        const double error = (last.pose.mean.translation() - end.translation()).norm();
+        const double sigmas = test::normalisedError(end, last.pose);
+        std::cout << features << ": end error " << 1e3 * error << " mm, " << sigmas
+                  << " standard deviations; NEES of increments " << nees << "\n";
+        EXPECT_LT(error, most) << features;
+        EXPECT_LT(sigmas, 3) << features;
+        EXPECT_LT(nees, 2) << features;
+        EXPECT_EQ(untracked, 0) << features;
+    }
+};
+}  // namespace
+
+/** The sequence of [P17, Fig. 5], whose planes alone ended 114 mm away, in a quarter of its pixels.
+ */
+TEST(OdometryCorner, wholeSequenceEndsWhereItShould)
 {
-    const SimulatedSequence sequence("corner", params, 1);
+    SimulationParams small;
+    small.width = 320;
+    small.height = 240;
+    const SimulatedSequence sequence("corner", small, 1);
     OdometryParams planesOnly;
     planesOnly.pipeline.usePoints = false;
-    Odometry planes(planesOnly), both;
-    OdometryResult lastPlanes, lastBoth;
-    EndErrors out;
+    Course planes{Odometry(planesOnly), {}}, both{Odometry(), {}};
     for (int i = 0; i < sequence.numFrames(); ++i)
     {
         const RgbdFrame frame = sequence.frame(i);
-        lastPlanes = planes.process(frame);
-        lastBoth = both.process(frame);
-        for (const OdometryResult& r : {lastPlanes, lastBoth})
-        {
-            out.untracked +=
-                r.status == TrackingStatus::Predicted || r.status == TrackingStatus::Lost ? 1 : 0;
-        }
+        planes.process(sequence, i, frame);
+        both.process(sequence, i, frame);
     }
-    const Eigen::Vector3d end = sequence.trueMotion(0, sequence.numFrames() - 1).translation();
-    out.planes = (lastPlanes.pose.mean.translation() - end).norm();
-    out.both = (lastBoth.pose.mean.translation() - end).norm();
-    std::cout << "end error, planes alone " << 1e3 * out.planes << " mm, points and planes "
-              << 1e3 * out.both << " mm\n";
-    return out;
-}
-}  // namespace
-
-/** The sequence of [P17, Fig. 5], whose planes alone ended 114 mm away. */
-TEST(OdometryCorner, wholeSequenceEndsWhereItShould)
-{
-    const EndErrors errors = run({});
-    EXPECT_LT(errors.planes, 0.114);
-    EXPECT_LT(errors.both, 0.020);
-    EXPECT_EQ(errors.untracked, 0);
+    planes.expectEnd(sequence, "planes alone", 0.0045);
+    both.expectEnd(sequence, "points and planes", 0.003);
+    EXPECT_GT(both.nees, 0.3);
 }
 }  // namespace pointplane

@@ -85,7 +85,7 @@ struct ObservationConverter::Impl
         ConvertedFrame& out) const;
 
     std::string externals;
-    std::map<std::string, CameraComment> told;  // by label
+    std::map<std::string, CameraComment> told;    // by label
     mutable std::map<std::string, int> grayBits;  // likewise; of 16 bit images so far
     std::set<std::string> unknownKeys;
 
