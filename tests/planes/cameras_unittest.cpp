@@ -103,6 +103,8 @@ struct CameraOfAKind
     const char *name, *kind;
 };
 
+void PrintTo(const CameraOfAKind& camera, std::ostream* out) { *out << camera.name; }
+
 class PlanesOfCameras : public testing::TestWithParam<CameraOfAKind>
 {
 };
@@ -128,7 +130,7 @@ INSTANTIATE_TEST_SUITE_P(
     PlanesOfCameras,
     testing::Values(
         CameraOfAKind{"kinect", "structuredLight"},
-        CameraOfAKind{"d435", "activeStereo"},
+        CameraOfAKind{"d435", "structuredLight"},  // less than twice a Kinect's noise
         CameraOfAKind{"azure", "timeOfFlight"},
         CameraOfAKind{"phone", "timeOfFlight"}),
     [](const auto& camera) { return std::string(camera.param.name); });
