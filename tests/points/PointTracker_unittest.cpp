@@ -318,31 +318,23 @@ TEST(PointTracker, BrightnessDoesNotMatter)
     EXPECT_LT(errorsOf(reference, tracks, {1.5, 0.5}).rms, 0.18);
 }
 
-/** A lamp is switched on: all become brighter by half. Something that alone becomes so is another
- * thing. */
-TEST(PointTracker, WhatBecomesBrighterTogetherIsFoundAgain)
+/** Exposure does not make a point so much brighter: it is another one. */
+TEST(PointTracker, WhatBecomesMuchBrighterIsAnother)
 {
     const PointTracker tracker = makeTracker();
-    const auto halfAsBright = [](RgbdFrame frame, double factor)
+    const auto halfAsBright = [](RgbdFrame frame)
     {
-        frame.gray.convertTo(frame.gray, CV_8U, 0.5 * factor);
+        frame.gray.convertTo(frame.gray, CV_8U, 0.5);
         return frame;
     };
-    const PointReference reference = tracker.makeReference(halfAsBright(wall({0, 0}, 1), 1));
-    const auto numPoints = static_cast<double>(reference.points.size());
-    const RgbdFrame lit = halfAsBright(wall({1.5, 0.5}, 2), 1.7);
-    const auto tracks =
-        tracker.track(reference, lit, tracker.pyramid(lit.gray), Eigen::Isometry3d::Identity());
-    EXPECT_GT(static_cast<double>(tracks.size()), 0.9 * numPoints);
-    // Steps that assume the same contrast overshoot; tracks say so by how little their patches fit.
-    EXPECT_LT(errorsOf(reference, tracks, {1.5, 0.5}).rms, 0.4);
-    EXPECT_LT(neesOf(reference, tracks, {1.5, 0.5}, lit.camera), 1);
-
-    RgbdFrame partlyLit = halfAsBright(wall({1.5, 0.5}, 2), 1);
+    const PointReference reference = tracker.makeReference(halfAsBright(wall({0, 0}, 1)));
+    RgbdFrame partlyLit = halfAsBright(wall({1.5, 0.5}, 2));
     const cv::Rect part(0, 0, 200, 480);
     partlyLit.gray(part) += 60;
-    for (const PointTrack& t : tracker.track(
-             reference, partlyLit, tracker.pyramid(partlyLit.gray), Eigen::Isometry3d::Identity()))
+    const auto tracks = tracker.track(
+        reference, partlyLit, tracker.pyramid(partlyLit.gray), Eigen::Isometry3d::Identity());
+    EXPECT_GT(tracks.size(), reference.points.size() / 3);
+    for (const PointTrack& t : tracks)
     {
         EXPECT_GT(t.cur.uv_px.x(), part.width - 8);
     }

@@ -32,8 +32,6 @@ double vignettingBetween(
 /** Where a wide search ends, from the point's place: patches are only shifted there, so a turn of
  * six degrees costs this much. */
 constexpr double kUnrefined_px = 0.5;
-
-constexpr double kMostBrighter = 30;  //!< [grey]; exposure does not change a point by so much
 }  // namespace
 
 struct PointTracker::Search
@@ -50,7 +48,6 @@ struct PointTracker::Sought
     size_t ref;
     cv::Point2f predicted, position;
     bool found{false};
-    Likeness likeness{};  //!< where the search ended
 };
 
 struct PointTracker::Found
@@ -155,52 +152,21 @@ std::vector<PointTracker::Sought> PointTracker::inView(
     return out;
 }
 
-template <class Condition>
-void PointTracker::keepIf(std::vector<Sought>& points, const Condition& condition)
-{
-    const auto isLeftOut = [&](const Sought& point) { return !condition(point.likeness); };
-    points.erase(std::remove_if(points.begin(), points.end(), isLeftOut), points.end());
-}
-
-/** Those whose search ended nearby, on what looks like the point. */
-std::vector<PointTracker::Sought> PointTracker::foundOf(
-    const std::vector<Sought>& sought,
+/** The search ended nearby, on what looks like the point. */
+bool PointTracker::isFound(
+    const Sought& point,
     const PointReference& reference,
     const cv::Mat& gray,
     const Search& search) const
 {
-    std::vector<Sought> out;
-    for (const Sought& point : sought)
+    if (!point.found || cv::norm(point.position - point.predicted) > search.radius_px ||
+        !isWellInside(point.position, gray))
     {
-        if (point.found && cv::norm(point.position - point.predicted) <= search.radius_px &&
-            isWellInside(point.position, gray))
-        {
-            out.push_back(point);
-            out.back().likeness =
-                reference.patches->refined.compare(point.ref, gray, point.position);
-        }
+        return false;
     }
-    keepIf(out, [&](const Likeness& of) { return of.zncc >= params_.minZncc; });
-    const double factor = commonlyBrighter(out);
-    keepIf(
-        out,
-        [&](const Likeness& of)
-        { return std::abs(of.brighter - factor * of.grey) < kMostBrighter; });
-    return out;
-}
-
-/** By which factor of their grey value points have become brighter, minus 1, where most have become
- * so by more than exposure makes them: a lamp was switched on or off. */
-double PointTracker::commonlyBrighter(const std::vector<Sought>& found)
-{
-    std::vector<double> changes, factors;
-    for (const Sought& point : found)
-    {
-        changes.push_back(point.likeness.brighter);
-        factors.push_back(point.likeness.brighter / std::max(1.0, point.likeness.grey));
-    }
-    const bool isLit = !found.empty() && std::abs(median(std::move(changes))) >= kMostBrighter;
-    return isLit ? median(std::move(factors)) : 0;
+    constexpr double kMostBrighter = 30;  // [grey]; exposure does not change it by so much
+    const Likeness likeness = reference.patches->refined.compare(point.ref, gray, point.position);
+    return std::abs(likeness.brighter) < kMostBrighter && likeness.zncc >= params_.minZncc;
 }
 
 /** Exactly where it is, and in space, with what is not known of it. */
@@ -284,11 +250,14 @@ std::vector<PointTrack> PointTracker::track(
             }
         });
     std::vector<Found> found;
-    for (const Sought& point : foundOf(sought, reference, frame.gray, search))
+    for (const Sought& point : sought)
     {
-        if (auto track = trackOf(point, reference, frame, T_cur_ref, search))
+        if (isFound(point, reference, frame.gray, search))
         {
-            found.push_back(*track);
+            if (auto track = trackOf(point, reference, frame, T_cur_ref, search))
+            {
+                found.push_back(*track);
+            }
         }
     }
     return withNoise(found);

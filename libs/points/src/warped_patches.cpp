@@ -147,7 +147,6 @@ Likeness WarpedPatches::compare(
         }
     }
     const double n = inner.area(), va = aa - a * a / n, vb = bb - b * b / n;
-    const double zncc = va > 1 && vb > 1 ? (ab - a * b / n) / std::sqrt(va * vb) : 0;
-    return {zncc, a / n, (b - a) / n};
+    return {va > 1 && vb > 1 ? (ab - a * b / n) / std::sqrt(va * vb) : 0, (b - a) / n};
 }
 }  // namespace pointplane

@@ -16,7 +16,6 @@ namespace pointplane
 struct Likeness
 {
     double zncc{0};      //!< zero-mean normalised cross-correlation; 0 where one of them is flat
-    double grey{0};      //!< mean of the patch
     double brighter{0};  //!< the place than the patch [grey]
 };
 

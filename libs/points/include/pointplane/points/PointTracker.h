@@ -130,14 +130,11 @@ class PointTracker
         const RgbdFrame& frame,
         const Eigen::Isometry3d& T_cur_ref,
         const Search& search);
-    [[nodiscard]] std::vector<Sought> foundOf(
-        const std::vector<Sought>& sought,
+    [[nodiscard]] bool isFound(
+        const Sought& point,
         const PointReference& reference,
         const cv::Mat& gray,
         const Search& search) const;
-    template <class Condition>
-    static void keepIf(std::vector<Sought>& points, const Condition& condition);
-    [[nodiscard]] static double commonlyBrighter(const std::vector<Sought>& found);
     [[nodiscard]] std::optional<Found> trackOf(
         const Sought& point,
         const PointReference& reference,
