@@ -261,7 +261,7 @@ benchmark() {
         cmake\ *)  # with all that the benchmarks need
             [[ ! -e /usr/include/benchmark/benchmark.h || ! -e /usr/include/opencv4/opencv2/rgbd.hpp ]] || run 0 "$1"
             ;;
-        *random_scenes.py*) run 0 "${1/ build / '$build' } --runs 1" ;;  # real programs: it reads what they write
+        *random_scenes.py*) run 0 "${1/ build / $build } --runs 1" ;;  # real programs: it reads what they write
         *memory.sh* | *performance_tables.sh*) [[ ! -x /usr/bin/time ]] || run 0 "$1" ;;
         *) run 0 "$1" ;;
     esac
