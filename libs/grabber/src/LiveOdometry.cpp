@@ -115,11 +115,15 @@ void LiveOdometry::giveUp(const std::exception& e, const std::string& what)
 /** What the recording would tell before this frame. */
 void LiveOdometry::readNews(const ImagePair& pair)
 {
-    mrpt::obs::CObservationComment comment;
-    comment.text = camera_.before(
+    const std::string news = camera_.before(
         options_.knowsDelay ? pair.depthDelay() : ShutterModel::kUnknown,
         builder_.calibration().isNominal);
-    odometry_.converter().readComment(comment);
+    if (!news.empty())
+    {
+        mrpt::obs::CObservationComment comment;
+        comment.text = news;
+        odometry_.converter().readComment(comment);
+    }
 }
 
 void LiveOdometry::process(const ImagePair& pair)
