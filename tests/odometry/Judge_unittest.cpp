@@ -275,8 +275,18 @@ TEST(Judge, moreSurfacesDoNotOutweighResidualsOfNoMotion)
     Alignment right = makeAlignment(kCertain);
     right.agreement = {600, 0, 400};
     Alignment between = makeAlignment(kCertain);
-    between.estimate.pointChi2PerDof = 20;
+    between.estimate.pointChi2PerDof = 10;
     EXPECT_TRUE(isBetter(right, between));
+}
+
+TEST(Judge, residualsDoNotDecideBetweenTwoMotionsOfABlurredFrame)
+{
+    Alignment more = makeAlignment(kCertain);
+    more.estimate.pointChi2PerDof = 21;
+    Alignment fewer = makeAlignment(kCertain);
+    fewer.estimate.pointChi2PerDof = 18;
+    fewer.estimate.numPointInliers = 200;
+    EXPECT_TRUE(isBetter(more, fewer));
 }
 
 Rivalry rivalryOf(double areaFirst, double areaSecond)

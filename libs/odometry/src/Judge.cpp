@@ -63,15 +63,15 @@ double pointShare(const Alignment& a)
     return static_cast<double>(a.estimate.numPointInliers) / std::max(a.numSought, kFewPoints);
 }
 
-/** How much speaks for an alignment, to compare it with others of the same frame. */
-double evidence(const Alignment& alignment, const NoiseFactors& usual)
+/** How much speaks for an alignment, to compare it with another one of the same frame.
+ * \param motionVariance residuals of points that are larger are those of no motion, but of one
+ * between two */
+double evidence(const Alignment& alignment, double motionVariance)
 {
     const double surfaces =
         alignment.agreement.fraction() *
         std::min(1.0, 1.0 * alignment.agreement.seen() / Judge::kEnoughSurfaces);
-    // Residuals that rise twice as far are those of no motion, but of one between two.
-    const bool isMotion =
-        alignment.estimate.pointChi2PerDof < kConvincingRise * kConvincingRise * usual.points;
+    const bool isMotion = alignment.estimate.pointChi2PerDof < motionVariance;
     return (alignment.holds ? 1 : 0) + (isMotion ? 1 : 0) + surfaces + pointShare(alignment);
 }
 
@@ -134,7 +134,11 @@ void Judge::keepBetter(Alignment& best, Alignment other, const NoiseFactors& usu
     best.numSought = other.numSought = std::max(best.numSought, other.numSought);
     std::vector<Mark> marks = std::move(best.marks);
     marks.insert(marks.end(), other.marks.begin(), other.marks.end());
-    if (evidence(other, usual) > evidence(best, usual))
+    const double motionVariance =
+        kConvincingRise *
+        std::max(
+            usual.points, std::min(best.estimate.pointChi2PerDof, other.estimate.pointChi2PerDof));
+    if (evidence(other, motionVariance) > evidence(best, motionVariance))
     {
         best = std::move(other);
     }
