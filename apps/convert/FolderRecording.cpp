@@ -42,7 +42,7 @@ void FolderRecording::chooseCamera(const FolderOptions& options)
     if (!options.camera.empty() || fs::exists(local))
     {
         layout_.calibration = options.camera.empty() ? local : options.camera;
-        layout_.camera = loadCameraFile(layout_.calibration);
+        layout_.camera = loadCalibrationFile(layout_.calibration);
         layout_.cameraIsNominal = false;
         if (layout_.camera->tellsUnits)
         {

@@ -25,9 +25,9 @@ namespace
 constexpr std::int32_t kMaxBytes = 64 << 20;
 
 /** ElasticFusion's own default. */
-[[nodiscard]] TumCamera nominalCamera()
+[[nodiscard]] Calibration nominalCamera()
 {
-    TumCamera out;
+    Calibration out;
     out.camera.fx = out.camera.fy = 528;
     out.camera.cx = 320;
     out.camera.cy = 240;
@@ -39,7 +39,7 @@ constexpr std::int32_t kMaxBytes = 64 << 20;
 KlgRecording::KlgRecording(const KlgOptions& options) : options_(options)
 {
     isNominal_ = options.camera.empty();
-    camera_ = isNominal_ ? nominalCamera() : loadCameraFile(options.camera);
+    camera_ = isNominal_ ? nominalCamera() : loadCalibrationFile(options.camera);
     if (!isNominal_ && !camera_.tellsUnits)
     {
         camera_.unitsPerMetre = 1000;

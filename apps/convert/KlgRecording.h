@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "Recording.h"
-#include "tum_camera.h"
+#include "calibration_file.h"
 
 namespace pointplane
 {
@@ -54,7 +54,7 @@ class KlgRecording : public Recording
     [[nodiscard]] std::string where() const;
 
     KlgOptions options_;
-    TumCamera camera_;
+    Calibration camera_;
     bool isNominal_{false}, isUnclosed_{false};
     std::ifstream file_;
     std::uint64_t fileSize_{0};

@@ -110,7 +110,7 @@ TumRecording::TumRecording(const TumOptions& options) : options_(options)
 {
     requireFolder(options.folder);
     readLists();
-    camera_ = loadTumCamera(options.camera, options.folder);
+    camera_ = loadCalibration(options.camera, options.folder);
     if (options.depthScale > 0)
     {
         camera_.unitsPerMetre = options.depthScale;

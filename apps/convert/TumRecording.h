@@ -8,7 +8,7 @@
 
 #include "Recording.h"
 #include "TumFolder.h"
-#include "tum_camera.h"
+#include "calibration_file.h"
 
 namespace pointplane
 {
@@ -54,7 +54,7 @@ class TumRecording : public Recording
 
     TumOptions options_;
     std::vector<TumImage> colour_, depth_;
-    TumCamera camera_;
+    Calibration camera_;
     std::vector<Frame> frames_;
     std::string groundTruth_;
     std::string noTruth_;  //!< why there is a groundtruth.txt, but no ground truth, or empty

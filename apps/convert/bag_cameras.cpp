@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "StaticTransforms.h"
+#include "calibration_file.h"
 #include "ros_images.h"
-#include "tum_camera.h"
 #include <geometry_msgs/Transform.h>
 #include <std_msgs/Float32.h>
 #include <tf2_msgs/TFMessage.h>
@@ -183,7 +183,7 @@ BagCameras readBagCameras(
             options.file + ": depth units per metre: " + problem + "; give them by --depth-scale");
     }
     out.colour = options.camera.empty() ? cameraOf(bag, colour, options.file)
-                                        : loadTumCamera(options.camera, "").camera;
+                                        : loadCalibration(options.camera, "").camera;
     const bool isOneFrame = colour.frame == depth.frame && !colour.frame.empty();
     if (isOneFrame ? !extrinsicsOf(bag, depth) : depth.isRegistered())
     {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "folder_images.h"
-#include "tum_camera.h"
+#include "calibration_file.h"
+#include "image_names.h"
 
 namespace pointplane
 {
@@ -18,7 +18,7 @@ struct FolderLayout
     std::string name;  //!< "ScanNet", "7-Scenes", ... or "numbered images", "stamped images"
     std::vector<ImageRef> colour, depth;  //!< colour may be empty: depth alone
     std::string video;                    //!< of colour, frame by frame; `colour` then has no paths
-    std::optional<TumCamera> camera;      //!< of colour, where the folder tells it
+    std::optional<Calibration> camera;    //!< of colour, where the folder tells it
     std::string calibration;              //!< file or folder that tells the cameras
     bool cameraIsNominal{false};          //!< a data set's usual camera, not this one's calibration
     std::optional<PinholeCamera> depthCamera;                         //!< where it is another

@@ -13,7 +13,7 @@
 #include <sstream>
 #include <string>
 
-#include "folder_images.h"
+#include "image_names.h"
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
@@ -195,13 +195,13 @@ PinholeCamera cameraAt(const nlohmann::json& json, const CameraKeys& keys, const
     return camera;
 }
 
-std::optional<TumCamera> open3dCamera(const nlohmann::json& json, const fs::path& path)
+std::optional<Calibration> open3dCamera(const nlohmann::json& json, const fs::path& path)
 {
     if (!json.contains("intrinsic_matrix"))
     {
         return {};
     }
-    TumCamera out = colourCamera(cameraAt(json, {"intrinsic_matrix", "width", "height"}, path));
+    Calibration out = colourCamera(cameraAt(json, {"intrinsic_matrix", "width", "height"}, path));
     if (json.contains("depth_scale"))  // not in the files of all recorders
     {
         out.unitsPerMetre = numberAt(json, "depth_scale", path);
@@ -210,9 +210,9 @@ std::optional<TumCamera> open3dCamera(const nlohmann::json& json, const fs::path
     return out;
 }
 
-TumCamera colourCamera(const PinholeCamera& camera)
+Calibration colourCamera(const PinholeCamera& camera)
 {
-    TumCamera out;
+    Calibration out;
     out.camera = camera;
     return out;
 }

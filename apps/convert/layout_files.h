@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "tum_camera.h"
+#include "calibration_file.h"
 #include <nlohmann/json_fwd.hpp>
 
 namespace pointplane
@@ -53,10 +53,10 @@ struct CameraKeys
     const nlohmann::json& json, const CameraKeys& keys, const std::filesystem::path& path);
 
 /** Open3D's calibration, or nothing if it is none. */
-[[nodiscard]] std::optional<TumCamera> open3dCamera(
+[[nodiscard]] std::optional<Calibration> open3dCamera(
     const nlohmann::json& json, const std::filesystem::path& path);
 /** @} */
 
 [[nodiscard]] PinholeCamera pinholeOf(int width, int height, double f, double cx, double cy);
-[[nodiscard]] TumCamera colourCamera(const PinholeCamera& camera);
+[[nodiscard]] Calibration colourCamera(const PinholeCamera& camera);
 }  // namespace pointplane

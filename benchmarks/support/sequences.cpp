@@ -15,7 +15,7 @@
 #include <memory>
 
 #include "TumFolder.h"
-#include "tum_camera.h"
+#include "calibration_file.h"
 
 namespace pointplane
 {
@@ -47,7 +47,7 @@ struct TumPair
     return out;
 }
 
-[[nodiscard]] RgbdFrame readFrame(const TumPair& pair, const TumCamera& camera)
+[[nodiscard]] RgbdFrame readFrame(const TumPair& pair, const Calibration& camera)
 {
     RgbdFrame out;
     out.stamp = pair.colour.seconds;
@@ -76,7 +76,7 @@ constexpr double kMotionCaptureSigmaDeg[] = {0.12, 0.06, 0.055};
 
 [[nodiscard]] BenchmarkSequence tumSequence(const std::string& folder)
 {
-    const TumCamera camera = loadTumCamera("", folder);
+    const Calibration camera = loadCalibration("", folder);
     const auto pairs = pairsOf(folder);
     BenchmarkSequence out;
     out.name = fs::path(folder).filename().string();

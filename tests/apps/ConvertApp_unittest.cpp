@@ -18,8 +18,8 @@
 
 #include "SmallDisk.h"
 #include "TempDir.h"
+#include "calibration_file.h"
 #include "rawlog_samples.h"
-#include "tum_camera.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -263,21 +263,21 @@ TEST_F(ConvertApp, cameraFiles)
         dir_ / "mrpt.ini",
         "[CAMERA_PARAMS]\nresolution = [32 24]\ncx = 15.5\ncy = 11.5\nfx = 26\nfy = 27\n"
         "dist = [0.1 0.2 0.3 0.4 0.5]\ndistortion_model = plumb_bob\n");
-    const TumCamera camera = loadTumCamera(dir_ / "mrpt.ini", in_);
+    const Calibration camera = loadCalibration(dir_ / "mrpt.ini", in_);
     EXPECT_EQ(camera.camera.width, 32);
     EXPECT_DOUBLE_EQ(camera.camera.fy, 27);
     EXPECT_DOUBLE_EQ(camera.camera.distortion[4], 0.5);
-    EXPECT_DOUBLE_EQ(loadTumCamera("fr1", in_).camera.fx, 517.306408);
-    EXPECT_DOUBLE_EQ(loadTumCamera("", "/data/rgbd_dataset_freiburg3_cabinet").camera.cy, 247.6);
-    EXPECT_DOUBLE_EQ(loadTumCamera("", in_).camera.fx, 26.2);
+    EXPECT_DOUBLE_EQ(loadCalibration("fr1", in_).camera.fx, 517.306408);
+    EXPECT_DOUBLE_EQ(loadCalibration("", "/data/rgbd_dataset_freiburg3_cabinet").camera.cy, 247.6);
+    EXPECT_DOUBLE_EQ(loadCalibration("", in_).camera.fx, 26.2);
     writeBytes(dir_ / "bad.txt", "1 2 3\n");
-    EXPECT_THROW((void)loadTumCamera(dir_ / "bad.txt", in_), InputError);
+    EXPECT_THROW((void)loadCalibration(dir_ / "bad.txt", in_), InputError);
     writeBytes(dir_ / "zero.txt", "0 0 0 0 0 0 0 0 0 32 24 5000\n");
-    EXPECT_THROW((void)loadTumCamera(dir_ / "zero.txt", in_), InputError);
+    EXPECT_THROW((void)loadCalibration(dir_ / "zero.txt", in_), InputError);
     writeBytes(dir_ / "camera.txt", "26 26 15.5 24 0 0 0 0 0 32 24 5000\n");
     try
     {
-        (void)loadTumCamera(dir_ / "camera.txt", in_);
+        (void)loadCalibration(dir_ / "camera.txt", in_);
         ADD_FAILURE() << "a principal point below the image";
     }
     catch (const InputError& e)
@@ -287,11 +287,11 @@ TEST_F(ConvertApp, cameraFiles)
             (dir_ / "camera.txt") +
                 ": principal point is outside of the image (cx=15.5 cy=24, image 32x24)");
     }
-    EXPECT_THROW((void)loadTumCamera("fr7", in_), InputError);
+    EXPECT_THROW((void)loadCalibration("fr7", in_), InputError);
     writeBytes(dir_ / "formula.ini", "[CAMERA_PARAMS]\nfx = 26\nfy = $eval{27\n");
     try
     {
-        (void)loadTumCamera(dir_ / "formula.ini", in_);
+        (void)loadCalibration(dir_ / "formula.ini", in_);
         ADD_FAILURE() << "an unfinished formula";
     }
     catch (const InputError& e)
@@ -319,7 +319,7 @@ TEST_F(ConvertApp, aTypoInACalibrationIsRefusedAndNamed)
             text += (std::string(good).rfind(key + "=", 0) == 0 ? line : good) + std::string("\n");
         }
         writeBytes(ini, text + (text.find(line) == std::string::npos ? line + "\n" : ""));
-        return loadTumCamera(ini, in_).camera;
+        return loadCalibration(ini, in_).camera;
     };
     const std::vector<std::pair<std::string, std::string>> wrong{
         {"cx=abc", "cx = 'abc': 'abc' is not a number"},
@@ -358,7 +358,7 @@ TEST_F(ConvertApp, aTypoInACalibrationIsRefusedAndNamed)
     writeBytes(ini, "[CAM]\nfx=1\n# fx=2\ncx=3\nFX = 4\n");
     try
     {
-        (void)loadTumCamera(ini, in_);
+        (void)loadCalibration(ini, in_);
         ADD_FAILURE() << "a key that is there twice";
     }
     catch (const InputError& e)
@@ -386,12 +386,12 @@ TEST_F(ConvertApp, aCameraIsGuessedFromWholeWordsOfTheFoldersOwnName)
     for (const char* folder :
          {"/data/rgbd_dataset_freiburg1_xyz", "/data/fr1_x/", "fr1", "/fr3/tum-fr1", "a/../b.fr1"})
     {
-        EXPECT_EQ(loadTumCamera("", folder).guessed, "fr1") << folder;
+        EXPECT_EQ(loadCalibration("", folder).guessed, "fr1") << folder;
     }
-    EXPECT_EQ(loadTumCamera("", "/data/fr1_backup/rgbd_dataset_freiburg3_x").guessed, "fr3");
+    EXPECT_EQ(loadCalibration("", "/data/fr1_backup/rgbd_dataset_freiburg3_x").guessed, "fr3");
     for (const char* folder : {"/data/scan_15fr30s", "/data/fr1tz", "/data/fr1/x", "/data/fr10"})
     {
-        EXPECT_THROW((void)loadTumCamera("", folder), InputError) << folder;
+        EXPECT_THROW((void)loadCalibration("", folder), InputError) << folder;
     }
 }
 

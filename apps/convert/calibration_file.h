@@ -7,8 +7,8 @@
 
 namespace pointplane
 {
-/** What the images of a folder do not say themselves. */
-struct TumCamera
+/** What images do not say themselves. */
+struct Calibration
 {
     PinholeCamera camera;
     double unitsPerMetre{5000};  //!< of depth images
@@ -20,9 +20,9 @@ struct TumCamera
 /** \param camera "fr1", "fr2", "fr3", a file, or empty: camera.txt in the folder, else a preset by
  * a whole word of the folder's name (freiburg1, fr1 and so on)
  * \throws InputError */
-[[nodiscard]] TumCamera loadTumCamera(const std::string& camera, const std::string& folder);
+[[nodiscard]] Calibration loadCalibration(const std::string& camera, const std::string& folder);
 
 /** The same of a file alone: of images whose depth units a preset does not tell.
  * \throws InputError */
-[[nodiscard]] TumCamera loadCameraFile(const std::string& path);
+[[nodiscard]] Calibration loadCalibrationFile(const std::string& path);
 }  // namespace pointplane

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tum_camera.h"
+#include "calibration_file.h"
 
 #include <pointplane/core/byte_order_mark.h>
 #include <pointplane/core/number_text.h>
@@ -20,7 +20,7 @@
 #include <system_error>
 #include <vector>
 
-#include "folder_images.h"
+#include "image_names.h"
 #include "layout_files.h"
 #include <nlohmann/json.hpp>
 
@@ -52,9 +52,9 @@ const std::array<Preset, 3> kPresets{{
 /** Ending of MRPT's section of the colour camera. */
 const std::string kRight = "_RIGHT";
 
-[[nodiscard]] TumCamera fromPreset(const Preset& preset)
+[[nodiscard]] Calibration fromPreset(const Preset& preset)
 {
-    TumCamera out;
+    Calibration out;
     out.camera.fx = preset.intrinsics[0];
     out.camera.fy = preset.intrinsics[1];
     out.camera.cx = preset.intrinsics[2];
@@ -89,7 +89,7 @@ const std::string kRight = "_RIGHT";
 }
 
 /** One line: fx fy cx cy k1 k2 p1 p2 k3 width height unitsPerMetre. Nothing if it is not that. */
-[[nodiscard]] std::optional<TumCamera> fromLine(const std::string& path)
+[[nodiscard]] std::optional<Calibration> fromLine(const std::string& path)
 {
     const auto read = numbersIn(path);
     if (!read || read->size() != 12)
@@ -105,7 +105,7 @@ const std::string kRight = "_RIGHT";
             throw InputError(path + ": width and height are not whole numbers of pixels");
         }
     }
-    TumCamera out;
+    Calibration out;
     out.camera.fx = numbers[0];
     out.camera.fy = numbers[1];
     out.camera.cx = numbers[2];
@@ -152,12 +152,12 @@ const std::string kRight = "_RIGHT";
         std::to_string(cameras.size()) + " sections with fx)");
 }
 
-[[nodiscard]] TumCamera fromIni(const std::string& path)
+[[nodiscard]] Calibration fromIni(const std::string& path)
 {
     const auto file = openIniFile(path);
     const mrpt::config::CConfigFile& ini = *file;
     const std::string section = cameraSection(ini, path);
-    TumCamera out;
+    Calibration out;
     out.camera = fromMrpt(cameraInIni(ini, path, section));
     const std::string left = section.substr(0, section.rfind(kRight)) + "_LEFT";
     if (ini.keyExists(left, "fx"))
@@ -168,7 +168,7 @@ const std::string kRight = "_RIGHT";
     return out;
 }
 
-[[nodiscard]] TumCamera fromJson(const std::string& path)
+[[nodiscard]] Calibration fromJson(const std::string& path)
 {
     const auto json = jsonObjectIn(path);
     const auto camera = json ? open3dCamera(*json, path) : std::nullopt;
@@ -185,11 +185,11 @@ const std::string kRight = "_RIGHT";
     return std::filesystem::is_regular_file(path, error);
 }
 
-[[nodiscard]] TumCamera fromFile(const std::string& path)
+[[nodiscard]] Calibration fromFile(const std::string& path)
 {
     const bool isJson = std::filesystem::path(path).extension() == ".json";
     const auto line = isJson ? std::nullopt : fromLine(path);
-    TumCamera camera = line ? *line : isJson ? fromJson(path) : fromIni(path);
+    Calibration camera = line ? *line : isJson ? fromJson(path) : fromIni(path);
     if (const std::string problem = camera.camera.problem(); !problem.empty())
     {
         throw InputError(path + ": " + problem);
@@ -202,12 +202,12 @@ const std::string kRight = "_RIGHT";
 }
 }  // namespace
 
-TumCamera loadTumCamera(const std::string& camera, const std::string& folder)
+Calibration loadCalibration(const std::string& camera, const std::string& folder)
 {
     const std::string local = folder + "/camera.txt";
     if (camera.empty() && std::filesystem::exists(local))
     {
-        return loadCameraFile(local);
+        return loadCalibrationFile(local);
     }
     for (const Preset& preset : kPresets)
     {
@@ -215,7 +215,7 @@ TumCamera loadTumCamera(const std::string& camera, const std::string& folder)
                                                 isInNameOf(folder, preset.name));
         if (guessed || camera == preset.name)
         {
-            TumCamera out = fromPreset(preset);
+            Calibration out = fromPreset(preset);
             out.guessed = guessed ? preset.name : "";
             return out;
         }
@@ -232,7 +232,7 @@ TumCamera loadTumCamera(const std::string& camera, const std::string& folder)
     return fromFile(camera);
 }
 
-TumCamera loadCameraFile(const std::string& path)
+Calibration loadCalibrationFile(const std::string& path)
 {
     if (!isFile(path))
     {

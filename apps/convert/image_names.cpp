@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "folder_images.h"
+#include "image_names.h"
 
 #include <pointplane/core/number_text.h>
 #include <pointplane/mrpt_io/errors.h>
