@@ -13,8 +13,10 @@ FileIdentity::FileIdentity(const std::string& name)
 {
     namespace fs = std::filesystem;
     std::error_code error;
-    const fs::path real = fs::weakly_canonical(outputTarget(name).path, error);
-    path = error ? fs::absolute(name, error).string() : real.string();
+    // Of a relative name of which nothing is there yet, weakly_canonical() leaves a relative one.
+    const fs::path full = fs::absolute(outputTarget(name).path, error);
+    const fs::path real = fs::weakly_canonical(full, error);
+    path = error ? full.string() : real.string();
     if (path.size() > 1 && path.back() == '/')
     {
         path.pop_back();

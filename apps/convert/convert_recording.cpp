@@ -17,6 +17,7 @@
 #include <sstream>
 
 #include "ProgressBar.h"
+#include "camera_oddity.h"
 #include "stamp_check.h"
 
 namespace pointplane
@@ -62,6 +63,7 @@ void count(const RecordedFrame& frame, RecordingSummary& out)
     out.numWithoutDepth += cv::countNonZero(frame.scan.depth) == 0 ? 1 : 0;
     out.numTooFar += frame.numTooFar;
     out.depth = out.depth > 0 ? out.depth : medianDepth(frame.scan);
+    out.camera = out.numFrames == 0 ? oddityOf(frame.scan.camera) : out.camera;
     ++out.numFrames;
 }
 
@@ -199,6 +201,11 @@ int report(
     {
         out << "depth: " << counted(summary.numTooFar, "reading")
             << " beyond 16 m left out, which floating point can hold and a rawlog cannot\n";
+    }
+    if (!summary.camera.empty())
+    {
+        err << "pointplane-convert: " << output.path << ": the camera is odd: " << summary.camera
+            << "; if that is wrong, give --camera\n";
     }
     if (!summary.stamps.empty())
     {

@@ -24,7 +24,7 @@ double shown(double value, std::size_t axis)
 
 std::string testColumns(const ConsistencyTest& test)
 {
-    return numberText(test.nees, 3, 10) +
+    return " " + numberText(test.nees, 3, 9) +
            format("   [%.3f, %.3f]  %s\n", test.lower, test.upper, shortVerdict(test).c_str());
 }
 

@@ -75,13 +75,15 @@ void checkFilesOf(const GrabberOptions& options)
     {
         (void)readMask(options.liveOdometry.mask);
     }
-    if (options.output.empty())
+    std::vector<std::string> recordings{options.liveOdometry.poseRawlog};
+    if (!options.output.empty())
     {
-        return;
+        const std::vector<std::string> ofImages = recordingsOf(options);
+        recordings.insert(recordings.end(), ofImages.begin(), ofImages.end());
     }
-    for (const std::string& path : recordingsOf(options))
+    for (const std::string& path : recordings)
     {
-        if (fs::exists(path, error))
+        if (!path.empty() && fs::exists(path, error))
         {
             throw InputError("'" + path + "' exists already; recordings never overwrite");
         }

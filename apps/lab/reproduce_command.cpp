@@ -8,7 +8,9 @@
 #include <cstddef>
 #include <filesystem>
 #include <iterator>
+#include <map>
 #include <ostream>
+#include <string>
 
 #include "LabApp.h"
 #include "OutputGuard.h"
@@ -107,7 +109,25 @@ std::string findPaperConfig()
     throw InputError("config-paper.ini not found; name it by --paper-config");
 }
 
-/** \throws InputError if a folder has none */
+/** Rawlogs are named after the folders, as are the rows of the tables.
+ * \throws InputError if two are named alike */
+void requireOwnNames(const std::vector<ReproducedSequence>& sequences)
+{
+    std::map<std::string, std::string> folders;
+    for (const ReproducedSequence& sequence : sequences)
+    {
+        const std::string name = std::filesystem::path(sequence.folder).filename().string();
+        const auto [it, isNew] = folders.emplace(name, sequence.folder);
+        if (!isNew)
+        {
+            throw InputError(
+                "'" + it->second + "' and '" + sequence.folder +
+                "' have the same name; give each folder once, or rename one");
+        }
+    }
+}
+
+/** \throws InputError if a folder has none, or two have one name */
 std::vector<ReproducedSequence> ReproduceCommand::foundSequences() const
 {
     std::vector<ReproducedSequence> out;
@@ -122,6 +142,7 @@ std::vector<ReproducedSequence> ReproduceCommand::foundSequences() const
         }
         out.insert(out.end(), found.begin(), found.end());
     }
+    requireOwnNames(out);
     return out;
 }
 

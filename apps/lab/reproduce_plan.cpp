@@ -97,7 +97,9 @@ std::vector<ReproducedSequence> findSequences(const std::string& directory)
     std::vector<std::filesystem::path> folders;
     if (isSequence(directory))
     {
-        folders.push_back(std::filesystem::path(directory).lexically_normal());
+        const auto path = std::filesystem::path(directory).lexically_normal();
+        const auto folder = path.has_filename() ? path : path.parent_path();  // a/ or a
+        folders.push_back(folder == "." ? std::filesystem::current_path() : folder);
     }
     else if (std::filesystem::is_directory(directory))
     {
@@ -115,8 +117,7 @@ std::vector<ReproducedSequence> findSequences(const std::string& directory)
     {
         ReproducedSequence sequence;
         sequence.folder = folder.string();
-        const auto last = folder.has_filename() ? folder : folder.parent_path();
-        sequence.name = sequenceName(last.filename().string(), sequence.isPart);
+        sequence.name = sequenceName(folder.filename().string(), sequence.isPart);
         readStamps(sequence);
         out.push_back(std::move(sequence));
     }

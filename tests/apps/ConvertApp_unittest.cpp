@@ -19,6 +19,7 @@
 #include "SmallDisk.h"
 #include "TempDir.h"
 #include "calibration_file.h"
+#include "camera_oddity.h"
 #include "rawlog_samples.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -738,6 +739,43 @@ TEST_F(ConvertApp, realFolders)
     ASSERT_EQ(scans.size(), 151U);
     EXPECT_LT(scans[0]->cameraParams.fy(), 0);
     EXPECT_EQ(ObservationConverter().convert(*scans[150]).problem, "");
+}
+
+TEST(CameraOddity, isThatOfMixedUpCalibrations)
+{
+    PinholeCamera good;
+    good.fx = 517.3;
+    good.fy = 516.5;
+    good.cx = 318.6;
+    good.cy = 255.3;
+    good.width = 640;
+    good.height = 480;
+    good.distortion = {0.262383, -0.953104, -0.005358, 0.002628, 1.163314};
+    EXPECT_EQ(oddityOf(good), "");
+    PinholeCamera flipped = good;
+    flipped.fy *= -1;
+    EXPECT_EQ(oddityOf(flipped), "");
+
+    PinholeCamera mixed = good;
+    std::swap(mixed.cx, mixed.fy);  // fx cx fy cy
+    EXPECT_THAT(oddityOf(mixed), HasSubstr("focal lengths differ (fx=517.3 fy=318.6)"));
+    PinholeCamera ofLarger = good;
+    ofLarger.width = 320;
+    ofLarger.height = 240;
+    EXPECT_THAT(oddityOf(ofLarger), HasSubstr("far from the middle of the image (320x240)"));
+    PinholeCamera folded = good;
+    folded.distortion = {-1, 0, 0, 0, 0};
+    EXPECT_THAT(oddityOf(folded), HasSubstr("lens distortion folds"));
+}
+
+/** Fields in the order fx cx fy cy. */
+TEST_F(ConvertApp, anOddCameraIsTold)
+{
+    EXPECT_EQ(run({in_, "-o", out_}), kExitOk) << text_;
+    EXPECT_THAT(text_, testing::Not(HasSubstr("odd")));
+    writeBytes(dir_ / "in/camera.txt", "26.2 15.5 26.1 11.5 0 0 0 0 0 32 24 5000\n");
+    EXPECT_EQ(run({in_, "-o", out_}), kExitOk) << text_;
+    EXPECT_THAT(text_, HasSubstr("the camera is odd: its focal lengths differ (fx=26.2 fy=15.5)"));
 }
 }  // namespace
 }  // namespace pointplane

@@ -535,6 +535,32 @@ TEST_F(Outputs, aLimitOnTheSizeOfFilesIsExitCode3)
     }
 }
 
+/** Also of files that are not there yet. */
+TEST(OutputGuard, aFileHasRelativeAndAbsoluteNames)
+{
+    const test::TempDir dir;
+    const fs::path before = fs::current_path();
+    fs::create_directory(dir / "sub");
+    fs::current_path(dir / "sub");
+    const std::string absolute = dir / "sub/new";
+    const std::vector<std::string> names{"new", "./new", "../sub/new", absolute};
+    for (const std::string& a : names)
+    {
+        for (const std::string& b : names)
+        {
+            OutputGuard guard;
+            guard.addOutput("-o", a);
+            EXPECT_THROW(guard.addOutput("--trajectory", b), InputError) << a << " " << b;
+        }
+    }
+    OutputGuard guard;
+    guard.addInputFolder(".");
+    EXPECT_THROW(guard.addOutput("-o", "new"), InputError);
+    EXPECT_THROW(guard.addOutput("-o", absolute), InputError);
+    EXPECT_NO_THROW(guard.addOutput("-o", "../new"));
+    fs::current_path(before);
+}
+
 TEST(OutputGuard, anyOrderOfInputsAndOutputs)
 {
     const test::TempDir dir;

@@ -210,6 +210,8 @@ TEST_F(OpenNi2Recording, mistakesInFilesAreToldBeforeACameraIsThere)
         {{"-o", out_, "--live-mask", dir_ / "none.png"},
          "--live-mask and --live-output need --live"},
         {{"-o", dir_ / "there.rawlog"}, "exists already; recordings never overwrite"},
+        {{"--live", "--live-output", dir_ / "there.rawlog"},
+         "exists already; recordings never overwrite"},
         {{"--live", "--live-output", dir_ / "poses.txt"}, "poses.txt: would be a rawlog; give a"},
         {{"-o", out_, "--preview", out_}, "would write over"}};
     const auto virtualCamera = camera("noDevice 1");

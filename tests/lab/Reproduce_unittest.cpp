@@ -83,6 +83,20 @@ test::AppRun reproduce(const std::string& folder, const std::vector<std::string>
 }
 }  // namespace
 
+/** Both would be worked on in one file. */
+TEST(Reproduce, foldersOfOneNameAreRefused)
+{
+    const test::TempDir dir;
+    writeTumFolder(dir / "a/seq");
+    writeTumFolder(dir / "b/seq");
+    for (const std::string& other : {dir / "b/seq", dir / "b/seq/", dir / "a/seq"})
+    {
+        const test::AppRun r = reproduce(dir / "a/seq", {other});
+        EXPECT_EQ(r.code, 2);
+        EXPECT_THAT(r.err, HasSubstr("have the same name; give each folder once"));
+    }
+}
+
 /** From images to tables. */
 TEST(Reproduce, fromATumFolderToTheTables)
 {

@@ -92,6 +92,17 @@ TEST_F(AlignerTest, theImagesTellWhatThePredictionDoesNot)
     expectTrue(align(later), 15);
 }
 
+/** Points that no image can show do not speak against a motion. */
+TEST_F(AlignerTest, withoutAColourImageNoPointIsSought)
+{
+    RgbdFrame withoutColour = frame(1);
+    withoutColour.gray.release();
+    const Alignment alignment = align(withoutColour);
+    expectTrue(alignment, 1);
+    EXPECT_EQ(alignment.numSought, 0);
+    EXPECT_GT(align(frame(1)).numSought, 100);
+}
+
 TEST_F(AlignerTest, aMirroredPlaceIsNotBelieved)
 {
     RgbdFrame foreign = frame(1);

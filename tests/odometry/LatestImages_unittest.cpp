@@ -119,6 +119,22 @@ TEST(LatestImages, depthWithoutReadingsIsNotRepeated)
     LatestImages images(0.1, 20);
     EXPECT_EQ(renew(images, frameOf(0, 100)), "");
     EXPECT_EQ(renew(images, frameOf(0, 101)), "");
+
+    RgbdFrame depthAlone = frameOf(0, 101);
+    depthAlone.gray.release();
+    EXPECT_EQ(renew(images, depthAlone), "");
+    EXPECT_EQ(renew(images, depthAlone), "");
+}
+
+TEST(LatestImages, whatIsForgottenIsNotRepeated)
+{
+    LatestImages images(0.1, 20);
+    (void)renew(images, frameOf(2, 100));
+    images.forget();
+    RgbdFrame frame = frameOf(2, 100);
+    EXPECT_EQ(images.renew(frame), "");
+    EXPECT_FALSE(frame.gray.empty());
+    EXPECT_EQ(frame.depth.at<float>(0, 0), 2);
 }
 
 TEST(LatestImages, anotherSizeIsNoRepetition)

@@ -158,6 +158,20 @@ TEST(OdometryFailures, sequenceThatBeginsWithoutDepth)
     EXPECT_EQ(odometry.process(good(5)).status, TrackingStatus::Tracked);
 }
 
+/** A frame that no path could begin with was not used: its images are not repeated by the next. */
+TEST(OdometryFailures, theFirstGoodFrameMayHaveTheColourOfTheOneBefore)
+{
+    CheckedOdometry odometry;
+    RgbdFrame blind = good(0);
+    blind.depth.setTo(kNaN);
+    blind.stamp -= 1.0 / 30;
+    EXPECT_EQ(odometry.process(blind).status, TrackingStatus::Lost);
+    const OdometryResult first = odometry.process(good(0));
+    EXPECT_EQ(first.status, TrackingStatus::First);
+    EXPECT_EQ(first.reason, "");
+    EXPECT_GT(odometry.process(good(1)).diagnostics.numPointPairs, 50);
+}
+
 /** Not 33 ms, whatever the time is: the camera may go far in 2 s. */
 TEST(OdometryFailures, motionsBeforeTheFirstGoodFrameTakeTheTimeOfTheirStamps)
 {

@@ -6,6 +6,7 @@
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -112,6 +113,21 @@ TEST_P(PointStageTest, framesWithoutImageOrDepthAreNoReferences)
             EXPECT_FALSE(track.cur.hasDepth);
         }
         EXPECT_TRUE(stage.correspond(none, good, ofGood, Eigen::Isometry3d::Identity(), 1).empty());
+    }
+}
+
+TEST_P(PointStageTest, pointsAreFoundWhateverDepthsCount)
+{
+    const RgbdFrame frame = sequence().frame(0);
+    for (const auto& [least, most] :
+         {std::pair(0.1, 20.0), std::pair(0.1, 0.5), std::pair(2.0, 5.0)})
+    {
+        PointStage::TParams params;
+        params.method = GetParam();
+        PointLifter::TParams lifter;
+        lifter.minDepth = least;
+        lifter.maxDepth = most;
+        EXPECT_TRUE(PointStage(params, {}, {}, {}, lifter, {}).findsPoint(frame)) << most;
     }
 }
 

@@ -124,6 +124,26 @@ TEST_F(TrackTest, predictedFramesGoOn)
     EXPECT_LT(sigma(), 1.1 * before + kSigma);
 }
 
+/** However short the steps are. */
+TEST_F(TrackTest, beyondMaxGapTheVelocityIsUnknown)
+{
+    for (int i = 1; i <= 10; ++i)
+    {
+        measure(i * kFrame, 0.01);
+    }
+    const auto isMoving = [&](double stamp)
+    {
+        const double before = x();
+        (void)track_.predict(stamp);
+        return x() != before;
+    };
+    for (int i = 11; i <= 40; ++i)
+    {
+        EXPECT_TRUE(isMoving(i * kFrame - 1e-6)) << "less than a second";
+    }
+    EXPECT_FALSE(isMoving(41 * kFrame));
+}
+
 TEST_F(TrackTest, aJumpTellsNoVelocity)
 {
     for (int i = 1; i <= 10; ++i)

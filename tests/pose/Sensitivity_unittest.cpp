@@ -5,6 +5,7 @@
 
 #include <Eigen/Cholesky>
 
+#include <limits>
 #include <vector>
 
 #include "matchers.h"
@@ -104,6 +105,21 @@ Vector12d change(const PoseEstimate& before, const PoseEstimate& after)
     return out;
 }
 }  // namespace
+
+/** A pair that is not finite counts for nothing here, too. */
+TEST(Sensitivity, brokenPairsDoNotSpoilThePatches)
+{
+    PoseProblem broken = makeBentProblem(81);
+    PoseProblem without = broken;
+    without.points.erase(without.points.begin());
+    PointPair& pair = broken.points.front();
+    pair.cur.mean.setConstant(std::numeric_limits<double>::quiet_NaN());
+    pair.dCur_dCamera.col(kDepthScale) = pair.cur.mean;
+    pair.dRef_dCamera.col(kDepthScale) = pair.cur.mean;
+    const MotionByPatches spoilt = solve(broken).analysis.sensitivity.patches;
+    EXPECT_TRUE(spoilt.allFinite());
+    EXPECT_THAT(spoilt, test::IsMatrixNear(solve(without).analysis.sensitivity.patches, 1e-9));
+}
 
 TEST(Sensitivity, toTheReferences)
 {

@@ -324,7 +324,7 @@ void Aligner::estimate(
     alignment.msPose += watch.ms();
 }
 
-/** Asks the depth image, and counts the points that should be in view. */
+/** Asks the depth image, and counts the points that should be in view of the colour image. */
 void Aligner::verify(const Scene& scene, Alignment& alignment)
 {
     const Motion& motion = alignment.estimate.motion.mean;
@@ -333,8 +333,11 @@ void Aligner::verify(const Scene& scene, Alignment& alignment)
     alignment.numSought = 0;
     for (const Reference* reference : scene.track.references())
     {
-        alignment.numSought +=
-            numInView(*reference, scene.current.frame.camera, T_cur_world * reference->T_world_cam);
+        if (!scene.current.frame.gray.empty())
+        {
+            alignment.numSought += numInView(
+                *reference, scene.current.frame.camera, T_cur_world * reference->T_world_cam);
+        }
         if (scene.current.hasDepth && alignment.agreement.seen() < Judge::kEnoughSurfaces)
         {
             const DepthMotion depth = depthMotion(

@@ -69,6 +69,12 @@ void LatestImages::setMask(const cv::Mat& mask)
 
 cv::Mat LatestImages::mask() const { return leftOut_.empty() ? cv::Mat() : cv::Mat(leftOut_ == 0); }
 
+void LatestImages::forget()
+{
+    depth_.release();
+    gray_.release();
+}
+
 std::string LatestImages::renew(RgbdFrame& frame)
 {
     makeOwn(readings_);
@@ -96,7 +102,7 @@ std::string LatestImages::renew(RgbdFrame& frame)
         frame.depth = cv::Mat(depth_.size(), depth_.type(), kNoReading);
     }
     frame.gray = repeatsGray ? cv::Mat() : gray_;
-    return repeatsDepth && frame.gray.empty()
+    return repeatsReadings && frame.gray.empty()
                ? "its images are those of the frame before, byte for byte"
            : repeatsReadings ? "its depth image is that of the frame before, byte for byte"
            : repeatsGray     ? "its colour image is that of the frame before, byte for byte"

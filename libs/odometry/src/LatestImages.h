@@ -27,6 +27,9 @@ class LatestImages
      * are left out for that reason, or empty */
     [[nodiscard]] std::string renew(RgbdFrame& frame);
 
+    /** The next frame repeats nothing. */
+    void forget();
+
  private:
     float minDepth_, maxDepth_;
     cv::Mat depth_, gray_;

@@ -39,7 +39,7 @@ struct Odometry::Impl
     [[nodiscard]] std::string whyNoDepth(const RgbdFrame& frame, const Features& current) const;
     [[nodiscard]] Alignment align(const Features& current, FrameDiagnostics& diagnostics);
     [[nodiscard]] Reference newReference(const Features& current, const RgbdFrame& part);
-    void restart(const Features& current, OdometryResult& result);
+    void restart(const RgbdFrame& frame, const Features& current, OdometryResult& result);
     void measure(const Features& current, Alignment& alignment, OdometryResult& result);
     [[nodiscard]] PoseAnalysis analyse(const Features& current, Alignment& alignment) const;
     [[nodiscard]] JointCovariance::Measurement learnErrors(
@@ -103,11 +103,16 @@ void Odometry::Impl::place(const RgbdFrame& frame, OdometryResult& result)
     }
     RgbdFrame own = frame;
     own.camera.isNominal = own.camera.isNominal || params.lens.nominal;
-    result.reason = images.renew(own);
     const bool isFirst = track.isEmpty();
-    if (!isFirst && !result.reason.empty() && own.gray.empty() && !hasDepth(own))
+    if (isFirst)
+    {
+        images.forget();  // no frame has been used yet
+    }
+    result.reason = images.renew(own);
+    if (!result.reason.empty() && own.gray.empty() && !hasDepth(own))
     {
         // Nothing was measured: the camera, or what carries its images, has stopped.
+        addReason(pointplane::whyNoDepth(frame.depth, params.pointLifter), result);
         return extrapolate(TrackingStatus::Predicted, frame.stamp, result);
     }
     const Features current = frontEnd.extract(own, result.diagnostics);
@@ -125,7 +130,7 @@ void Odometry::Impl::place(const RgbdFrame& frame, OdometryResult& result)
     addReason(interruption, result);
     if (isFirst || !interruption.empty())
     {
-        return restart(current, result);
+        return restart(frame, current, result);
     }
     follow(frame, current, result);
 }
@@ -141,7 +146,7 @@ void Odometry::Impl::follow(const RgbdFrame& frame, const Features& current, Odo
             "is not compared with these",
             result);
         track.forgetVelocity();
-        return restart(current, result);
+        return restart(frame, current, result);
     }
     addReason(alignment.reason, result);
     if (alignment.holds)
@@ -232,14 +237,15 @@ Reference Odometry::Impl::newReference(const Features& current, const RgbdFrame&
     return out;
 }
 
-/** The first frame, or one that cannot be compared with those before. */
-void Odometry::Impl::restart(const Features& current, OdometryResult& result)
+/** The first frame, or one that cannot be compared with those before. \param frame as it came */
+void Odometry::Impl::restart(
+    const RgbdFrame& frame, const Features& current, OdometryResult& result)
 {
     result.status = track.isEmpty() ? TrackingStatus::First : TrackingStatus::Predicted;
     Reference reference = newReference(current, current.frame);
     if (reference.points.points.empty())
     {
-        addReason(frontEnd.whyNoPoint(current.frame), result);
+        addReason(frontEnd.whyNoPoint(frame), result);
     }
     shown.isKeyframe = true;
     const PinholeCamera& camera = current.frame.camera;

@@ -2,6 +2,7 @@
 #include <pointplane/core/choice.h>
 #include <pointplane/odometry/PointStage.h>
 
+#include <algorithm>
 #include <limits>
 
 namespace pointplane
@@ -24,7 +25,8 @@ PointStage::PointStage(
       tracker_(tracker, lifter, noise),
       detector_(detector),
       matcher_(matcher),
-      lifter_(lifter, noise)
+      lifter_(lifter, noise),
+      wallDepth_m_(std::clamp(1.0, lifter.minDepth, lifter.maxDepth))
 {
 }
 
@@ -68,7 +70,7 @@ bool PointStage::findsPoint(const RgbdFrame& frame) const
         return !detector_.detect(frame.gray).uv_px.empty();
     }
     RgbdFrame wall = frame;
-    wall.depth = cv::Mat(frame.depth.size(), frame.depth.type(), 1.0);
+    wall.depth = cv::Mat(frame.depth.size(), frame.depth.type(), wallDepth_m_);
     return !tracker_.makeReference(wall).points.empty();
 }
 

@@ -105,7 +105,7 @@ void ReferenceWindow::notePoints(const Association& association)
 {
     for (Reference& keyframe : keyframes_)
     {
-        if (keyframe.id == association.reference->id)
+        if (keyframe.id == association.reference->id && keyframe.points.patches)
         {
             keyframe.points.note(
                 {&association.points, &association.movingPoints, &association.doubtedPoints});

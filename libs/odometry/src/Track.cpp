@@ -217,7 +217,7 @@ PoseGaussian Track::coast(double stamp)
     const bool known = stamp >= latestStamp_ && std::isfinite(stamp);
     const double dt = known ? stepBetween(latestStamp_, stamp) : MotionModel::kUsualStep;
     JointCovariance::Prediction errors;
-    if (dt > maxGap_)
+    if (dt > maxGap_ || (started_ && stepBetween(previous().stamp, stamp) > maxGap_))
     {
         forgetVelocity();
     }

@@ -54,8 +54,7 @@ std::optional<int> recognise(const FrontEnd& frontEnd, const Features& current, 
     for (auto place = track.places().rbegin(); place != track.places().rend(); ++place)
     {
         const auto motion = frontEnd.alignImages(*place, current);
-        if (motion && frontEnd.compare(*place, current, motion->T_cur_ref, 0).fraction() >
-                          Judge::kConvincingSurfaces)
+        if (motion && Judge::areConvincing(frontEnd.compare(*place, current, motion->T_cur_ref, 0)))
         {
             return place->id;
         }

@@ -43,7 +43,7 @@ void addPatches(const Solution& at, Sensitivity& out)
     for (size_t i = 0; i < at.problem.points.size(); ++i)
     {
         const PointPair& pair = at.problem.points[i];
-        if (pair.refPatch < 0 || pair.curPatch < 0)
+        if (pair.refPatch < 0 || pair.curPatch < 0 || !at.equations.isUsable(i))
         {
             continue;
         }

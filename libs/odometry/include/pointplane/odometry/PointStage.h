@@ -85,5 +85,6 @@ class PointStage
     PointDetector detector_;
     PointMatcher matcher_;
     PointLifter lifter_;
+    double wallDepth_m_;  //!< any depth that counts as a reading, for findsPoint()
 };
 }  // namespace pointplane
