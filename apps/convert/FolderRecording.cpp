@@ -30,6 +30,10 @@ FolderRecording::FolderRecording(const FolderOptions& options)
     {
         video_ = std::make_unique<VideoFrames>(layout_.video);
     }
+    else if (!frames_.areDepthAlone())
+    {
+        requireColour(frames_.all().front().colour.path);
+    }
 }
 
 FolderRecording::~FolderRecording() = default;

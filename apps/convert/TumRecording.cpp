@@ -164,6 +164,7 @@ void TumRecording::pairImages()
             ", " + rangeOf("depth", depth_) +
             " (stamps must be in seconds; --max-difference takes a longer time)");
     }
+    requireColour(colour_[*frames_.front().colour].path);
 }
 
 void TumRecording::readGroundTruth()

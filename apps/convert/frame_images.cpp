@@ -35,6 +35,25 @@ cv::Mat decodedFrameImage(
     }
 }
 
+void requireColour(const std::string& path)
+{
+    cv::Mat image;
+    try
+    {
+        image = readImageFile(path, cv::IMREAD_UNCHANGED);
+    }
+    catch (const InputError&)
+    {
+        return;
+    }
+    if (image.type() == CV_16UC1)
+    {
+        throw InputError(
+            path + ": is listed as colour, but is of " + typeText(image) +
+            ", as images of depth are");
+    }
+}
+
 std::string sizeText(const cv::Size& size)
 {
     return std::to_string(size.width) + "x" + std::to_string(size.height);

@@ -17,6 +17,10 @@ namespace pointplane
 [[nodiscard]] cv::Mat decodedFrameImage(
     const std::vector<unsigned char>& bytes, int flags, const std::string& name);
 
+/** Lists are easily mixed up. \throws InputError if the image is one of depth: 16 bit and one
+ * channel. One that cannot be read is left to its reader */
+void requireColour(const std::string& path);
+
 /** As 640x480. */
 [[nodiscard]] std::string sizeText(const cv::Size& size);
 

@@ -266,7 +266,16 @@ Trajectory readRawlogTrajectory(const std::string& path, const std::string& sens
     {
         throw InputError(reader.ending().message);
     }
-    Trajectory trajectory = collector.result(path, sensorLabel);
+    Trajectory trajectory;
+    try
+    {
+        trajectory = collector.result(path, sensorLabel);
+    }
+    catch (const InputError& e)
+    {
+        // Poses may be behind the damage.
+        throw InputError(e.what() + (damaged ? "; " + reader.ending().message : std::string()));
+    }
     if (damaged)
     {
         trajectory.incomplete = true;

@@ -768,6 +768,16 @@ TEST(CameraOddity, isThatOfMixedUpCalibrations)
     EXPECT_THAT(oddityOf(folded), HasSubstr("lens distortion folds"));
 }
 
+TEST_F(ConvertApp, depthThatIsListedAsColourIsRefused)
+{
+    writeBytes(
+        dir_ / "in/rgb.txt", "1305031102.160407 depth/0.png\n1305031102.194330 depth/1.png\n");
+    EXPECT_EQ(run({in_, "-o", out_}), kExitBadInput);
+    EXPECT_THAT(
+        text_, HasSubstr("depth/0.png: is listed as colour, but is of 16 bit and 1 channel"));
+    EXPECT_FALSE(std::filesystem::exists(out_));
+}
+
 /** Fields in the order fx cx fy cy. */
 TEST_F(ConvertApp, anOddCameraIsTold)
 {

@@ -577,6 +577,23 @@ TEST(MrptTrajectories, aDamagedRawlogIsScoredUpToTheDamageAndSaysSo)
     EXPECT_THAT(r.out, HasSubstr("translation"));
 }
 
+/** Poses may be behind the damage. */
+TEST(MrptTrajectories, aDamagedRawlogWithoutPosesTellsTheDamage)
+{
+    test::TempDir dir;
+    const std::string path = dir / "a.rawlog";
+    RawlogWriter writer(path);
+    for (int k = 0; k < 4; ++k)
+    {
+        writer.write(frameAt(k));
+    }
+    writer.close();
+    std::filesystem::resize_file(path, std::filesystem::file_size(path) * 3 / 4);
+    EXPECT_THAT(
+        messageOf([&] { return readRawlogTrajectory(path, ""); }),
+        testing::AllOf(HasSubstr("holds no poses"), HasSubstr("a.rawlog: truncated")));
+}
+
 TEST(MrptTrajectories, neesEndToEnd)
 {
     test::TempDir dir;

@@ -105,7 +105,7 @@ TEST_F(FakePrograms, sweepScoresEveryValue)
     EXPECT_EQ(r.code, 0) << r.err;
     EXPECT_THAT(r.out, HasSubstr("1.2               200.0 mm / 0.00 deg"));
     EXPECT_THAT(r.err, HasSubstr("[3/3, 0 s left]"));
-    EXPECT_THAT(test::readBytes(dir / "out.csv"), HasSubstr("a,PoseSolver.alpha,1.3,40,0,0.3"));
+    EXPECT_THAT(test::readBytes(dir / "out.csv"), HasSubstr("a,PoseSolver.alpha,1.3,40,0,0,0.3"));
     EXPECT_THAT(test::readBytes(dir / "report/index.html"), HasSubstr("Sweep of PoseSolver.alpha"));
 }
 
