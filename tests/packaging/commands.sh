@@ -93,7 +93,9 @@ programs() {
     for name in a b; do
         ln -s in.rawlog $name.rawlog
     done
-    cp "$root"/config*.ini "$root/docs/rbpf.ini" .
+    cp "$root"/config*.ini .
+    mkdir docs
+    cp "$root/docs/rbpf.ini" docs
     prepare "$here/make_recordings.py" small .
     ln -s in.groundtruth.txt GT
     ln -s in.groundtruth.txt groundtruth.txt
