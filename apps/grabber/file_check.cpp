@@ -75,7 +75,11 @@ void checkFilesOf(const GrabberOptions& options)
     {
         (void)readMask(options.liveOdometry.mask);
     }
-    std::vector<std::string> recordings{options.liveOdometry.poseRawlog};
+    std::vector<std::string> recordings;
+    if (fs::is_regular_file(options.liveOdometry.poseRawlog, error))  // not a pipe
+    {
+        recordings.push_back(options.liveOdometry.poseRawlog);
+    }
     if (!options.output.empty())
     {
         const std::vector<std::string> ofImages = recordingsOf(options);
@@ -83,7 +87,7 @@ void checkFilesOf(const GrabberOptions& options)
     }
     for (const std::string& path : recordings)
     {
-        if (!path.empty() && fs::exists(path, error))
+        if (fs::exists(path, error))
         {
             throw InputError("'" + path + "' exists already; recordings never overwrite");
         }
