@@ -128,6 +128,12 @@ nlohmann::ordered_json intervalJson(const BootstrapInterval& interval, double un
         {"independent", interval.independent}};
 }
 
+/** A number of frames, or `unknown` if the estimate does not mark its frames. */
+std::string framesText(const Coverage& coverage, std::size_t frames, const char* unknown)
+{
+    return coverage.ofRecording ? std::to_string(frames) : unknown;
+}
+
 /** A value with the ends of its interval, which are empty if there is none. */
 std::string intervalFields(const BootstrapInterval& interval, double unit)
 {
@@ -201,18 +207,27 @@ void printTable(const Comparison& c, const std::string& protocol, std::ostream& 
          &ComparedRun::rotation,
          &ComparedRun::rotationBehindBest},
         out);
-    out << format("\n%-32s%12s  %8s  %8s\n", "run", "ATE [mm]", "pairs", "coverage");
+    out << format(
+        "\n%-32s%10s  %7s  %8s  %9s  %5s\n",
+        "run",
+        "ATE [mm]",
+        "pairs",
+        "coverage",
+        "predicted",
+        "lost");
     const std::vector<std::string> names = runNames(c);
     for (std::size_t k = 0; k < c.runs.size(); ++k)
     {
         const ComparedRun& r = c.runs[k];
         out << format(
-            "%s  %12.3f%s %8zu  %6.1f %%\n",
+            "%s  %10.3f%s %7zu  %6.1f %%  %9s  %5s\n",
             names[k].c_str(),
             1000 * r.ate.translation.rmse,
             c.bestAte == k ? "*" : " ",
             r.rpe.translation.count,
-            100 * r.rpe.coverage.share);
+            100 * r.rpe.coverage.share,
+            framesText(r.rpe.coverage, r.rpe.coverage.predicted, "-").c_str(),
+            framesText(r.rpe.coverage, r.rpe.coverage.lost, "-").c_str());
     }
     if (!noteOf(c).empty())
     {
@@ -261,13 +276,15 @@ std::string toCsv(const Comparison& c)
 {
     std::string out =
         "run,pairs,coverage,rpe_m,rpe_lower95,rpe_upper95,rpe_deg,rpe_deg_lower95,"
-        "rpe_deg_upper95,ate_m\n";
+        "rpe_deg_upper95,ate_m,predicted,lost\n";
     for (const ComparedRun& r : c.runs)
     {
         out += csvField(r.name) +
                format(",%zu,%.6g", r.rpe.translation.count, r.rpe.coverage.share) +
                intervalFields(r.translation, 1) + intervalFields(r.rotation, kDegreesPerRadian) +
-               format(",%.9g\n", r.ate.translation.rmse);
+               format(",%.9g,", r.ate.translation.rmse) +
+               framesText(r.rpe.coverage, r.rpe.coverage.predicted, "") + "," +
+               framesText(r.rpe.coverage, r.rpe.coverage.lost, "") + "\n";
     }
     return out;
 }
@@ -282,7 +299,9 @@ const std::vector<std::string> kColumns{
     "RPE [deg]",
     "behind the best [deg]",
     "ATE [mm]",
-    "coverage"};
+    "coverage",
+    "predicted",
+    "lost"};
 
 std::vector<std::string> rowOf(const Comparison& c, std::size_t run)
 {
@@ -294,7 +313,9 @@ std::vector<std::string> rowOf(const Comparison& c, std::size_t run)
         format("%.4f", kDegreesPerRadian * r.rotation.value),
         behindText(c, r.rotationBehindBest, isBest(c, run, c.bestRotation), kDegreesPerRadian, 4),
         format("%.3f", 1000 * r.ate.translation.rmse),
-        format("%.1f %%", 100 * r.rpe.coverage.share)};
+        format("%.1f %%", 100 * r.rpe.coverage.share),
+        framesText(r.rpe.coverage, r.rpe.coverage.predicted, "-"),
+        framesText(r.rpe.coverage, r.rpe.coverage.lost, "-")};
 }
 }  // namespace
 

@@ -263,7 +263,9 @@ nlohmann::ordered_json toJson(const ScoredResult& result)
 nlohmann::ordered_json toJson(const Coverage& coverage)
 {
     nlohmann::ordered_json json{
-        {"share", coverage.share}, {"of", coverage.ofRecording ? "recording" : "groundTruth"}};
+        {"share", coverage.share},
+        {"of", coverage.ofRecording ? "recording" : "groundTruth"},
+        {"ofGroundTruth", coverage.ofTruth}};
     json["frames"] = coverage.ofRecording
                          ? nlohmann::ordered_json{
                                {"tracked", coverage.tracked},

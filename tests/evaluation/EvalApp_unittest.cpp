@@ -988,6 +988,15 @@ TEST_F(EvalApp, marksOfLostAndPredictedFramesAreReadAndSaid)
     const auto json = nlohmann::json::parse(run({"ate", truth, path, "--json", "-"}).out);
     EXPECT_EQ(json["coverage"]["frames"]["lost"], 20);
     EXPECT_EQ(json["coverage"]["of"], "recording");
+    EXPECT_NEAR(json["coverage"]["ofGroundTruth"], 0.58, 0.001);
+    const std::vector<std::string> both{"compare", truth, path, estimate, "--delta", "0.2"};
+    EXPECT_THAT(run(both).out, testing::ContainsRegex("marked.txt .* 58.0 % +1 +20\n"));
+    EXPECT_THAT(run(both).out, testing::ContainsRegex("estimate.txt .* 100.0 % +- +-\n"));
+    std::vector<std::string> asCsv = both;
+    asCsv.insert(asCsv.end(), {"--csv", "-"});
+    EXPECT_THAT(run(asCsv).out, HasSubstr(",predicted,lost\n"));
+    EXPECT_THAT(run(asCsv).out, testing::ContainsRegex("marked.txt,.*,1,20\n"));
+    EXPECT_THAT(run(asCsv).out, testing::ContainsRegex("estimate.txt,.*,,\n"));
     EXPECT_THAT(
         run({"ate", truth, estimate}).out,
         HasSubstr("of the ground truth's time, frames not marked"));
