@@ -520,7 +520,11 @@ TEST(PointTracker, EdgesTellTheDirectionAcrossThem)
             metrePerPixel * metrePerPixel * t.cur.p_cam.cov.inverse();
         EXPECT_GT(across.dot(information * across), 1 / (0.4 * 0.4));
         EXPECT_LT(along.dot(information * along), across.dot(information * across) / 1000);
+        EXPECT_EQ(t.cur.directions, 1);
     }
+    EXPECT_EQ(
+        std::count(reference.directions.begin(), reference.directions.end(), 1),
+        static_cast<std::ptrdiff_t>(reference.points.size()));
 }
 
 TEST(PointTracker, NoiseOfTheFrameIsThatOfItsTracks)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/pose/PoseSolver.h>
 
+#include <cmath>
 #include <vector>
 
 #include "synthetic_pairs.h"
@@ -59,6 +60,21 @@ TEST(PointVariance, whatMovesHasNoPart)
     }
     ASSERT_LT(3 * room.size(), 2 * points.size());
     EXPECT_NEAR(pointVariance(points, start), pointVariance(room, start), 0.1);
+}
+
+/** Nothing is measured along an edge, so nothing can disagree there. */
+TEST(PointVariance, onEdgesIsThatOfTheNoiseToo)
+{
+    test::PairWorld w = test::moved(64, 600, 0);
+    std::vector<PointPair> points = w.drawPoints(2);
+    for (size_t i = 0; i < points.size(); ++i)
+    {
+        const double angle = static_cast<double>(i);
+        const Eigen::Vector3d along(std::cos(angle), std::sin(angle), 0);
+        points[i].cur.cov += 100 * along * along.transpose();
+        points[i].directions = 1;
+    }
+    EXPECT_NEAR(pointVariance(points, {w.T_prev_cur, Vector6d::Zero()}), 4, 0.6);
 }
 
 TEST(PointVariance, noPointsTellNone) { EXPECT_EQ(pointVariance({}, {}), 0); }

@@ -15,7 +15,7 @@ TEST(medianVariance, ofNoneIsZero)
     EXPECT_EQ(medianVariance(none), 0);
 }
 
-/** Of vectors of two and of three dimensions together. */
+/** Of vectors of one, two and three dimensions together. */
 TEST(medianVariance, isThatOfTheRightOnes)
 {
     test::GaussianSampler sampler(1);
@@ -24,6 +24,7 @@ TEST(medianVariance, isThatOfTheRightOnes)
     {
         norms.push_back(4 * sampler.vector<3>().squaredNorm() / medianChi2(3));
         norms.push_back(4 * sampler.vector<2>().squaredNorm() / medianChi2(2));
+        norms.push_back(4 * sampler.vector<1>().squaredNorm() / medianChi2(1));
     }
     EXPECT_NEAR(medianVariance(norms), 4, 0.1);
     norms.insert(norms.end(), 800, 1e9);

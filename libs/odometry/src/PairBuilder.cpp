@@ -120,6 +120,7 @@ PointPair pointPair(const ReferenceView& past, const CurrentView& current, const
     pair.reference = past.reference.id;
     pair.feature = cellOf(cur.uv_px, current.cellPx, camera);
     pair.hasDepth = cur.hasDepth;
+    pair.directions = cur.directions;
     pair.surface = planeAt(camera.depthPixel(cur.uv_px), features.planes);
     if (features.bend > 0)
     {

@@ -196,6 +196,7 @@ std::optional<PointTracker::Found> PointTracker::trackOf(
     {
         return {};  // no depth, or no ray reaches the pixel
     }
+    feature->directions = reference.directions[point.ref];
     // Along an edge, a track slides on the surface.
     const Eigen::Matrix<double, 3, 2> J = T_cur_ref.linear() * surfaceJacobian(frame.camera, ref);
     feature->p_cam.cov += propagate(J, reference.cov_px[point.ref]);

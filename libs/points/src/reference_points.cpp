@@ -97,7 +97,9 @@ PointReference referencePoints(
     PointReference out;
     const auto add = [&](const Candidate& c)
     {
-        patches->add(pyramid, c.patch, c.brightness, c.uncertainty.measured(params.maxNoisePx));
+        const Directions measured = c.uncertainty.measured(params.maxNoisePx);
+        patches->add(pyramid, c.patch, c.brightness, measured);
+        out.directions.push_back(static_cast<int>(measured.cols()));
         out.points.push_back(c.point);
         out.cov_px.push_back(c.uncertainty.covariance(params.maxNoisePx));
         out.ofBrightness_px.push_back(c.uncertainty.displacement(params.maxNoisePx));

@@ -2,12 +2,16 @@
 #include <pointplane/pose/median_variance.h>
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <cstddef>
 
 namespace pointplane
 {
-double medianChi2(int dof) { return dof == 2 ? 2 * std::log(2.0) : 2.366; }
+double medianChi2(int dof)
+{
+    constexpr std::array<double, 3> kMedians{0.4549, 1.3863, 2.3660};
+    return kMedians.at(static_cast<size_t>(dof) - 1);
+}
 
 double medianVariance(std::vector<double>& relativeNorms)
 {

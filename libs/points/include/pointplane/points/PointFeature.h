@@ -11,6 +11,7 @@ struct PointFeature
     Eigen::Vector2d uv_px{0, 0};  //!< raw pixel, sub-pixel accurate
     PointGaussian p_cam;          //!< camera frame, optical axes [m]
     bool hasDepth{true};          //!< else it is anywhere along its ray: p_cam is a guess
+    int directions{2};            //!< of the image, in which it is measured: 1 on an edge
     /** The surface around it as a plane through it: theta_m . P + 1 = 0 [1/m]. */
     Eigen::Vector3d theta_m{0, 0, 0};
     /** Of a track: d p_cam / d vignetting [m], how far it is displaced by vignetting (the fraction

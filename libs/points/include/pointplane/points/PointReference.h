@@ -27,6 +27,7 @@ struct PointReference
     std::shared_ptr<const ReferencePatches> patches;  //!< tracking: what each looks like
     cv::Mat descriptors;                              //!< matching: a row a point
     std::vector<Eigen::Matrix2d> cov_px;  //!< tracking: noise of where each is found [px^2]
+    std::vector<int> directions;          //!< in which each is measured: 2, or 1 of an edge
     /** Tracking: how far beside its place each is found in a brighter image, per relative change of
      * the brightness [px]. */
     std::vector<Eigen::Vector2d> ofBrightness_px;

@@ -6,7 +6,7 @@
 
 namespace pointplane
 {
-/** Median of chi-square with 2 or 3 degrees of freedom. */
+/** Median of chi-square with 1 to 3 degrees of freedom. */
 [[nodiscard]] double medianChi2(int dof);
 
 /** Variance of vectors over their covariances, robust against wrong ones: the median of their

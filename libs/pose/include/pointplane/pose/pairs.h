@@ -48,9 +48,10 @@ struct PointPair
     int surface{-1};                          //!< PlanePair::feature of the plane it is on; or -1
     int refPatch{-1}, curPatch{-1};           //!< of their images; -1: depth has no smooth error
     bool hasDepth{true};                      //!< else cur may be anywhere along its ray
+    int directions{2};                        //!< of the image; 1: cur may be anywhere on an edge
 
     /** Directions in which the two can disagree. */
-    [[nodiscard]] int dof() const { return hasDepth ? 3 : 2; }
+    [[nodiscard]] int dof() const { return directions + (hasDepth ? 1 : 0); }
 };
 
 /** The same plane seen twice. */
