@@ -114,18 +114,26 @@ void FramesInPart::add(const OutputItem& item)
     }
 }
 
+bool FramesInPart::areAllWithoutColour(std::size_t numTracked) const
+{
+    return numWithoutColour_ > 0 && numWithoutColour_ == numTracked;
+}
+
+std::size_t FramesInPart::number(std::size_t numTracked) const
+{
+    return (areAllWithoutColour(numTracked) ? besides_ : all_).number;
+}
+
 void FramesInPart::print(std::ostream& out, std::size_t numTracked) const
 {
-    const bool isDepthOnly = numWithoutColour_ > 0 && numWithoutColour_ == numTracked;
-    if (isDepthOnly)
+    if (areAllWithoutColour(numTracked))
     {
         out << "  no tracked frame has a colour image: the motion is from planes, without points\n";
     }
-    const Frames& frames = isDepthOnly ? besides_ : all_;
-    if (frames.number > 0)
+    if (number(numTracked) > 0)
     {
-        out << "  " << frames.number << " of the tracked frames in part, first "
-            << lineOf(frames.first) << "\n";
+        const Frames& frames = areAllWithoutColour(numTracked) ? besides_ : all_;
+        out << "  in part, first " << lineOf(frames.first) << "\n";
     }
 }
 }  // namespace pointplane

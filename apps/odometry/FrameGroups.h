@@ -44,8 +44,10 @@ class FramesInPart
  public:
     void add(const OutputItem& item);
 
-    /** How many, and the first one. Of a recording without colour, that is told once: else all its
-     * frames would be in part. */
+    /** Of a recording without colour, those that lack more: else all would be in part. */
+    [[nodiscard]] std::size_t number(std::size_t numTracked) const;
+
+    /** The first one, and whether the recording is without colour. */
     void print(std::ostream& out, std::size_t numTracked) const;
 
  private:
@@ -56,6 +58,8 @@ class FramesInPart
 
         void add(const OutputItem& item, const std::string& reason);
     };
+
+    [[nodiscard]] bool areAllWithoutColour(std::size_t numTracked) const;
 
     Frames all_;      //!< for any reason
     Frames besides_;  //!< for another reason than that colour is missing

@@ -9,6 +9,12 @@
 
 namespace pointplane
 {
+/** Whether some directions of its motion are predicted. */
+[[nodiscard]] inline bool isInPart(const RobotMotion& motion)
+{
+    return motion.status == TrackingStatus::Tracked && motion.diagnostics.observableDirections < 6;
+}
+
 /** What the odometry made of one frame. */
 struct FrameRecord
 {

@@ -97,8 +97,10 @@ void RunSummary::printFrames(std::ostream& out) const
     }
     else
     {
-        out << ": " << numTracked << " tracked, " << numPredicted << " predicted, " << numLost
-            << " lost";
+        const std::size_t numInPart = inPart.number(numTracked);
+        out << ": " << numTracked << " tracked"
+            << (numInPart == 0 ? "" : " (" + std::to_string(numInPart) + " in part)") << ", "
+            << numPredicted << " predicted, " << numLost << " lost";
     }
     char line[256];
     std::snprintf(

@@ -91,14 +91,16 @@ void drawPlanes(const FrameFeatures& features, cv::Mat& picture)
     for (int v = 0; v < labels.rows; ++v)
     {
         const auto* label = labels.ptr<std::uint8_t>(v);
+        const auto* above = labels.ptr<std::uint8_t>(std::max(v - 1, 0));
         const auto* below = labels.ptr<std::uint8_t>(std::min(v + 1, labels.rows - 1));
         auto* pixel = picture.ptr<cv::Vec3b>(v);
         for (int u = 0; u < labels.cols; ++u)
         {
-            const std::uint8_t here = label[u], right = label[std::min(u + 1, labels.cols - 1)];
-            if (here != right || here != below[u])
+            const std::uint8_t here = label[u], left = label[std::max(u - 1, 0)],
+                               right = label[std::min(u + 1, labels.cols - 1)];
+            if (here != left || here != right || here != above[u] || here != below[u])
             {
-                pixel[u] = colours[here != 0 ? here : std::max(right, below[u])];
+                pixel[u] = colours[here != 0 ? here : std::max({left, right, above[u], below[u]})];
             }
             else if (here != 0 && filled[here])
             {
@@ -118,15 +120,16 @@ void drawMoving(const MovingRegions& moving, cv::Mat& picture)
     }
 }
 
-/** Where the camera moves, as seen in the image; its length is the speed. */
-void drawArrow(const CameraSpeed& speed, cv::Mat& picture)
+/** Where the camera moves, as seen in the image; its length is the speed. Thin: in part predicted.
+ */
+void drawArrow(const CameraSpeed& speed, bool isThin, cv::Mat& picture)
 {
     const cv::Point2d centre(0.5 * picture.cols, 0.5 * picture.rows);
     const double scale = 0.5 * picture.rows / kFullSpeed;
     const cv::Point2d tip =
         centre + scale * cv::Point2d(speed.translation.x(), speed.translation.y());
     cv::circle(picture, centre, 2, kArrow, cv::FILLED, cv::LINE_AA);
-    cv::arrowedLine(picture, centre, tip, kArrow, 2, cv::LINE_AA, 0, 0.2);
+    cv::arrowedLine(picture, centre, tip, kArrow, isThin ? 1 : 2, cv::LINE_AA, 0, 0.2);
 }
 }  // namespace
 
@@ -144,7 +147,7 @@ cv::Mat drawOverlay(
     }
     if (speed)
     {
-        drawArrow(*speed, picture);
+        drawArrow(*speed, isInPart(record.motion), picture);
     }
     if (record.features.isKeyframe)
     {

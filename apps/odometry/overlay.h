@@ -18,8 +18,9 @@ struct CameraSpeed
 
 /** A picture of what was found in a frame, as [P17, Fig. 4], with a legend below it. Points that
  * the pose follows are green circles, rejected ones red crosses, new ones white dots. Planes have
- * the colour of the standard deviation of their distance (blue small, red large); those that the
- * pose does not follow are outlined only. An arrow shows where the camera moves.
+ * the colour of the standard deviation of their distance (pale small, dark large); those that the
+ * pose does not follow are outlined only. An arrow shows where the camera moves, a thin one
+ * if the motion is measured in part.
  * Where there is no gray image, it is on the depth. \param item of a frame \param seconds since the
  * first frame; NaN if its stamp tells nothing
  * \param size of the picture, if there are no images

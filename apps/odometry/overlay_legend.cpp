@@ -41,16 +41,19 @@ class Legend
         x_ += width;
     }
 
-    /** The scale of the planes' colours. */
+    void endLine() { x_ = strip_.cols; }
+
+    /** The scale of the planes' colours, in one line if the width allows. */
     void addColours()
     {
-        constexpr int kBar = 120;
-        add("plane distance known to", 165);
+        constexpr int kName = 104, kSmall = 31, kBar = 110, kLarge = 67;
+        make(kName + kSmall + kBar + kLarge);
+        add("plane: 1 sigma", kName);
         char small[32], large[32];
         std::snprintf(small, sizeof(small), "%.1f", 1e3 * kSmallSigma);
         std::snprintf(large, sizeof(large), "%.0f mm", 1e3 * kLargeSigma);
-        make(24 + kBar + 60);
-        add(small, 24);
+        make(kSmall + kBar + kLarge);
+        add(small, kSmall);
         const cv::Rect bar = cv::Rect(x_, y_ + 4, kBar, kLine - 8) & cv::Rect({}, strip_.size());
         if (!bar.empty())
         {
@@ -59,7 +62,7 @@ class Legend
             colours.colRange(0, bar.width).copyTo(strip_(bar));
         }
         x_ += kBar + 4;
-        add(large, 56);
+        add(large, 0);
     }
 
     [[nodiscard]] const cv::Mat& strip() const { return strip_; }
@@ -102,12 +105,11 @@ class Legend
     int x_{kLeft}, y_{0};
 };
 
-/** In parts where the picture is too narrow for the whole. Without a speed, its room stays empty.
- */
+/** In parts where the picture is too narrow for the whole. */
 void addSpeed(const std::optional<CameraSpeed>& speed, Legend& legend)
 {
-    constexpr int kWhole = 290;
-    char size[32] = "", forward[32] = "", rotation[32] = "";
+    constexpr int kWhole = 280;
+    char size[32] = "-> not measured", forward[32] = "", rotation[32] = "";
     if (speed)
     {
         std::snprintf(size, sizeof(size), "-> %.2f m/s", speed->translation.norm());
@@ -116,8 +118,7 @@ void addSpeed(const std::optional<CameraSpeed>& speed, Legend& legend)
     }
     if (legend.strip().cols >= kWhole)
     {
-        const auto whole = std::string(size) + " " + forward + " " + rotation;
-        legend.add(speed ? whole : "", kWhole, kArrow);
+        legend.add(std::string(size) + " " + forward + " " + rotation, kWhole, kArrow);
         return;
     }
     for (const char* part : {size, forward, rotation})
@@ -134,14 +135,23 @@ void addStatus(
     Legend& legend)
 {
     char text[64];
-    std::snprintf(text, sizeof(text), "frame %zu", frameIndex);
-    legend.add(text, 92);
+    const bool isKey = record.features.isKeyframe;
+    std::snprintf(text, sizeof(text), "%s %zu", isKey ? "KEY FRAME" : "frame", frameIndex);
+    legend.add(text, 120, isKey ? kArrow : kText);
     std::snprintf(text, sizeof(text), "%.3f s", seconds);
-    legend.add(std::isfinite(seconds) ? text : "", 82);
-    const bool isMeasured = record.motion.status == TrackingStatus::Tracked ||
-                            record.motion.status == TrackingStatus::First;
-    legend.add(toString(record.motion.status), 72, isMeasured ? kUsed : kRejected);
-    legend.add(record.features.isKeyframe ? "KEY FRAME" : "", 90, kArrow);
+    legend.add(std::isfinite(seconds) ? text : "", 76);
+    const RobotMotion& motion = record.motion;
+    std::string status = toString(motion.status);
+    if (isInPart(motion))
+    {
+        status += ", " + std::to_string(motion.diagnostics.observableDirections) + " of 6";
+    }
+    legend.add(
+        status,
+        108,
+        isInPart(motion)            ? kDoubted
+        : isMeasured(motion.status) ? kUsed
+                                    : kRejected);
     addSpeed(speed, legend);
 }
 
@@ -180,6 +190,7 @@ cv::Mat overlayLegend(
 {
     Legend legend(width);
     addStatus(record, frameIndex, seconds, speed, legend);
+    legend.endLine();
     addCounts(record.features, legend);
     legend.addColours();
     return legend.strip();

@@ -12,12 +12,12 @@ const cv::Mat& colourMap()
 {
     static const cv::Mat map = []
     {
-        cv::Mat levels(1, 256, CV_8UC1), out;
+        const cv::Vec3d pale(255, 235, 170), dark(190, 0, 0);
+        cv::Mat out(1, 256, CV_8UC3);
         for (int i = 0; i < 256; ++i)
         {
-            levels.at<std::uint8_t>(0, i) = static_cast<std::uint8_t>(i);
+            out.at<cv::Vec3b>(0, i) = pale + i / 255.0 * (dark - pale);
         }
-        cv::applyColorMap(levels, out, cv::COLORMAP_JET);
         return out;
     }();
     return map;
@@ -33,22 +33,29 @@ cv::Vec3b sigmaColour(double sigma)
 void drawPoint(FeatureUse use, const cv::Point2d& at, cv::Mat& picture)
 {
     const cv::Point centre(cvRound(at.x), cvRound(at.y));
-    // Shapes differ, too: green, orange and red are much alike for people with colour-blindness.
-    if (use == FeatureUse::Used)
+    for (const bool isHalo : {true, false})
     {
-        cv::circle(picture, centre, 3, kUsed, 1);
-    }
-    else if (use == FeatureUse::Doubted)
-    {
-        cv::drawMarker(picture, centre, kDoubted, cv::MARKER_TRIANGLE_UP, 8, 1);
-    }
-    else if (use == FeatureUse::Rejected)
-    {
-        cv::drawMarker(picture, centre, kRejected, cv::MARKER_TILTED_CROSS, 7, 1);
-    }
-    else
-    {
-        cv::circle(picture, centre, 1, kNew, cv::FILLED);
+        const int thickness = isHalo ? 3 : 1;
+        const auto colour = [isHalo](const cv::Scalar& c) { return isHalo ? cv::Scalar() : c; };
+        // Shapes differ, too: green, orange and red are much alike for people with
+        // colour-blindness.
+        if (use == FeatureUse::Used)
+        {
+            cv::circle(picture, centre, isHalo ? 4 : 3, colour(kUsed), 1);
+        }
+        else if (use == FeatureUse::Doubted)
+        {
+            cv::drawMarker(picture, centre, colour(kDoubted), cv::MARKER_TRIANGLE_UP, 8, thickness);
+        }
+        else if (use == FeatureUse::Rejected)
+        {
+            cv::drawMarker(
+                picture, centre, colour(kRejected), cv::MARKER_TILTED_CROSS, 7, thickness);
+        }
+        else
+        {
+            cv::circle(picture, centre, isHalo ? 2 : 1, colour(kNew), cv::FILLED);
+        }
     }
 }
 }  // namespace pointplane

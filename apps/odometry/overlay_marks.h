@@ -18,12 +18,12 @@ inline const cv::Scalar kNew{255, 255, 255}, kMoving{255, 0, 255};
 inline const cv::Scalar kText{255, 255, 255}, kArrow{0, 220, 255};
 /** @} */
 
-/** Blue to red, level 0 to 255; CV_8UC3, one row. */
+/** Pale to dark blue, level 0 to 255; CV_8UC3, one row. No mark is blue. */
 [[nodiscard]] const cv::Mat& colourMap();
 
 /** Of a standard deviation [m], on a logarithmic scale. */
 [[nodiscard]] cv::Vec3b sigmaColour(double sigma);
 
-/** The mark of a point, in the picture or in its legend. */
+/** The mark of a point, with a dark rim, in the picture or in its legend. */
 void drawPoint(FeatureUse use, const cv::Point2d& at, cv::Mat& picture);
 }  // namespace pointplane

@@ -20,6 +20,7 @@ namespace
     out.source.converted->frame.gray = cv::Mat(240, 320, CV_8UC1, cv::Scalar(90));
     out.frame.emplace();
     out.frame->motion.status = status;
+    out.frame->motion.diagnostics.observableDirections = 6;
     out.frame->motion.cameraPose.mean.translation().x() = x;
     return out;
 }
@@ -52,6 +53,16 @@ TEST(OverlaySink, theSpeedIsThatBetweenMeasuredFrames)
         pictureAfter({kFirst, itemAt(10.1, 5, TrackingStatus::Lost)}),
         pictureAfter({kFirst, itemAt(10.1, 0, TrackingStatus::Lost)}))
         << "a guess is no speed";
+}
+
+/** Who looks at the picture alone would take it for a measurement. */
+TEST(OverlaySink, showsThatAMotionIsInPartPredicted)
+{
+    OutputItem inPart = kThird, predicted = kThird;
+    inPart.frame->motion.diagnostics.observableDirections = 4;
+    EXPECT_NE(pictureAfter({kFirst, kThird}), pictureAfter({kFirst, inPart}));
+    predicted.frame->motion.status = inPart.frame->motion.status = TrackingStatus::Predicted;
+    EXPECT_EQ(pictureAfter({kFirst, predicted}), pictureAfter({kFirst, inPart}));
 }
 
 TEST(OverlaySink, theTimeIsThatSinceTheFirstStamp)
