@@ -68,6 +68,7 @@ RawlogSink::RawlogSink(const OdometryOptions& options)
 
 void RawlogSink::add(const OutputItem& item)
 {
+    numFrames_ += item.frame ? 1 : 0;
     if (format1_)
     {
         addFormat1(item);
@@ -166,7 +167,10 @@ void RawlogSink::close()
 
 std::string RawlogSink::description() const
 {
-    return writer_.path() + ": " + counted(writer_.numObjects(), "object") + ", format " +
-           (format1_ ? "1" : "2");
+    return writer_.path() + ": " + (onlyPoses_ ? "poses" : "observations and poses") + " of " +
+           framesText(numFrames_) +
+           (since_ > 0 ? ", motions over up to " + framesText(static_cast<std::size_t>(since_))
+                       : "") +
+           ", format " + (format1_ ? "1" : "2");
 }
 }  // namespace pointplane

@@ -39,6 +39,7 @@ class RawlogSink : public Sink
     bool format1_;
     bool onlyPoses_;
     int since_;
+    std::size_t numFrames_{0};
     bool withPoints_;
     mrpt::obs::CSensoryFrame sensoryFrame_;  //!< of format 1, not yet written
     bool hasFrame_{false};                   //!< it has the camera's
