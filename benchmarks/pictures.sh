@@ -16,7 +16,7 @@ quietly "$bin/pointplane-eval" nees "$work/in.groundtruth.txt" "$work/out.rawlog
     --report "$work/report"
 cp "$work/overlay/000100.jpg" docs/figures/overlay.jpg
 cp "$work/report/path-from-above.svg" docs/figures/path.svg
-cp "$work/report/nees-of-increments-of-1f.svg" docs/figures/nees.svg
+cp "$work/report/nees-of-increments-of-1-frame.svg" docs/figures/nees.svg
 
 if command -v observations2map >/dev/null && /usr/bin/python3 -c 'import numpy' 2>/dev/null; then
     quietly "$bin/pointplane-simulate" room -o "$work/room.rawlog" --duration 3 --size 320x240 --quiet

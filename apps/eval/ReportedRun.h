@@ -19,6 +19,7 @@ struct ReportedRun
     AteOptions ate;
     NeesOptions nees;  //!< T_truth_body applies to all metrics
     std::vector<NeesInterval> intervals;
-    std::string hint;  //!< to the reader, or empty
+    std::string hint;      //!< to the reader, or empty
+    bool isOfNees{false};  //!< that is what it is about, and comes first
 };
 }  // namespace pointplane

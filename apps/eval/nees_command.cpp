@@ -186,7 +186,7 @@ void NeesCommand::addRun(
     context.hint(hint);
     if (!html.directory.empty())
     {
-        runs.reported = {truth, estimate, {}, {}, report.options, runs.intervals, hint};
+        runs.reported = {truth, estimate, {}, {}, report.options, runs.intervals, hint, true};
         runs.reported.rpe.fixedDelta = true;
         runs.reported.rpe.offset = runs.reported.ate.offset = report.options.offset;
     }

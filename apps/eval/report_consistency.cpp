@@ -39,7 +39,7 @@ std::vector<std::string> consistencyCells(const std::string& name, const NeesRes
 const std::vector<std::string> kConsistencyColumns{
     "increments of",
     "verdict",
-    "without overlap",
+    "independent increments",
     "joint",
     "translation",
     "rotation",
@@ -66,8 +66,7 @@ void addConsistency(HtmlReport& report, const ReportedRun& run)
             continue;
         }
         const auto result = consistencyOf(increments, countIndependent(increments), interval);
-        rows.push_back(consistencyCells(
-            interval.sinceStart ? "poses since the first" : nameOf(interval), result));
+        rows.push_back(consistencyCells(describe(interval), result));
         charts.push_back(neesChart(run.estimate, increments, result));
         if (errors.empty())
         {
@@ -79,8 +78,7 @@ void addConsistency(HtmlReport& report, const ReportedRun& run)
         "NEES per degree of freedom (1 is consistent)",
         kConsistencyColumns,
         rows,
-        "Lengths in frames (f) or seconds (s). Ground truth with " + describeTruthNoise(run.nees) +
-            ".");
+        "Ground truth with " + describeTruthNoise(run.nees) + ".");
     if (!tested.note.empty())
     {
         report.addParagraph("Note: " + tested.note + ".");

@@ -214,10 +214,15 @@ void writeTrajectoryReport(
     {
         report.addParagraph("Hint: " + run.hint);
     }
-    addPathSections(report, run);
-    if (!run.estimate.covs.empty())
+    const auto addNees = [&] { addSection(report, "NEES", [&] { addConsistency(report, run); }); };
+    if (run.isOfNees)
     {
-        addSection(report, "NEES", [&] { addConsistency(report, run); });
+        addNees();
+    }
+    addPathSections(report, run);
+    if (!run.isOfNees && !run.estimate.covs.empty())
+    {
+        addNees();
     }
     for (const Chart& chart : frameCharts(inputs.table, run.estimate.stamps.front()))
     {

@@ -27,6 +27,7 @@ TEST(HtmlReport, isOneSelfContainedFile)
     EXPECT_THAT(html, HasSubstr("a &lt;title&gt;"));
     EXPECT_THAT(html, HasSubstr("5 &lt; 6"));
     EXPECT_THAT(html, HasSubstr("<h2>scores</h2><p class=\"detail\">of 2 &lt; 3 pairs</p>"));
+    EXPECT_THAT(html, HasSubstr("<td class=\"text\">translation</td><td>0.1</td>"));
     EXPECT_THAT(html, HasSubstr("width=device-width"));
     EXPECT_THAT(html, HasSubstr("<svg"));
     EXPECT_THAT(html, Not(HasSubstr("<script src")));
@@ -80,6 +81,17 @@ TEST(FrameTable, readsNumbersStatusAndQuotes)
     ASSERT_EQ(charts.size(), 2u);  // no times in this table
     EXPECT_EQ(charts[1].series[0].y, (std::vector<double>{2, 0}));
     EXPECT_EQ(charts[1].series[0].x, (std::vector<double>{2.5, 3.5}));
+}
+
+TEST(FrameTable, tellsFramesThatAreMeasuredInPart)
+{
+    test::TempDir dir;
+    const std::string rows = "0,first,0\n1,tracked,6\n2,tracked,4\n3,predicted,0\n4,lost,0\n";
+    const Chart status = frameCharts(
+        FrameTable::read(writeFile(dir, "f.csv", "stamp,status,observableDirections\n" + rows)),
+        0)[0];
+    EXPECT_EQ(status.yNames, (std::vector<std::string>{"lost", "predicted", "in part", "tracked"}));
+    EXPECT_EQ(status.series[0].y, (std::vector<double>{3, 3, 2, 1, 0}));
 }
 
 /** As a spreadsheet saves it. */

@@ -646,6 +646,7 @@ TEST(MrptTrajectories, neesOfAShortRecordingLeavesOutWhatItIsTooShortFor)
     EXPECT_THAT(r.out, testing::Not(HasSubstr("of 10f")));
     const std::string page = test::readBytes(dir / "r/index.html");
     EXPECT_THAT(page, HasSubstr("left out: " + problem));
+    EXPECT_LT(page.find("NEES per degree of freedom"), page.find("Relative pose error"));
     EXPECT_THAT(page, testing::Not(HasSubstr("No NEES")));
 
     args.insert(args.end(), {"--interval", "10f,1f"});

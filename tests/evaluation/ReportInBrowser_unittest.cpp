@@ -35,8 +35,9 @@ std::string sampleReport(const test::TempDir& dir)
     const auto increments = neesIncrements(truth, estimate, {}, {});
     HtmlReport report("A run with quite a long name that has to wrap on a phone", "sub/title");
     // The widest table that there is.
-    std::vector<std::string> header{"increments of", "verdict", "without overlap", "joint"};
-    std::vector<std::string> row{"10f", "optimistic, sigmas x 12.34 too small", "12345", "123.45"};
+    std::vector<std::string> header{"increments of", "verdict", "independent increments", "joint"};
+    std::vector<std::string> row{
+        "10 frames", "optimistic, sigmas x 12.34 too small", "12345", "123.45"};
     for (const char* name : {"translation", "rotation", "x", "y", "z", "rx", "ry", "rz", "bounds"})
     {
         header.emplace_back(name);

@@ -3,6 +3,7 @@
 #include <pointplane/evaluation/HtmlReport.h>
 #include <pointplane/evaluation/svg_chart.h>
 
+#include <cctype>
 #include <cstdint>
 #include <fstream>
 #include <stdexcept>
@@ -35,6 +36,23 @@ std::string base64(const std::string& bytes)
 }
 }  // namespace
 
+namespace
+{
+/** Columns of words, as opposed to numbers. */
+std::vector<bool> textColumns(std::size_t number, const std::vector<std::vector<std::string>>& rows)
+{
+    std::vector<bool> out(number, !rows.empty());
+    for (const auto& row : rows)
+    {
+        for (std::size_t k = 0; k < row.size(); ++k)
+        {
+            out[k] = out[k] && std::isalpha(static_cast<unsigned char>(row[k][0])) != 0;
+        }
+    }
+    return out;
+}
+}  // namespace
+
 HtmlReport::HtmlReport(std::string title, std::string subtitle)
     : title_(std::move(title)), subtitle_(std::move(subtitle))
 {
@@ -60,19 +78,19 @@ void HtmlReport::addTable(
     body_ += "<section class=\"wide\"><h2>" + xmlEscaped(caption) + "</h2>" +
              (detail.empty() ? "" : "<p class=\"detail\">" + xmlEscaped(detail) + "</p>") +
              "<div class=\"scroll\"><table><tr>";
-    for (const std::string& cell : header)
+    const std::vector<bool> isText = textColumns(header.size(), rows);
+    for (std::size_t k = 0; k < header.size(); ++k)
     {
-        body_ += "<th scope=\"col\">" + xmlEscaped(cell) + "</th>";
+        body_ += std::string("<th scope=\"col\"") + (isText[k] ? " class=\"text\">" : ">") +
+                 xmlEscaped(header[k]) + "</th>";
     }
     body_ += "</tr>\n";
     for (const auto& row : rows)
     {
         body_ += "<tr>";
-        for (const std::string& cell : row)
+        for (std::size_t k = 0; k < row.size(); ++k)
         {
-            // Words may be broken into lines, figures with their interval not.
-            const bool isText = cell.size() > 32;
-            body_ += (isText ? "<td class=\"text\">" : "<td>") + xmlEscaped(cell) + "</td>";
+            body_ += (isText[k] ? "<td class=\"text\">" : "<td>") + xmlEscaped(row[k]) + "</td>";
         }
         body_ += "</tr>\n";
     }

@@ -62,7 +62,7 @@ Chart positionErrorHistogram(const AteResult& result)
         errors.push_back(1000 * error.translation);
     }
     Chart chart = histogram(std::move(errors), "poses");
-    chart.title = "Position errors by size";
+    chart.title = "Position errors (ATE) by size";
     chart.xLabel = "distance to the ground truth [mm]";
     return chart;
 }

@@ -19,6 +19,7 @@ struct DrawnColumn
 {
     std::string column, name;
     Axis axis{Axis::Left};
+    ChartSeries::Style style{ChartSeries::Style::Line};
 };
 
 /** Adds the chart, with those columns that are there, unless none is. */
@@ -36,6 +37,7 @@ void addColumns(
             ChartSeries& series = chart.series.emplace_back();
             series.name = drawn.name;
             series.rightAxis = drawn.axis == Axis::Right;
+            series.style = drawn.style;
             series.y = table.column(drawn.column);
             for (const double stamp : table.stamps())
             {
@@ -55,7 +57,13 @@ Chart statusChart(const FrameTable& table, double start)
     chart.title = "Tracking status";
     chart.xLabel = "time [s]";
     chart.yLabel = "";
+    const std::vector<double> directions = table.column("observableDirections");
     chart.yNames = {"lost", "predicted", "tracked"};
+    if (!directions.empty())
+    {
+        chart.yNames.insert(chart.yNames.end() - 1, "in part");
+    }
+    const double best = static_cast<double>(chart.yNames.size() - 1);
     ChartSeries series;
     series.name = "status";
     series.style = ChartSeries::Style::Steps;
@@ -63,7 +71,11 @@ Chart statusChart(const FrameTable& table, double start)
     {
         const std::string& status = table.status()[k];
         series.x.push_back(table.stamps()[k] - start);
-        series.y.push_back(status == "lost" ? 0 : status == "predicted" ? 1 : 2);
+        const bool isInPart = status == "tracked" && !directions.empty() && directions[k] < 6;
+        series.y.push_back(
+            status == "lost"        ? 0
+            : status == "predicted" ? 1
+                                    : best - (isInPart ? 1 : 0));
     }
     chart.series.push_back(std::move(series));
     return chart;
@@ -86,9 +98,9 @@ std::vector<Chart> frameCharts(const FrameTable& table, double start)
         features,
         {{"numPoints", "points"},
          {"numPointPairs", "point pairs"},
-         {"numPointInliers", "inliers"},
+         {"numPointInliers", "inliers", Axis::Left, ChartSeries::Style::Dashed},
          {"numPlanes", "planes", Axis::Right},
-         {"numPlanePairs", "plane pairs", Axis::Right}},
+         {"numPlanePairs", "plane pairs", Axis::Right, ChartSeries::Style::Dashed}},
         table,
         start,
         charts);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/core/counted.h>
 #include <pointplane/core/number_text.h>
 #include <pointplane/evaluation/nees_interval.h>
 
@@ -38,5 +39,13 @@ std::string nameOf(const NeesInterval& interval)
         return "start";
     }
     return shortNumber(interval.delta) + nameOf(interval.unit);
+}
+
+std::string describe(const NeesInterval& interval)
+{
+    return interval.sinceStart ? "poses since the first"
+           : interval.unit == DeltaUnit::Frames
+               ? counted(static_cast<std::size_t>(interval.delta), "frame")
+               : shortNumber(interval.delta) + " s";
 }
 }  // namespace pointplane

@@ -228,7 +228,8 @@ std::vector<Chart> pathCharts(const Trajectory& groundTruth, const std::vector<D
         chart.series = pathsIn(view, paths);
         if (isSingle)
         {
-            chart.levelLabel = "position error [mm]";
+            chart.levelLabel =
+                first.estimate.covs.empty() ? "error [mm]" : "error, aligned at start [mm]";
         }
         if (isSingle && !first.estimate.covs.empty())
         {
@@ -237,6 +238,10 @@ std::vector<Chart> pathCharts(const Trajectory& groundTruth, const std::vector<D
         const auto placeOf = [&](const AteError& error)
         { return groundTruth.poses[error.truth].translation(); };
         chart.series.push_back(truthOf(groundTruth, first.ate, view));
+        if (!isSingle)
+        {
+            chart.series.back().style = Style::Dashed;  // hides no run that is right
+        }
         chart.series.push_back(
             markAt(placeOf(first.ate.errors.front()), view, "start", "c2", Style::Start));
         chart.series.push_back(

@@ -24,7 +24,7 @@ table{border-collapse:collapse;font-variant-numeric:tabular-nums;font-size:.88re
 th,td{padding:.25rem .5rem;text-align:right;border-bottom:1px solid var(--edge);vertical-align:top}
 th{font-weight:600}
 td{white-space:nowrap}
-td.text{white-space:normal;text-align:left;min-width:11ch}
+td.text,th.text{white-space:normal;text-align:left}td.text{min-width:11ch}
 th:first-child,td:first-child{text-align:left;position:sticky;left:0;background:var(--card);
 white-space:normal;overflow-wrap:anywhere;min-width:13ch}
 svg.plot{display:block;width:100%;height:auto;overflow:visible}
@@ -35,11 +35,16 @@ pre{overflow-x:auto;font-size:.8rem;white-space:pre-wrap;overflow-wrap:anywhere}
 #reading{position:fixed;pointer-events:none;background:var(--ink);color:var(--card);font-size:.8rem;
 padding:.1rem .4rem;border-radius:4px;display:none}
 @media(max-width:900px){section,section.small{grid-column:1/-1}}
-@media screen and (max-width:560px){section{overflow-x:auto}section:not(.small)>svg.plot{min-width:580px}}
+@media screen and (max-width:560px){section{overflow-x:auto}section:not(.small)>svg.plot{min-width:580px}
+section,.scroll{background:linear-gradient(90deg,var(--card) 40%,#0000) 0/3rem 100% no-repeat local,
+linear-gradient(270deg,var(--card) 40%,#0000) 100%/3rem 100% no-repeat local,
+linear-gradient(90deg,#0003,#0000) 0/1rem 100% no-repeat scroll,
+linear-gradient(270deg,#0003,#0000) 100%/1rem 100% no-repeat scroll,var(--card)}
+th,td{padding:.25rem .3rem}th:first-child,td:first-child{min-width:11ch}}
 @media(min-width:560px) and (max-width:900px){section.small{grid-column:span 3}}
 @media screen and (prefers-color-scheme:dark){:root{--ink:#e8ecf0;--muted:#9aa5b1;--page:#14191f;
 --card:#1d242c;--edge:#333d47}}
-@media print{@page{margin:12mm}body{background:#fff;font-size:9.5pt}h2{font-size:9pt}p.detail{font-size:7.5pt}header,main,footer{padding:0 0 6pt}
+@media print{svg.plot{max-height:66mm}@page{margin:12mm}body{background:#fff;font-size:9.5pt}h2{font-size:9pt}p.detail{font-size:7.5pt}header,main,footer{padding:0 0 6pt}
 main{display:flex;flex-wrap:wrap;gap:6pt}
 section{break-inside:avoid;padding:5pt;flex:0 0 calc(50% - 3pt)}
 section.small{flex-basis:calc(100%/3 - 4pt)}section.wide{flex-basis:100%}

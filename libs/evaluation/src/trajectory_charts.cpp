@@ -74,7 +74,7 @@ std::vector<Chart> relativeErrorCharts(
 Chart positionErrorChart(const Trajectory& estimate, const AteResult& result)
 {
     Chart chart;
-    chart.title = "Position error";
+    chart.title = "Position error (ATE)";
     chart.xLabel = "time [s]";
     chart.yLabel = "distance to the ground truth [mm]";
     ChartSeries series;
@@ -103,7 +103,7 @@ Chart neesChart(
 {
     Chart chart;
     chart.title = result.interval.sinceStart ? "NEES of the poses since the first one"
-                                             : "NEES of increments of " + nameOf(result.interval);
+                                             : "NEES of increments of " + describe(result.interval);
     chart.xLabel = "time of the increment's end [s]";
     chart.yLabel = "NEES per degree of freedom";
     chart.logY = true;
@@ -118,13 +118,13 @@ Chart neesChart(
     const double end = series.x.empty() ? 1 : series.x.back();
     chart.series.push_back(std::move(series));
     chart.series.push_back(levels(
-        "95 % of single ones",
+        "95 % of dots",
         {chiSquareQuantile(0.025, 6) / 6, chiSquareQuantile(0.975, 6) / 6},
         end,
         kGrey));
     chart.series.push_back(levels("mean", {result.joint.nees}, end, kRed));
     chart.series.push_back(
-        levels("95 % of means", {result.joint.lower, result.joint.upper}, end, kOrange));
+        levels("95 % range of the mean", {result.joint.lower, result.joint.upper}, end, kOrange));
     return chart;
 }
 
@@ -139,7 +139,7 @@ std::vector<Chart> errorAgainstSigmaCharts(
     {
         Chart chart;
         chart.title = std::string(translation ? "Translation" : "Rotation") + " error of " +
-                      (interval.sinceStart ? "poses" : nameOf(interval) + " increments") +
+                      (interval.sinceStart ? "poses" : "increments of " + describe(interval)) +
                       " in standard deviations";
         chart.xLabel = "time of the increment's end [s]";
         chart.yLabel = "error / sigma";

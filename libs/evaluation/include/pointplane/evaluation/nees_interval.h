@@ -18,4 +18,7 @@ struct NeesInterval
 /** From "1f", "10f", "0.5s" or "start". \throws std::invalid_argument for anything else */
 [[nodiscard]] NeesInterval neesIntervalFromName(const std::string& name);
 [[nodiscard]] std::string nameOf(const NeesInterval& interval);
+
+/** In words: "10 frames", "1 s". */
+[[nodiscard]] std::string describe(const NeesInterval& interval);
 }  // namespace pointplane
