@@ -261,6 +261,9 @@ TEST(Nees, posesSinceTheFirstAreOneIncrementThatGrows)
     EXPECT_EQ(increments[7].i, 0u);
     EXPECT_EQ(increments[7].j, 8u);
     EXPECT_EQ(countIndependent(increments), 1u);
+    EXPECT_EQ(neesRun(truth, estimate, {start}, {}).note, "") << "the first pose is certain";
+    EXPECT_THAT(
+        neesRun(truth, estimate, {neesIntervalFromName("1f")}, {}).note, HasSubstr("--since"));
     const Matrix6d Ad = adjoint(estimate.poses[0].inverse());
     const Matrix6d expected = Ad * estimate.covs[8] * Ad.transpose();
     EXPECT_THAT(increments[7].cov, test::IsMatrixNear(expected, 1e-6 * expected.norm()));

@@ -75,14 +75,17 @@ bool isTold(const Trajectory& estimate, std::size_t i, std::size_t j)
     return n > 0 && j < estimate.sinceCovs.size() && n <= estimate.sinceCovs[j].size();
 }
 
-/** Empty if the covariances of all these increments are in the file; else a note that they are
- * right only if increments are independent. */
+/** Empty if the covariances of all these increments are in the file, or those of poses since one
+ * that is certain; else a note that they are right only if increments are independent. */
 std::string noteOnUntold(const Trajectory& estimate, const std::vector<NeesIncrement>& increments)
 {
     const bool all = std::all_of(
         increments.begin(),
         increments.end(),
-        [&](const NeesIncrement& increment) { return isTold(estimate, increment.i, increment.j); });
+        [&](const NeesIncrement& increment) {
+            return isTold(estimate, increment.i, increment.j) ||
+                   estimate.covs[increment.i].isZero(0);
+        });
     if (all)
     {
         return "";
