@@ -125,6 +125,7 @@ ScoredResult AteCommand::scored(const AteResult& result, const Trajectory& measu
 {
     ScoredResult out = titled("Absolute trajectory error");
     out.protocol = describe(options, result, measured.size());
+    out.coverage = describe(result.coverage);
     out.rows = {{"translation", "m", result.translation}};
     out.details = {
         {"poses", result.errors.size()},

@@ -129,7 +129,8 @@ std::string protocolOf(
 {
     return describe(options, comparison.runs.front().rpe) +
            format(
-               " (of the first), bootstrap of %zu, seed %ju",
+               "%s, bootstrap of %zu, seed %ju",
+               comparison.runs.size() == 1 ? "" : " of the first run",
                bootstrap.resamples,
                static_cast<std::uintmax_t>(bootstrap.seed));
 }

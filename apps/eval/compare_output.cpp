@@ -187,7 +187,8 @@ void printErrors(const Comparison& c, const ErrorBlock& block, std::ostream& out
 
 void printTable(const Comparison& c, const std::string& protocol, std::ostream& out)
 {
-    out << titleOf(c) << ": " << protocol << "\n"
+    out << titleOf(c) << "\n"
+        << protocol << "\n"
         << "RMSE; distance to the best with the bootstrap's 95 % interval (ns: not significant)\n";
     printErrors(
         c,

@@ -43,6 +43,19 @@ std::string direction(const Vector6d& v)
     return out;
 }
 
+/** Those of which the root mean squares alone would not tell that sigma is too small at times. */
+std::string axesThatSeemConsistent(const NeesResult& r)
+{
+    std::string out;
+    for (std::size_t k = 0; k < kAxes.size(); ++k)
+    {
+        const AxisConsistency& a = r.axes[k];
+        const bool seems = a.test.nees > 1 && a.rmsError < a.rmsSigma;
+        out += seems ? (out.empty() ? "" : ", ") + std::string(kAxes[k]) : "";
+    }
+    return out;
+}
+
 nlohmann::ordered_json testJson(const ConsistencyTest& test)
 {
     return {
@@ -64,7 +77,7 @@ void printInterval(const NeesResult& r, std::ostream& out)
         "",
         "mean error",
         "rms error",
-        "sigma",
+        "rms sigma",
         "NEES/dof",
         "95 % bounds");
     for (std::size_t k = 0; k < kAxes.size(); ++k)
@@ -84,6 +97,11 @@ void printInterval(const NeesResult& r, std::ostream& out)
         << numberText(r.whitenedEigenvalues[5], 3) << " along the worst direction ("
         << direction(r.mostOptimistic) << ", whitened)\n"
         << "verdict: " << verdict(r.joint) << "\n";
+    if (const std::string axes = axesThatSeemConsistent(r); r.joint.isOptimistic() && !axes.empty())
+    {
+        out << axes << ": rms error is below rms sigma, but errors are large where sigma is small; "
+            << "--report has both over time\n";
+    }
 }
 }  // namespace
 

@@ -71,7 +71,7 @@ class PathSections
             kStatisticsHeader,
             {statisticsCells("translation [mm]", scaled(rpe.translation, 1000)),
              statisticsCells("rotation [deg]", scaled(rpe.rotation, kDegreesPerRadian))},
-            describe(run_.rpe, rpe));
+            describe(run_.rpe, rpe) + ", " + describe(rpe.coverage));
     }
 
     void addAbsolute(HtmlReport& report) const
@@ -81,7 +81,7 @@ class PathSections
             "Absolute trajectory error",
             kStatisticsHeader,
             {statisticsCells("translation [mm]", scaled(ate.translation, 1000))},
-            describe(run_.ate, ate, measured_.size()));
+            describe(run_.ate, ate, measured_.size()) + ", " + describe(ate.coverage));
         // Covariances are relative to the first pose, so that is where ellipses start from.
         const bool fromStart =
             !measured_.covs.empty() && run_.ate.alignment != Alignment::FirstPose;
@@ -90,8 +90,9 @@ class PathSections
         if (fromStart)
         {
             report.addParagraph(
-                "The paths are aligned at the first pose, where the covariances start. So their "
-                "errors grow from there, and are not those of the table.");
+                "The two paths are aligned at the first pose, where the covariances start. So "
+                "their "
+                "errors grow from there, and are not the absolute trajectory error.");
         }
         addAll(report, pathCharts(truth_, {{"estimate", measured_, map, run_.ate.scale}}));
         report.addChart(positionErrorChart(measured_, ate));

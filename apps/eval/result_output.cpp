@@ -209,7 +209,9 @@ std::string csvField(const std::string& text)
 
 void printTable(const ScoredResult& result, std::ostream& out)
 {
-    out << result.title << ": " << result.protocol << "\n"
+    out << result.title << "\n"
+        << result.protocol << "\n"
+        << result.coverage << "\n"
         << "ground truth " << inOneLine(result.groundTruth) << "\n"
         << "estimate     " << inOneLine(result.estimate) << "\n\n"
         << format(
@@ -240,7 +242,7 @@ nlohmann::ordered_json toJson(const ScoredResult& result)
 {
     nlohmann::ordered_json json;
     json["title"] = result.title;
-    json["protocol"] = result.protocol;
+    json["protocol"] = result.protocol + ", " + result.coverage;
     json["groundTruth"] = result.groundTruth;
     json["estimate"] = result.estimate;
     for (const StatisticsRow& row : result.rows)
@@ -283,7 +285,8 @@ std::string toCsv(const ScoredResult& result)
     {
         const Statistics& s = row.statistics;
         out += csvField(result.estimate) + "," + csvField(result.groundTruth) + "," +
-               csvField(result.protocol) + "," + row.name + "," + row.unit +
+               csvField(result.protocol + ", " + result.coverage) + "," + row.name + "," +
+               row.unit +
                format(
                    ",%zu,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n",
                    s.count,

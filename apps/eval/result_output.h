@@ -29,6 +29,7 @@ struct ScoredResult
 {
     std::string title;     //!< "Relative pose error"
     std::string protocol;  //!< one line: all that is needed to repeat it
+    std::string coverage;  //!< one line: how much was scored
     std::string groundTruth, estimate;
     std::vector<StatisticsRow> rows;
     nlohmann::ordered_json details;  //!< further members of the JSON object

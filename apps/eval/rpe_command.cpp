@@ -69,6 +69,7 @@ ScoredResult RpeCommand::scored(
 {
     ScoredResult out = titled("Relative pose error");
     out.protocol = describe(rpe, result);
+    out.coverage = describe(result.coverage);
     out.rows = {
         {"translation", "m", result.translation},
         {"rotation", "deg", scaled(result.rotation, kDegreesPerRadian)}};

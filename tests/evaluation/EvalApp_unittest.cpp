@@ -11,6 +11,7 @@
 #include <sstream>
 #include <utility>
 
+#include "nees_output.h"
 #include "result_output.h"
 #include "run_app.h"
 #include "test_trajectories.h"
@@ -508,7 +509,7 @@ TEST_F(EvalApp, compareOfOneRunHasNoBest)
 {
     const test::AppRun r = run({"compare", truth, estimate, "--json", files / "out.json"});
     EXPECT_EQ(r.code, 0) << r.err;
-    EXPECT_THAT(r.out, testing::StartsWith("Comparison of 1 run: "));
+    EXPECT_THAT(r.out, testing::StartsWith("Comparison of 1 run\n"));
     EXPECT_THAT(r.out, HasSubstr("give others to compare it with"));
     EXPECT_THAT(r.out, testing::Not(HasSubstr("* ")));
     EXPECT_THAT(r.out, testing::Not(HasSubstr("different frames")));
@@ -1148,4 +1149,20 @@ TEST_F(EvalApp, sparseGroundTruthIsToldOf)
     EXPECT_THAT(
         run({"rpe", truth, estimate, "--fixed-delta"}).err,
         testing::Not(HasSubstr("has a pose every")));
+}
+
+/** Each error counts by its own sigma. */
+TEST(NeesOutput, tellsWhereRootMeanSquaresMislead)
+{
+    NeesReport report;
+    NeesResult& result = report.results.emplace_back();
+    const std::string told = "\nx: rms error is below rms sigma, but";
+    for (const bool optimistic : {true, false})
+    {
+        result.joint = {optimistic ? 2.0 : 1.0, 0.5, 1.5};
+        result.axes[0] = {{3, 0.5, 1.5}, 0, 1, 2};
+        std::ostringstream out;
+        printTable(report, out);
+        EXPECT_EQ(out.str().find(told) != std::string::npos, optimistic) << out.str();
+    }
 }

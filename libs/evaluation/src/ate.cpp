@@ -93,7 +93,6 @@ std::string describe(const AteOptions& options, const AteResult& result, std::si
     return "TUM protocol (evaluate_ate), " + alignment + ", association " +
            shortNumber(options.maxDifference) + " s" +
            describeChanges(options.offset, options.scale) + ", " +
-           std::to_string(result.errors.size()) + " of " + std::to_string(estimatePoses) +
-           " poses, " + describe(result.coverage);
+           std::to_string(result.errors.size()) + " of " + std::to_string(estimatePoses) + " poses";
 }
 }  // namespace pointplane

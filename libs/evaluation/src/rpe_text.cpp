@@ -65,17 +65,16 @@ std::string describe(const RpeOptions& options, const RpeResult& result)
     const std::string counts =
         ", " + std::to_string(result.translation.count) + " of " +
         std::to_string(result.candidatePairs) + " pairs" +
-        (result.randomPairs ? " drawn with seed " + std::to_string(options.seed) : "") + ", ";
+        (result.randomPairs ? " drawn with seed " + std::to_string(options.seed) : "");
     const std::size_t alone = options.fixedDelta ? numWithThemselves(result) : 0;
     const std::size_t off = result.pairsOffDelta - std::min(alone, result.pairsOffDelta);
     return describe(options) + counts +
-           (alone > 0
-                ? std::to_string(alone) + " of a pose with itself, as nothing is at its delta, "
-                : "") +
-           (off > 0 ? std::to_string(off) + " off by more than half of delta, " : "") +
-           (result.pairsOfOtherTime > 0 ? std::to_string(result.pairsOfOtherTime) +
-                                              " with ground truth an interval or more away, "
-                                        : "") +
-           describe(result.coverage);
+           (alone > 0 ? ", " + std::to_string(alone) +
+                            " of a pose with itself, as nothing is at its delta"
+                      : "") +
+           (off > 0 ? ", " + std::to_string(off) + " off by more than half of delta" : "") +
+           (result.pairsOfOtherTime > 0 ? ", " + std::to_string(result.pairsOfOtherTime) +
+                                              " with ground truth an interval or more away"
+                                        : "");
 }
 }  // namespace pointplane

@@ -52,7 +52,7 @@ struct AteResult
 [[nodiscard]] Eigen::Isometry3d alignPoints(
     const Eigen::Matrix3Xd& points_a, const Eigen::Matrix3Xd& points_b);
 
-/** The protocol in one line: association, alignment, poses used, coverage. */
+/** The protocol in one line: association, alignment, poses used. */
 [[nodiscard]] std::string describe(
     const AteOptions& options, const AteResult& result, std::size_t estimatePoses);
 }  // namespace pointplane

@@ -82,7 +82,6 @@ struct RpeResult
 /** The protocol as far as options tell it: formula, delta, ground truth. */
 [[nodiscard]] std::string describe(const RpeOptions& options);
 
-/** The protocol in one line, e.g. for a title: formula, delta, pairs used, ground truth,
- * coverage. */
+/** The protocol in one line, e.g. for a title: formula, delta, ground truth, pairs used. */
 [[nodiscard]] std::string describe(const RpeOptions& options, const RpeResult& result);
 }  // namespace pointplane
