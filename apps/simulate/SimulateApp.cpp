@@ -154,7 +154,16 @@ SimulationParams paramsOf(const Arguments& args)
         settings.push_back(std::string(kSection) + "." + setting);
     }
     applySettings(settings, table);
-    params.check();
+    try
+    {
+        params.check();
+    }
+    catch (const std::invalid_argument& error)
+    {
+        const std::string problem = error.what();
+        const std::string option = optionFor(problem.substr(0, problem.find(' ')), args);
+        throw InputError((option.empty() ? "--set" : option) + ": " + problem);
+    }
     return params;
 }
 

@@ -298,7 +298,7 @@ TEST(SimulateApp, badUsageIsNamedAndLeavesNoFile)
         {{"corner", "-o", path, "--set", "foo=1"},
          "--set foo=1: unknown key 'foo' (see --list-settings)"},
         {{"corner", "-o", path, "--label", "a\nb"}, "new line or another control character"},
-        {{"corner", "-o", path, "--set", "fps=0"}, "fps"},
+        {{"corner", "-o", path, "--set", "fps=0"}, "--set: fps = 0 is not in"},
         {{"corner", "-o", path, "--set", "light=1", "--set", "light=2"},
          "setting 'Simulation.light=2': [Simulation] light is set twice"},
         {{"corner", "-o", path, "--fps", "10", "--set", "fps=20"}, "fps=20: --fps sets it, too"},
@@ -306,7 +306,8 @@ TEST(SimulateApp, badUsageIsNamedAndLeavesNoFile)
         {{"corner", "-o", path + ".txt"}, "a.rawlog.txt: would be a rawlog; give a name that ends"},
         {{"corner", "-o", path, "--size", "640"}, "--size"},
         {{"corner", "-o", path, "--size", "640x480px"}, "--size"},
-        {{"corner", "-o", path, "--duration", "-1"}, "duration"},
+        {{"corner", "-o", path, "--size", "320x0"}, "--size: height = 0 is not in [16, 4096]"},
+        {{"corner", "-o", path, "--duration", "-1"}, "--duration: duration = -1 is not in"},
         {{"corner"}, "--output"}};
     for (const auto& [args, named] : cases)
     {
