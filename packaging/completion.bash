@@ -14,13 +14,13 @@ _pointplane_keys() { # PROGRAM: those of its --set, with =
 _pointplane() {
     local cur=${COMP_WORDS[COMP_CWORD]} program=${COMP_WORDS[0]} help command="" word
     local previous=${COMP_WORDS[COMP_CWORD - 1]} values
-    help=$("$program" --help 2>/dev/null) || return
+    help=$(COLUMNS=0 "$program" --help 2>/dev/null) || return
     local commands
     commands=$(sed -n '/^Subcommands:/,$s/^  \([a-z][a-z0-9]*\) .*/\1/p' <<<"$help")
     for word in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do
         if grep -qxF -- "$word" <<<"$commands"; then
             command=$word
-            help=$("$program" "$command" --help 2>/dev/null)
+            help=$(COLUMNS=0 "$program" "$command" --help 2>/dev/null)
             break
         fi
     done

@@ -5,6 +5,7 @@
 set -euo pipefail
 help2man=$1 program=$2 version=$3 output=$4 folder=$5
 
+export COLUMNS=0 # help as it is, whatever the terminal
 name=$(basename "$program")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

@@ -57,15 +57,12 @@ void ProgressBar::draw(double fraction, std::size_t frames, Clock::time_point no
     std::snprintf(
         numbers,
         sizeof(numbers),
-        "%3.0f %%  %s  %.1f fps",
+        "%3.0f %%  %11s  %5.1f fps  %5s left",
         100 * fraction,
         framesText(frames).c_str(),
-        rate);
+        rate,
+        fraction > 0.01 ? durationText(elapsed / fraction - elapsed).c_str() : "-:--");
     text += numbers;
-    if (fraction > 0.01)
-    {
-        text += "  " + durationText(elapsed / fraction - elapsed) + " left";
-    }
     if (isTerminal_)
     {
         out_ << "\r" << lineOf(what_, text, columnsOf(STDERR_FILENO)) << "\x1b[K" << std::flush;

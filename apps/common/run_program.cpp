@@ -206,7 +206,7 @@ int runCommand(
         return kExitBadInput;
     }
     commands.push_back(&app);
-    const std::size_t columns = &out == &std::cout ? columnsOf(STDOUT_FILENO) : 0;
+    const std::size_t columns = &out == &std::cout ? helpColumns() : 0;
     for (CLI::App* command : commands)
     {
         command->formatter(std::make_shared<HelpFormatter>(columns));

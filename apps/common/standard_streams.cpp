@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "standard_streams.h"
 
+#include <pointplane/core/number_text.h>
 #include <pointplane/mrpt_io/errors.h>
 
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <iostream>
 #include <string>
@@ -65,6 +67,17 @@ std::size_t columnsOf(int stream)
     winsize size = {};
     const bool tells = ::isatty(stream) == 1 && ::ioctl(stream, TIOCGWINSZ, &size) == 0;
     return tells ? size.ws_col : 0;
+}
+
+std::size_t helpColumns()
+{
+    const char* const told = std::getenv("COLUMNS");
+    if (const auto columns = parseNumber<std::size_t>(told == nullptr ? "" : told))
+    {
+        return *columns;
+    }
+    const std::size_t columns = columnsOf(STDOUT_FILENO);
+    return columns > 0 ? columns : columnsOf(STDERR_FILENO);
 }
 
 void requireStandardOutput()

@@ -12,6 +12,10 @@ void openStandardStreams();
 /** Columns of the terminal that this is, like STDOUT_FILENO; 0 if it is none, or does not tell. */
 [[nodiscard]] std::size_t columnsOf(int stream);
 
+/** Columns that help is wrapped to: COLUMNS, or those of the terminal that shows it, also by a
+ * pager. 0: there is none. */
+[[nodiscard]] std::size_t helpColumns();
+
 /** Before a run whose result goes there. What only tells about a run may be lost with a closed
  * stream. \throws EnvironmentError if it was closed when the program began */
 void requireStandardOutput();

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdint>
+#include <cstdlib>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -24,6 +25,7 @@
 #include "number_checks.h"
 #include "rawlog_samples.h"
 #include "run_program.h"
+#include "standard_streams.h"
 #include <CLI/CLI.hpp>
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -281,6 +283,15 @@ TEST(RunCommand, helpFitsTheTerminal)
     EXPECT_EQ(wrappedHelp(help, 40, 30), help) << "too narrow to be of use";
     const std::string path = "  --x " + std::string(90, 'x') + "\n";
     EXPECT_EQ(wrappedHelp(path, 80, 30), path);
+}
+
+TEST(RunCommand, helpFitsTheColumnsThatAreAskedFor)
+{
+    ::setenv("COLUMNS", "72", 1);
+    EXPECT_EQ(helpColumns(), 72U);
+    ::setenv("COLUMNS", "0", 1);
+    EXPECT_EQ(helpColumns(), 0U);
+    ::unsetenv("COLUMNS");
 }
 
 TEST(RunCommand, linesThatAreRedrawnFitTheTerminal)
