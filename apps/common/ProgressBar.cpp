@@ -46,7 +46,7 @@ void ProgressBar::draw(double fraction, std::size_t frames, Clock::time_point no
     const double elapsed = std::chrono::duration<double>(now - start_).count();
     const double rate = static_cast<double>(frames) / elapsed;
     std::string text = ": ";
-    constexpr int kWidth = 24;
+    constexpr int kWidth = 20;
     if (isTerminal_)
     {
         const int filled = static_cast<int>(std::lround(fraction * kWidth));
