@@ -508,7 +508,9 @@ TEST(MrptTrajectories, aNeesThatIsNotFinitePassesNoGate)
     args.insert(args.end(), {"--report", dir / "r"});
     EXPECT_EQ(evaluate(args).code, 0);
     EXPECT_THAT(evaluate(args).out, HasSubstr("verdict: cannot be judged: NEES is not finite"));
-    EXPECT_THAT(test::readBytes(dir / "r/index.html"), HasSubstr("<td>cannot be judged</td>"));
+    EXPECT_THAT(
+        test::readBytes(dir / "r/index.html"),
+        HasSubstr("<td class=\"text\">cannot be judged</td>"));
     for (const auto& [option, limit] : {std::pair("--max-nees", "2"), {"--min-nees", "0.5"}})
     {
         args.resize(5);
