@@ -72,6 +72,28 @@ TEST(VisualOdometry, badFramesBeforeTheFirstGoodOneDoNotMoveTheRobot)
     }
 }
 
+/** Frames without a reading can be converted: they tell where the camera is on the robot. */
+TEST(VisualOdometry, thePathBeginsWhereTheCameraIsInItsFirstFrame)
+{
+    VisualOdometry vo;
+    vo.setMinLoggingLevel(mrpt::system::LVL_ERROR);
+    for (int i = 0; i < 4; ++i)
+    {
+        const auto scan = sampleScan(i, 64, 48);
+        scan->sensorPose = mrpt::poses::CPose3D::FromXYZYawPitchRoll(0.3, 0, 1, 0.3 * i, 0, 0);
+        if (i < 3)
+        {
+            scan->rangeImage.fill(0);
+        }
+        const RobotMotion motion = vo.process(*scan);
+        EXPECT_EQ(motion.status, i < 3 ? TrackingStatus::Lost : TrackingStatus::First);
+        EXPECT_LT(motion.pose.mean.norm(), 1e-9) << i;
+        EXPECT_NEAR(motion.pose.mean.yaw(), 0, 1e-9) << i;
+        EXPECT_LT(motion.increment.mean.norm(), 1e-9) << i;
+        EXPECT_NEAR(motion.increment.mean.yaw(), 0, 1e-9) << i;
+    }
+}
+
 TEST(VisualOdometry, loadsItsConfiguration)
 {
     const test::TempDir dir;

@@ -249,6 +249,7 @@ TEST(RobotTrajectory, motionsSinceEarlierFrames)
     for (int k = 0; k < 4; ++k)
     {
         OdometryResult result;
+        result.status = k == 0 ? TrackingStatus::First : TrackingStatus::Tracked;
         result.increment.cov = result.pose.cov = 1e-6 * Matrix6d::Identity();
         for (int n = 1; n <= std::min(k, 2); ++n)
         {

@@ -22,27 +22,12 @@ namespace
 
 RobotMotion RobotTrajectory::add(const OdometryResult& result, const Eigen::Isometry3d& T_robot_cam)
 {
-    if (!isKnown_)
+    if (!hasBegun_)
     {
-        // The camera was there in the frames before, too, for all that anybody knows.
+        // The robot has not moved yet, whatever its camera did on it.
         T_robot_cam_first_ = T_robot_cam;
-        std::fill(T_robot_cam_.begin(), T_robot_cam_.end(), T_robot_cam);
-        isKnown_ = true;
-    }
-    return place(result, T_robot_cam);
-}
-
-RobotMotion RobotTrajectory::add(const OdometryResult& result)
-{
-    return place(result, T_robot_cam_.empty() ? T_robot_cam_first_ : T_robot_cam_.front());
-}
-
-RobotMotion RobotTrajectory::place(
-    const OdometryResult& result, const Eigen::Isometry3d& T_robot_cam)
-{
-    if (T_robot_cam_.empty())
-    {
-        T_robot_cam_.push_front(T_robot_cam);
+        T_robot_cam_.assign(1, T_robot_cam);
+        hasBegun_ = result.status == TrackingStatus::First;
     }
     RobotMotion out;
     out.status = result.status;
@@ -58,5 +43,10 @@ RobotMotion RobotTrajectory::place(
     T_robot_cam_.push_front(T_robot_cam);
     T_robot_cam_.resize(std::min(T_robot_cam_.size(), result.since.size() + 2));
     return out;
+}
+
+RobotMotion RobotTrajectory::add(const OdometryResult& result)
+{
+    return add(result, Eigen::Isometry3d(T_robot_cam_.front()));
 }
 }  // namespace pointplane

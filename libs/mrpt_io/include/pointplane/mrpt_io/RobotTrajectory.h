@@ -27,7 +27,8 @@ struct RobotMotion
 };
 
 /** Turns motions of the camera into motions of the robot that carries it. The camera may move on
- * the robot (a pan-tilt head), because each frame brings the camera's pose on it. */
+ * the robot (a pan-tilt head), because each frame brings the camera's pose on it. Until the frame
+ * that is First, the robot stands. */
 class RobotTrajectory
 {
  public:
@@ -43,11 +44,9 @@ class RobotTrajectory
     void reset() { *this = RobotTrajectory(); }
 
  private:
-    [[nodiscard]] RobotMotion place(
-        const OdometryResult& result, const Eigen::Isometry3d& T_robot_cam);
-
-    bool isKnown_{false};  //!< a frame has told where the camera is on the robot
+    bool hasBegun_{false};  //!< there was a frame that is First
     Eigen::Isometry3d T_robot_cam_first_{opticalInBody()};
-    std::deque<Eigen::Isometry3d> T_robot_cam_;  //!< of the frames so far, latest first
+    /** Of the frames so far, latest first. */
+    std::deque<Eigen::Isometry3d> T_robot_cam_{opticalInBody()};
 };
 }  // namespace pointplane
