@@ -32,6 +32,16 @@ TEST(Simplemap, aScanOfColourAloneHasNoPoints)
     EXPECT_TRUE(withPoints(*test::sampleScan(0))->hasPoints3D);
 }
 
+TEST(Simplemap, saturatedDepthGivesNoPoint)
+{
+    const auto scan = test::sampleScan(0);
+    scan->rangeImage(3, 4) = 0;
+    scan->rangeImage(5, 6) = 65535;
+    const std::size_t numReadings = scan->rangeImage.size() - 2;
+    EXPECT_EQ(withPoints(*scan)->points3D_x.size(), numReadings);
+    EXPECT_EQ(scan->rangeImage(5, 6), 65535) << "the scan itself stays";
+}
+
 TEST(Simplemap, aKeyFrameWithoutScanIsRefusedWhereItIsAdded)
 {
     const test::TempDir dir;

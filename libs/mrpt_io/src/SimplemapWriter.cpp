@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/core/check.h>
+#include <pointplane/mrpt_io/ScanWriter.h>
 #include <pointplane/mrpt_io/SimplemapWriter.h>
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/external_range.h>
@@ -9,6 +10,7 @@
 #include <mrpt/obs/T3DPointsProjectionParams.h>
 #include <mrpt/serialization/CArchive.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -40,6 +42,9 @@ mrpt::obs::CObservation3DRangeScan::Ptr withPoints(const mrpt::obs::CObservation
         out->rangeImage_forceResetExternalStorage();
         out->rangeImage = readings;
     }
+    // MRPT takes 0 alone for no reading.
+    std::uint16_t* readings = out->rangeImage.data();
+    std::replace(readings, readings + out->rangeImage.size(), kSaturatedDepth, std::uint16_t{0});
     try
     {
         mrpt::obs::T3DPointsProjectionParams params;

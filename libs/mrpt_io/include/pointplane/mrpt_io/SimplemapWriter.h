@@ -43,9 +43,9 @@ class SimplemapWriter
     std::unique_ptr<Impl> impl_;
 };
 
-/** A copy of a scan with its point cloud (sensor frame). Ranges that were in a file (of MRPT's
- * folder, if its name is relative) are in memory.
- * \throws InputError if that file cannot be read, or the cloud cannot be computed */
+/** A copy of a scan with its point cloud (sensor frame), in which no reading is 0. Ranges that were
+ * in a file (of MRPT's folder, if its name is relative) are in memory. \throws InputError if that
+ * file cannot be read, or the cloud cannot be computed */
 [[nodiscard]] mrpt::obs::CObservation3DRangeScan::Ptr withPoints(
     const mrpt::obs::CObservation3DRangeScan& scan);
 }  // namespace pointplane
