@@ -134,6 +134,8 @@ TEST(VisualOdometry, aFrameOfAnotherCameraIsLostAndChangesNoPose)
     EXPECT_NEAR(lost.pose.mean.distanceTo(before.pose.mean), 0, 1e-9);
     // Its stamp is later than that of the next one of the first camera.
     EXPECT_NE(vo.process(*sampleScan(2, 64, 48)).status, TrackingStatus::Lost);
+    const RobotMotion converted = vo.process(ObservationConverter().convert(*other));
+    EXPECT_EQ(converted.reason, lost.reason);
     vo.reset();
     EXPECT_EQ(vo.process(*other).status, TrackingStatus::First);
 }

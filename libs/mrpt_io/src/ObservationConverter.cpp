@@ -279,6 +279,7 @@ ConvertedFrame ObservationConverter::convert(const CObservation3DRangeScan& scan
         out.problem = oneLine(e);
     }
     out.frame.stamp = toSeconds(scan.timestamp);
+    out.sensorLabel = scan.sensorLabel;
     return out;
 }
 }  // namespace pointplane

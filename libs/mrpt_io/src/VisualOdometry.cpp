@@ -24,19 +24,24 @@ void VisualOdometry::loadFromConfigFileName(const std::string& path)
 
 RobotMotion VisualOdometry::process(const mrpt::obs::CObservation3DRangeScan& scan)
 {
-    label_ = label_.value_or(scan.sensorLabel);
-    if (scan.sensorLabel == *label_)
-    {
-        return process(converter_.convert(scan));
-    }
-    ConvertedFrame other;
-    other.frame.stamp = std::numeric_limits<double>::quiet_NaN();  // it says nothing of this camera
-    other.problem = "is of camera '" + scan.sensorLabel + "', not of '" + *label_ +
-                    "': each camera needs an object of its own";
-    return process(other);
+    return process(converter_.convert(scan));
 }
 
 RobotMotion VisualOdometry::process(const ConvertedFrame& converted)
+{
+    label_ = label_.value_or(converted.sensorLabel);
+    if (converted.sensorLabel == *label_)
+    {
+        return add(converted);
+    }
+    ConvertedFrame other;
+    other.frame.stamp = std::numeric_limits<double>::quiet_NaN();  // it says nothing of this camera
+    other.problem = "is of camera '" + converted.sensorLabel + "', not of '" + *label_ +
+                    "': each camera needs an object of its own";
+    return add(other);
+}
+
+RobotMotion VisualOdometry::add(const ConvertedFrame& converted)
 {
     const bool usable = converted.problem.empty();
     const OdometryResult result = odometry_.process(converted.frame);

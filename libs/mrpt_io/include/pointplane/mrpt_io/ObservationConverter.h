@@ -17,6 +17,7 @@ struct ConvertedFrame
 {
     RgbdFrame frame;      //!< only the stamp is set when there is a problem
     std::string problem;  //!< one clause without full stop; empty when usable
+    std::string sensorLabel;
     /** The camera on the robot: T_robot_cam with optical axes, from sensorPose and, where there is
      * an intensity image, relativePoseIntensityWRTDepth. */
     Eigen::Isometry3d T_robot_cam{Eigen::Isometry3d::Identity()};

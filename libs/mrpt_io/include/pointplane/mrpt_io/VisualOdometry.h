@@ -73,6 +73,8 @@ class VisualOdometry : public mrpt::system::COutputLogger
     void reset();
 
  private:
+    [[nodiscard]] RobotMotion add(const ConvertedFrame& converted);
+
     Odometry odometry_;
     ObservationConverter converter_;
     RobotTrajectory trajectory_;
