@@ -240,6 +240,41 @@ TEST(RobotTrajectory, followsAPanningCamera)
     }
 }
 
+/** The camera's motion is predicted then: nobody knows whether the head's is in it. */
+TEST(RobotTrajectory, aHeadThatTurnsWhileNothingIsMeasuredIsUncertain)
+{
+    const auto head = [](double pan) { return poseAt(0, 0, 1, pan, 0, 0) * opticalInBody(); };
+    const PoseGaussian still{Eigen::Isometry3d::Identity(), 1e-6 * Matrix6d::Identity()};
+    const auto result = [&](TrackingStatus status, std::size_t numSince)
+    {
+        OdometryResult out;
+        out.status = status;
+        out.increment = out.pose = still;
+        out.since.assign(numSince, still);
+        return out;
+    };
+    const auto sdYaw = [](const mrpt::poses::CPose3DPDFGaussian& p)
+    { return std::sqrt(p.cov(3, 3)); };
+    RobotTrajectory trajectory;
+    (void)trajectory.add(result(TrackingStatus::First, 0), head(0.1));
+    const RobotMotion stands = trajectory.add(result(TrackingStatus::Predicted, 1), head(0.1));
+    EXPECT_NEAR(sdYaw(stands.pose), 1e-3, 1e-9);
+    const RobotMotion one = trajectory.add(result(TrackingStatus::Predicted, 2), head(0.3));
+    const RobotMotion two = trajectory.add(result(TrackingStatus::Lost, 3), head(0.6));
+    EXPECT_NEAR(sdYaw(one.increment), 0.2, 1e-4);
+    EXPECT_NEAR(sdYaw(two.increment), 0.3, 1e-4);
+    EXPECT_NEAR(sdYaw(two.since[1]), 0.5, 1e-4) << "they err together";
+    EXPECT_NEAR(sdYaw(two.pose), 0.5, 1e-4);
+    OdometryResult again = result(TrackingStatus::Tracked, 4);
+    again.pose.mean = again.increment.mean = head(0.1).inverse() * head(0.6);
+    const RobotMotion measured = trajectory.add(again, head(0.6));
+    EXPECT_NEAR(sdYaw(measured.pose), 1e-3, 1e-9);
+    EXPECT_THAT(
+        fromMrpt(measured.pose.mean), IsNearPose(Eigen::Isometry3d::Identity(), 1e-9, 1e-9));
+    EXPECT_NEAR(sdYaw(measured.increment), 0.5, 1e-4) << "it takes the wrong turn back";
+    EXPECT_NEAR(sdYaw(measured.since[3]), 1e-3, 1e-9);
+}
+
 TEST(RobotTrajectory, motionsSinceEarlierFrames)
 {
     // The head pans: each motion begins with the camera where it was on the robot then.

@@ -8,25 +8,37 @@
 
 namespace pointplane
 {
-namespace
+/** T_ra_rb = T_ra_ca * T_ca_cb * T_rb_cb^-1, the camera's poses on the robot being exact. A
+ * predicted motion of the camera may be with the robot alone: how far the camera has moved on it
+ * since the latest measured frame is a standard deviation. */
+PoseGaussian RobotTrajectory::onRobot(const Mount& a, const PoseGaussian& T_ca_cb, const Mount& b)
 {
-/** T_ra_rb = T_ra_ca * T_ca_cb * T_rb_cb^-1, the camera's poses on the robot being exact. */
-[[nodiscard]] PoseGaussian onRobot(
-    const Eigen::Isometry3d& T_ra_ca, const PoseGaussian& T_ca_cb, const Eigen::Isometry3d& T_rb_cb)
-{
-    return {
-        orthonormalised(T_ra_ca * T_ca_cb.mean * T_rb_cb.inverse()),
-        propagate(adjoint(T_ra_ca), T_ca_cb.cov)};
+    const Eigen::Isometry3d mean = a.T_robot_cam * T_ca_cb.mean * b.T_robot_cam.inverse();
+    Matrix6d cov = propagate(adjoint(a.T_robot_cam), T_ca_cb.cov);
+    const auto hasMoved = [](const Mount& mount)
+    { return mount.T_robot_cam.matrix() != mount.T_robot_cam_measured.matrix(); };
+    if (hasMoved(a) || hasMoved(b))
+    {
+        const Vector6d doubt = se3Log(
+            a.T_robot_cam_measured * T_ca_cb.mean * b.T_robot_cam_measured.inverse() *
+            mean.inverse());
+        cov += doubt * doubt.transpose();
+    }
+    return {orthonormalised(mean), cov};
 }
-}  // namespace
 
 RobotMotion RobotTrajectory::add(const OdometryResult& result, const Eigen::Isometry3d& T_robot_cam)
 {
+    Mount mount{T_robot_cam, mounts_.front().T_robot_cam_measured};
+    if (!hasBegun_ || isMeasured(result.status))
+    {
+        mount.T_robot_cam_measured = T_robot_cam;
+    }
     if (!hasBegun_)
     {
         // The robot has not moved yet, whatever its camera did on it.
-        T_robot_cam_first_ = T_robot_cam;
-        T_robot_cam_.assign(1, T_robot_cam);
+        first_ = mount;
+        mounts_.assign(1, mount);
         hasBegun_ = result.status == TrackingStatus::First;
     }
     RobotMotion out;
@@ -34,19 +46,19 @@ RobotMotion RobotTrajectory::add(const OdometryResult& result, const Eigen::Isom
     out.reason = result.reason;
     out.diagnostics = result.diagnostics;
     out.cameraPose = result.pose;
-    out.increment = toMrpt(onRobot(T_robot_cam_.front(), result.increment, T_robot_cam));
-    out.pose = toMrpt(onRobot(T_robot_cam_first_, result.pose, T_robot_cam));
-    for (std::size_t k = 0; k < std::min(result.since.size(), T_robot_cam_.size()); ++k)
+    out.increment = toMrpt(onRobot(mounts_.front(), result.increment, mount));
+    out.pose = toMrpt(onRobot(first_, result.pose, mount));
+    for (std::size_t k = 0; k < std::min(result.since.size(), mounts_.size()); ++k)
     {
-        out.since.push_back(toMrpt(onRobot(T_robot_cam_[k], result.since[k], T_robot_cam)));
+        out.since.push_back(toMrpt(onRobot(mounts_[k], result.since[k], mount)));
     }
-    T_robot_cam_.push_front(T_robot_cam);
-    T_robot_cam_.resize(std::min(T_robot_cam_.size(), result.since.size() + 2));
+    mounts_.push_front(mount);
+    mounts_.resize(std::min(mounts_.size(), result.since.size() + 2), first_);
     return out;
 }
 
 RobotMotion RobotTrajectory::add(const OdometryResult& result)
 {
-    return add(result, Eigen::Isometry3d(T_robot_cam_.front()));
+    return add(result, Eigen::Isometry3d(mounts_.front().T_robot_cam));
 }
 }  // namespace pointplane

@@ -44,9 +44,17 @@ class RobotTrajectory
     void reset() { *this = RobotTrajectory(); }
 
  private:
+    /** Where the camera is on the robot, optical axes. */
+    struct Mount
+    {
+        Eigen::Isometry3d T_robot_cam;
+        Eigen::Isometry3d T_robot_cam_measured;  //!< in the latest frame that was measured
+    };
+    [[nodiscard]] static PoseGaussian onRobot(
+        const Mount& a, const PoseGaussian& T_ca_cb, const Mount& b);
+
     bool hasBegun_{false};  //!< there was a frame that is First
-    Eigen::Isometry3d T_robot_cam_first_{opticalInBody()};
-    /** Of the frames so far, latest first. */
-    std::deque<Eigen::Isometry3d> T_robot_cam_{opticalInBody()};
+    Mount first_{opticalInBody(), opticalInBody()};
+    std::deque<Mount> mounts_{first_};  //!< of the frames so far, latest first
 };
 }  // namespace pointplane
