@@ -352,6 +352,26 @@ TEST(ObservationConverter, unregisteredDepthWithAnyIntrinsics)
     }
 }
 
+/** A dropped image must not end the track, nor move the robot by the cameras' distance. */
+TEST(ObservationConverter, aScanThatLacksColourIsStillSeenByTheColourCamera)
+{
+    const Eigen::Isometry3d T_depth_cam(Eigen::Translation3d(0.1, 0, 0));
+    const auto scan = unregisteredScan({}, T_depth_cam, 80);
+    const ObservationConverter converter;
+    const ConvertedFrame whole = converter.convert(*scan);
+    scan->hasIntensityImage = false;
+    scan->cameraParamsIntensity = {};
+    const ConvertedFrame lacking = converter.convert(*scan);
+    ASSERT_EQ(lacking.problem, "");
+    EXPECT_TRUE(lacking.frame.gray.empty());
+    EXPECT_EQ(lacking.frame.camera.fx, whole.frame.camera.fx);
+    EXPECT_EQ(lacking.frame.depth.size(), whole.frame.depth.size());
+    EXPECT_EQ(cv::norm(whole.frame.depth - lacking.frame.depth, cv::NORM_INF), 0);
+    EXPECT_THAT(lacking.T_robot_cam.matrix(), test::IsMatrixNear(whole.T_robot_cam.matrix(), 0));
+    scan->sensorLabel = "of depth alone";
+    EXPECT_EQ(converter.convert(*scan).frame.depth.cols, 160);
+}
+
 TEST(ObservationConverter, nearSurfaceHidesTheFarOne)
 {
     const PlaneScene scene;
@@ -438,6 +458,13 @@ TEST(ObservationConverter, everyBadFrameHasItsText)
              { s.cameraParams.distortion = mrpt::img::DistortionModel::kannala_brandt; }),
         HasSubstr("fisheye"));
     EXPECT_EQ(with([](Scan& s) { s.sensorPose.x(1e200); }), "sensorPose is longer than 10 km");
+    for (const double y : {0.0, -0.025})
+    {
+        EXPECT_THAT(
+            with([y](Scan& s) { s.relativePoseIntensityWRTDepth.setFromValues(0, y, 0); }),
+            HasSubstr(
+                "relativePoseIntensityWRTDepth has no rotation, so the colour camera looks up"));
+    }
     EXPECT_EQ(
         with(
             [](Scan& s)

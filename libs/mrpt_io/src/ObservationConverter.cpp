@@ -64,13 +64,21 @@ void requirePose(const Eigen::Isometry3d& T, const std::string& name)
 
 struct ObservationConverter::Impl
 {
+    struct ColourCamera
+    {
+        PinholeCamera camera;
+        Eigen::Isometry3d T_body_cam;  //!< on the depth camera's body
+    };
+
     [[nodiscard]] std::string resolved(const std::string& name) const
     {
         const std::string folder =
             externals.empty() ? mrpt::img::CImage::getImagesPathBase() + "/" : externals;
         return name.empty() || name.front() == '/' ? name : folder + name;
     }
-    [[nodiscard]] cv::Mat intensityOf(const CObservation3DRangeScan& scan) const;
+    [[nodiscard]] static ColourCamera colourCameraOf(const CObservation3DRangeScan& scan);
+    [[nodiscard]] cv::Mat intensityOf(
+        const CObservation3DRangeScan& scan, const PinholeCamera& camera) const;
     [[nodiscard]] cv::Mat depthOf(
         const CObservation3DRangeScan& scan, const PinholeCamera& camera) const;
     [[nodiscard]] const DepthRegistration& registration(
@@ -78,15 +86,13 @@ struct ObservationConverter::Impl
         const PinholeCamera& target,
         const Eigen::Isometry3d& T_target_source) const;
     void fill(const CObservation3DRangeScan& scan, ConvertedFrame& out) const;
-    void fillWithColour(
-        const CObservation3DRangeScan& scan,
-        const PinholeCamera& depthCamera,
-        const cv::Mat& depth,
-        ConvertedFrame& out) const;
+    [[nodiscard]] cv::Mat depthSeenBy(
+        const ColourCamera& colour, const PinholeCamera& depthCamera, const cv::Mat& depth) const;
 
     std::string externals;
-    std::map<std::string, CameraComment> told;    // by label
-    mutable std::map<std::string, int> grayBits;  // likewise; of 16 bit images so far
+    std::map<std::string, CameraComment> told;                  // by label
+    mutable std::map<std::string, int> grayBits;                // likewise; of 16 bit images so far
+    mutable std::map<std::string, ColourCamera> colourCameras;  // likewise; of the latest image
     std::set<std::string> unknownKeys;
 
     // The latest registration: its ray table is the costly part.
@@ -95,20 +101,37 @@ struct ObservationConverter::Impl
     mutable Eigen::Isometry3d cachedTransform{Eigen::Isometry3d::Identity()};
 };
 
-cv::Mat ObservationConverter::Impl::intensityOf(const CObservation3DRangeScan& scan) const
+ObservationConverter::Impl::ColourCamera ObservationConverter::Impl::colourCameraOf(
+    const CObservation3DRangeScan& scan)
+{
+    const PinholeCamera camera = cameraOf(scan.cameraParamsIntensity, "cameraParamsIntensity");
+    const Eigen::Isometry3d T_body_cam = fromMrpt(scan.relativePoseIntensityWRTDepth);
+    requirePose(T_body_cam, "relativePoseIntensityWRTDepth");
+    requireUsable(
+        !T_body_cam.linear().isIdentity(1e-3),
+        "relativePoseIntensityWRTDepth has no rotation, so the colour camera looks up; where it "
+        "coincides with the depth camera, it is 0 0 0 -90 0 -90 deg");
+    return {camera, T_body_cam};
+}
+
+cv::Mat ObservationConverter::Impl::intensityOf(
+    const CObservation3DRangeScan& scan, const PinholeCamera& camera) const
 {
     const mrpt::img::CImage& image = scan.intensityImage;
+    const bool isExternal = image.isExternallyStored();
+    requireUsable(isExternal || !image.isEmpty(), "intensity image is empty");
     int& bits = grayBits.try_emplace(scan.sensorLabel, kFewestBits).first->second;
-    if (image.isExternallyStored())
-    {
-        return grayOf(
-            readImageFile(
-                resolved(image.getExternalStorageFile()),
-                cv::IMREAD_ANYCOLOR | cv::IMREAD_ANYDEPTH),
-            bits);
-    }
-    requireUsable(!image.isEmpty(), "intensity image is empty");
-    return grayOf(image.asCvMatRef(), bits);
+    const cv::Mat gray = grayOf(
+        isExternal ? readImageFile(
+                         resolved(image.getExternalStorageFile()),
+                         cv::IMREAD_ANYCOLOR | cv::IMREAD_ANYDEPTH)
+                   : image.asCvMatRef(),
+        bits);
+    requireUsable(
+        gray.cols == camera.width && gray.rows == camera.height,
+        "intensity image is " + sizeText(gray.cols, gray.rows) +
+            " but cameraParamsIntensity is for " + sizeText(camera.width, camera.height));
+    return gray;
 }
 
 cv::Mat ObservationConverter::Impl::depthOf(
@@ -180,50 +203,46 @@ void ObservationConverter::Impl::fill(
         depthCamera = cameraOf(scan.cameraParams, "cameraParams");
         depth = depthOf(scan, depthCamera);
     }
-    if (!scan.hasIntensityImage)
+    if (scan.hasIntensityImage)
     {
-        out.frame.camera = depthCamera;
-        out.frame.depth =
-            depthCamera.isDistorted()
-                ? registration(depthCamera, depthCamera, Eigen::Isometry3d::Identity())
-                      .render(depth)
-                : depth;
-        out.T_robot_cam = T_robot_body * opticalInBody();
+        const ColourCamera colour = colourCameraOf(scan);
+        out.frame.gray = intensityOf(scan, colour.camera);
+        colourCameras.insert_or_assign(scan.sensorLabel, colour);
+    }
+    // A scan without colour is of the colour camera, too, if there was one.
+    if (const auto colour = colourCameras.find(scan.sensorLabel); colour != colourCameras.end())
+    {
+        out.frame.camera = colour->second.camera;
+        out.frame.depth = depthSeenBy(colour->second, depthCamera, depth);
+        out.T_robot_cam = T_robot_body * colour->second.T_body_cam;
         return;
     }
-    fillWithColour(scan, depthCamera, depth, out);
+    out.frame.camera = depthCamera;
+    out.frame.depth =
+        depthCamera.isDistorted()
+            ? registration(depthCamera, depthCamera, Eigen::Isometry3d::Identity()).render(depth)
+            : depth;
+    out.T_robot_cam = T_robot_body * opticalInBody();
 }
 
-/** Depth is rendered into the colour camera, unless it is registered to it. */
-void ObservationConverter::Impl::fillWithColour(
-    const CObservation3DRangeScan& scan,
-    const PinholeCamera& depthCamera,
-    const cv::Mat& depth,
-    ConvertedFrame& out) const
+/** Depth is rendered into the colour camera, unless it is registered to it. \param depth may be
+ * empty */
+cv::Mat ObservationConverter::Impl::depthSeenBy(
+    const ColourCamera& colour, const PinholeCamera& depthCamera, const cv::Mat& depth) const
 {
-    const PinholeCamera camera = cameraOf(scan.cameraParamsIntensity, "cameraParamsIntensity");
-    const cv::Mat gray = intensityOf(scan);
-    requireUsable(
-        gray.cols == camera.width && gray.rows == camera.height,
-        "intensity image is " + sizeText(gray.cols, gray.rows) +
-            " but cameraParamsIntensity is for " + sizeText(camera.width, camera.height));
-    const Eigen::Isometry3d T_body_cam = fromMrpt(scan.relativePoseIntensityWRTDepth);
-    requirePose(T_body_cam, "relativePoseIntensityWRTDepth");
-    requireUsable(
-        !T_body_cam.isApprox(Eigen::Isometry3d::Identity(), 1e-6),
-        "relativePoseIntensityWRTDepth is not set: as the identity, it has the colour camera look "
-        "up; "
-        "where it coincides with the depth camera it is 0 0 0 -90 0 -90 deg");
-    const Eigen::Isometry3d T_cam_depth = T_body_cam.inverse() * opticalInBody();
+    const PinholeCamera& camera = colour.camera;
+    if (depth.empty())
+    {
+        return {
+            camera.height,
+            camera.width,
+            CV_32FC1,
+            cv::Scalar(std::numeric_limits<float>::quiet_NaN())};
+    }
+    const Eigen::Isometry3d T_cam_depth = colour.T_body_cam.inverse() * opticalInBody();
     const bool registered = T_cam_depth.isApprox(Eigen::Isometry3d::Identity(), 1e-6) &&
                             sameProjection(depthCamera, camera) && !depthCamera.isDistorted();
-    out.frame.depth = !scan.hasRangeImage
-                          ? cv::Mat(gray.size(), CV_32FC1, std::numeric_limits<float>::quiet_NaN())
-                      : registered ? depth
-                                   : registration(depthCamera, camera, T_cam_depth).render(depth);
-    out.frame.gray = gray;
-    out.frame.camera = camera;
-    out.T_robot_cam = fromMrpt(scan.sensorPose) * T_body_cam;
+    return registered ? depth : registration(depthCamera, camera, T_cam_depth).render(depth);
 }
 
 ObservationConverter::ObservationConverter() : impl_(std::make_unique<Impl>()) {}

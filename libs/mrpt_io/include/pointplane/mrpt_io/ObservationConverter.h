@@ -18,8 +18,8 @@ struct ConvertedFrame
     RgbdFrame frame;      //!< only the stamp is set when there is a problem
     std::string problem;  //!< one clause without full stop; empty when usable
     std::string sensorLabel;
-    /** The camera on the robot: T_robot_cam with optical axes, from sensorPose and, where there is
-     * an intensity image, relativePoseIntensityWRTDepth. */
+    /** The camera on the robot: T_robot_cam with optical axes, from sensorPose and, if it is the
+     * intensity camera, relativePoseIntensityWRTDepth. */
     Eigen::Isometry3d T_robot_cam{Eigen::Isometry3d::Identity()};
 };
 
@@ -27,14 +27,15 @@ struct ConvertedFrame
  *
  * It takes any rangeUnits and image size, range_is_depth off, external images and ranges, lens
  * distortion, negative fy. Intensity may be in colour, monochrome or missing; if it is missing, the
- * frame's `gray` is empty and its camera the depth camera. Of 16 bit intensity, the bits count that
- * the camera has used so far. Depth that is not registered to the
- * intensity image (other intrinsics, size, or relativePoseIntensityWRTDepth) is rendered into the
- * intensity camera. maxRange is ignored: writers leave it at its default while measuring farther.
+ * frame's `gray` is empty. Its camera is that of the label's latest intensity image, or the depth
+ * camera if there was none. Of 16 bit intensity, the bits count that the camera has used so far.
+ * Depth that is not registered to the intensity image (other intrinsics, size, or
+ * relativePoseIntensityWRTDepth) is rendered into the intensity camera. maxRange is ignored:
+ * writers leave it at its default while measuring farther.
  *
  * Registered depth lies in the raw image if cameraParams has the distortion of
  * cameraParamsIntensity, and at undistorted pixels if it has none. Not thread-safe: convert() keeps
- * a table of the latest camera. Docs: docs/rawlogs.md. */
+ * what it knows of the latest cameras. Docs: docs/rawlogs.md. */
 class ObservationConverter
 {
  public:
