@@ -34,6 +34,7 @@ TEST(VisualOdometry, isTheOdometrySeenFromTheRobot)
         const RobotMotion expected =
             trajectory.add(odometry.process(converted.frame), converted.T_robot_cam);
         EXPECT_EQ(motion.status, expected.status);
+        EXPECT_EQ(motion.stamp, converted.frame.stamp);
         EXPECT_EQ(motion.pose.mean, expected.pose.mean);
         EXPECT_EQ(motion.pose.cov, expected.pose.cov);
         EXPECT_EQ(motion.increment.mean, expected.increment.mean);

@@ -43,6 +43,7 @@ RobotMotion RobotTrajectory::add(const OdometryResult& result, const Eigen::Isom
     }
     RobotMotion out;
     out.status = result.status;
+    out.stamp = result.stamp;
     out.reason = result.reason;
     out.diagnostics = result.diagnostics;
     out.cameraPose = result.pose;

@@ -16,6 +16,7 @@ namespace pointplane
 struct RobotMotion
 {
     TrackingStatus status{TrackingStatus::Lost};
+    double stamp{0};                            //!< of the frame [s]; NaN: of another camera
     std::string reason;                         //!< why not tracked, or not in full; or empty
     mrpt::poses::CPose3DPDFGaussian increment;  //!< since the previous frame
     mrpt::poses::CPose3DPDFGaussian pose;       //!< since the first frame

@@ -32,10 +32,11 @@ namespace pointplane
  *     }
  *
  * Give the comments too: pointplane's programs write into them what a scan has no place for.
+ * readComment() throws InputError if one is damaged.
  *
  * Each camera needs an object of its own. The first scan's sensorLabel says which camera it is;
  * scans with another label are Lost. Scans must come in order of time. A scan that cannot be used
- * is Lost, and RobotMotion::reason says why; nothing is thrown, unless memory is short. Do not use
+ * is Lost, and RobotMotion::reason says why; process() throws only if memory is short. Do not use
  * one object from two threads at once.
  *
  * It logs each frame at LVL_DEBUG, and frames that are Predicted or Lost at LVL_WARN. */
@@ -54,11 +55,13 @@ class VisualOdometry : public mrpt::system::COutputLogger
      * \return increment and pose of the robot, MRPT axes, by sensorPose */
     [[nodiscard]] RobotMotion process(const mrpt::obs::CObservation3DRangeScan& scan);
 
-    /** The same for a frame that an ObservationConverter has made, in another thread for instance.
-     * A frame with a problem (ConvertedFrame::problem) is Lost for that reason. */
+    /** The same for a frame that an ObservationConverter has made. One in another thread must not
+     * be converter(), and needs the comments and the folder of external images itself. A frame with
+     * a problem (ConvertedFrame::problem) is Lost for that reason. */
     [[nodiscard]] RobotMotion process(const ConvertedFrame& converted);
 
-    /** Points and planes of the latest frame, in the camera's optical frame. */
+    /** Points and planes of the latest frame, in the camera's optical frame. Copy it to keep it:
+     * process(), reset() and loadFromConfigFileName() change it or end it. */
     [[nodiscard]] const FrameFeatures& features() const { return odometry_.features(); }
     [[nodiscard]] const TParams& params() const { return odometry_.params(); }
 
