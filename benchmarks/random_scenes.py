@@ -138,10 +138,10 @@ def tables(results, seed):
     return out + row("**all**", results) + "\n"
 
 
-def replace(page, text):
+def replace(page, text, marks):
     content = page.read_text(encoding="utf-8")
-    before, rest = content.split(MARKS[0])
-    page.write_text(before + MARKS[0] + "\n" + text + MARKS[1] + rest.split(MARKS[1])[1], encoding="utf-8")
+    before, rest = content.split(marks[0])
+    page.write_text(before + marks[0] + "\n" + text + marks[1] + rest.split(marks[1])[1], encoding="utf-8")
 
 
 def main():
@@ -175,7 +175,7 @@ def main():
                 out.writerow((describe(r), r["frames"], r["tracked"], r["rpe_mm"], *r["nees"], r["beyond"]))
     text = tables(results, arguments.seed)
     if arguments.markdown:
-        replace(arguments.markdown, text)
+        replace(arguments.markdown, text, MARKS)
     else:
         print(text)
 

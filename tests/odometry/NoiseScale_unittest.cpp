@@ -135,6 +135,22 @@ TEST(NoiseScale, followsTheDisagreementOfTheReferences)
     EXPECT_NEAR(noise.factors().planes, truePlanes * params.planeFactor, 0.01);
 }
 
+/** For covariances, from the first seconds on, although the solver is told too much of them. */
+TEST(NoiseScale, whatReferencesContradictEachOtherByIsKnownSoon)
+{
+    NoiseScale noise(bare());
+    const double disagreement = 0.5;
+    for (int i = 0; i < 30; ++i)
+    {
+        PoseAnalysis frame = with(0.25, 0.25);
+        frame.pointDisagreement = {disagreement / noise.factors().points, 1};
+        noise.update(frame, 1.0 / 30);
+    }
+    ASSERT_GT(noise.factors().points, 2 * disagreement);
+    const NoiseScale::TypicalPoints points = noise.typicalPoints();
+    EXPECT_NEAR(points.residuals * points.disagreement, disagreement, 0.2 * disagreement);
+}
+
 TEST(NoiseScale, referencesThatCannotDisagreeTellNothing)
 {
     NoiseScale noise(bare());

@@ -263,6 +263,10 @@ benchmark() {
         cmake\ *)  # with all that the benchmarks need
             [[ ! -e /usr/include/benchmark/benchmark.h || ! -e /usr/include/opencv4/opencv2/rgbd.hpp ]] || run 0 "$1"
             ;;
+        *long_scenes.py*)
+            local simulated=${1#POINTPLANE_DATA=DIR }
+            run 0 "${simulated/ build / $build } --seeds 1 --scenes desk"
+            ;;
         *random_scenes.py*) run 0 "${1/ build / $build } --runs 1" ;;  # real programs: it reads what they write
         *memory.sh* | *performance_tables.sh*) [[ ! -x /usr/bin/time ]] || run 0 "$1" ;;
         *) run 0 "$1" ;;
