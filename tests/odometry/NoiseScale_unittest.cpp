@@ -135,27 +135,6 @@ TEST(NoiseScale, followsTheDisagreementOfTheReferences)
     EXPECT_NEAR(noise.factors().planes, truePlanes * params.planeFactor, 0.01);
 }
 
-/** By what references contradict each other, as covariances take it. The solver, which is told too
- * much of the residuals at first, does not make it smaller. */
-TEST(NoiseScale, whatReferencesContradictEachOtherByIsKnownAfterSomeSeconds)
-{
-    NoiseScale noise(bare());
-    const double disagreement = 0.5;
-    const auto known = [&](int frames)
-    {
-        for (int i = 0; i < frames; ++i)
-        {
-            PoseAnalysis frame = with(0.25, 0.25);
-            frame.pointDisagreement = {disagreement / noise.factors().points, 1};
-            noise.update(frame, 1.0 / 30);
-        }
-        const NoiseScale::TypicalPoints points = noise.typicalPoints();
-        return points.residuals * points.disagreement;
-    };
-    EXPECT_GT(known(120), 0.5 * disagreement);
-    EXPECT_NEAR(known(180), disagreement, 0.1 * disagreement);
-}
-
 TEST(NoiseScale, referencesThatCannotDisagreeTellNothing)
 {
     NoiseScale noise(bare());

@@ -71,7 +71,6 @@ void NoiseScale::update(const PoseAnalysis& analysis, double dt, bool tells)
 
 void NoiseScale::learn(const PoseAnalysis& analysis, double rate)
 {
-    const double toldOfPoints = pointResiduals_.cautious.value();
     pointResiduals_.follow(analysis.pointVariance, rate);
     planeResiduals_.follow(analysis.planeVariance, rate);
     const auto followLog = [rate](double variance, FrameMean& mean)
@@ -90,8 +89,7 @@ void NoiseScale::learn(const PoseAnalysis& analysis, double rate)
         needed(analysis.pointDisagreement, pointCommon_.value() * params_.pointFactor);
     const double ofPlanes =
         needed(analysis.planeDisagreement, planeCommon_.value() * params_.planeFactor);
-    // For covariances over the variance that the residuals have, not over what the solver was told.
-    followLog(ofPoints * toldOfPoints / pointResiduals_.quick.value(), typicalDisagreement_);
+    followLog(ofPoints, typicalDisagreement_);
     for (const auto& [variance, mean] :
          {std::pair(ofPoints, &pointCommon_), std::pair(ofPlanes, &planeCommon_)})
     {
