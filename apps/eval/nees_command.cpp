@@ -205,7 +205,9 @@ void NeesCommand::run(CommandContext& context) const
     {
         addRun(files[k], files[k + 1], runs, context);
     }
-    report.results = nees.areChosen ? runs.pools.scores() : runs.pools.scoresOfTestable(context);
+    // A limit is passed only if every interval was tested.
+    const bool needsAll = nees.areChosen || nees.isLimited();
+    report.results = needsAll ? runs.pools.scores() : runs.pools.scoresOfTestable(context);
     writeTrajectoryReport(runs.reported, html, runs.inputs, context);
     writeReport(report, output, context.out);
     nees.checkRange(report.results, runs.untold, context);

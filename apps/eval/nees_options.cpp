@@ -127,7 +127,7 @@ void NeesCommandOptions::checkRange(
     const std::string& untold,
     CommandContext& context) const
 {
-    if (!untold.empty() && (minNees >= 0 || maxNees >= 0))
+    if (!untold.empty() && isLimited())
     {
         throw InputError("the stated range of NEES cannot be checked: " + untold);
     }

@@ -25,6 +25,9 @@ struct NeesCommandOptions
 
     void addTo(CLI::App& command);
 
+    /** Whether a range of NEES is asked for. */
+    [[nodiscard]] bool isLimited() const { return minNees >= 0 || maxNees >= 0; }
+
     /** The options as the evaluation takes them, but for the ground truth's body. \throws
      * std::invalid_argument */
     [[nodiscard]] NeesOptions resolved() const;

@@ -15,6 +15,7 @@ namespace pointplane
 namespace
 {
 constexpr std::int64_t kScriptMaxPairs = 10000;
+constexpr std::size_t kFewPairs = 10;  // as kFewPoses
 constexpr const char* kProtocol = "Protocol";
 
 struct RpeCommand : ScoreCommand
@@ -118,6 +119,15 @@ void RpeCommand::run(CommandContext& context) const
     write(score, run, context);
     checkThreshold("translation RMSE", score.rows[0], maxRmse, context);
     checkThreshold("rotation RMSE", score.rows[1], maxRmseDeg, context);
+    if (result.translation.count < kFewPairs)
+    {
+        context.tell(
+            "warning",
+            format(
+                "%s: only %zu pairs of poses were scored",
+                estimate.c_str(),
+                result.translation.count));
+    }
     const bool isJudged = maxRmse >= 0 || maxRmseDeg >= 0;
     coverage.check(estimate, result.coverage, isJudged ? ScoreIs::Judged : ScoreIs::Shown, context);
 }

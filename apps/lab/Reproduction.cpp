@@ -42,16 +42,12 @@ std::string Reproduction::text(
 
 std::string cellText(const LabScore& score)
 {
-    if (!score.rpe)
-    {
-        return "failed";
-    }
-    return format(
-               "%.1f / %.2f",
-               1000 * score.rpe->translation.rmse,
-               kDegreesPerRadian * score.rpe->rotation.rmse) +
-           (score.rpe->coverage.predicted > 0 ? format(" (%zu p)", score.rpe->coverage.predicted)
-                                              : "");
+    return score.rpe ? format(
+                           "%.1f / %.2f",
+                           1000 * score.rpe->translation.rmse,
+                           kDegreesPerRadian * score.rpe->rotation.rmse) +
+                           unmeasuredText(score, "l", "p")
+                     : "failed";
 }
 
 double finalError(const Reproduction& result, std::size_t corner)

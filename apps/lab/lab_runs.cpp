@@ -145,7 +145,7 @@ std::string temporaryFolder()
 {
     std::error_code error;
     std::string path =
-        (std::filesystem::temp_directory_path(error) / "pointplane-eval-XXXXXX").string();
+        (std::filesystem::temp_directory_path(error) / "pointplane-lab-XXXXXX").string();
     if (mkdtemp(path.data()) == nullptr)
     {
         throw EnvironmentError("cannot create the temporary directory '" + path + "'");
@@ -183,24 +183,29 @@ void addScore(const LabScore& score, nlohmann::ordered_json& run)
     run["coverage"] = toJson(score.rpe->coverage);
 }
 
-std::string scoreText(const LabScore& score)
+std::string unmeasuredText(const LabScore& score, const char* lost, const char* predicted)
 {
     if (!score.rpe)
     {
-        return "failed";
+        return "";
     }
     const Coverage& coverage = score.rpe->coverage;
-    std::string unmeasured = coverage.lost > 0 ? format("%zu lost", coverage.lost) : "";
+    std::string out = coverage.lost > 0 ? format("%zu %s", coverage.lost, lost) : "";
     if (coverage.predicted > 0)
     {
-        unmeasured +=
-            (unmeasured.empty() ? "" : ", ") + format("%zu predicted", coverage.predicted);
+        out += (out.empty() ? "" : ", ") + format("%zu %s", coverage.predicted, predicted);
     }
-    return format(
-               "%.1f mm / %.2f deg",
-               1000 * score.rpe->translation.rmse,
-               kDegreesPerRadian * score.rpe->rotation.rmse) +
-           (unmeasured.empty() ? "" : " (" + unmeasured + ")");
+    return out.empty() ? "" : " (" + out + ")";
+}
+
+std::string scoreText(const LabScore& score)
+{
+    return score.rpe ? format(
+                           "%.1f mm / %.2f deg",
+                           1000 * score.rpe->translation.rmse,
+                           kDegreesPerRadian * score.rpe->rotation.rmse) +
+                           unmeasuredText(score, "lost", "predicted")
+                     : "failed";
 }
 
 void LabRunner::addTo(CLI::App& command)

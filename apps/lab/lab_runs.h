@@ -86,6 +86,10 @@ class WorkDirectory
 /** Adds errors, pairs and coverage, or the failure, to the JSON object of a run. */
 void addScore(const LabScore& score, nlohmann::ordered_json& run);
 
+/** " (9 lost, 3 predicted)" with these words, or empty if all frames were measured. */
+[[nodiscard]] std::string unmeasuredText(
+    const LabScore& score, const char* lost, const char* predicted);
+
 /** "12.3 mm / 0.46 deg", with " (9 lost, 3 predicted)" where frames were, or "failed". */
 [[nodiscard]] std::string scoreText(const LabScore& score);
 }  // namespace pointplane

@@ -66,7 +66,7 @@ std::string failures(const Reproduction& result)
 std::string intro(const Reproduction& result)
 {
     return "RMSE of the relative pose error in mm / deg. " + describe(result.rpe) +
-           ". n p: n frames were not measured but predicted.";
+           ". n l: n frames were lost. n p: n frames were predicted, not measured.";
 }
 
 nlohmann::ordered_json runJson(
@@ -88,15 +88,11 @@ nlohmann::ordered_json cornerJson(const Reproduction& result, std::size_t k)
     const Variant& variant = result.cornerVariants[k];
     const LabScore& score = result.cornerScores[k];
     nlohmann::ordered_json run{{"variant", variant.name}, {"settings", variant.settings}};
+    addScore(score, run);
     if (score.rpe)
     {
-        run["translation"] = score.rpe->translation.rmse;
-        run["rotationDeg"] = score.rpe->rotation.rmse * kDegreesPerRadian;
         run["finalError"] = finalError(result, k);
-    }
-    else
-    {
-        run["failure"] = score.failure;
+        run["finalTime"] = score.estimate.stamps.back() - result.cornerTruth.stamps.front();
     }
     return run;
 }
@@ -173,7 +169,8 @@ nlohmann::ordered_json toJson(const Reproduction& result)
 
 std::string toCsv(const Reproduction& result)
 {
-    std::string out = "sequence,part,group,variant,pairs,coverage,rpe_m,rpe_deg,failure\n";
+    std::string out =
+        "sequence,part,group,variant,pairs,coverage,predicted,lost,rpe_m,rpe_deg,failure\n";
     for (std::size_t k = 0; k < result.scores.size(); ++k)
     {
         const ReproducedSequence& s = result.sequences[k / result.variants.size()];
@@ -182,12 +179,14 @@ std::string toCsv(const Reproduction& result)
         out += csvField(s.name) + "," + (s.isPart ? "1" : "0") + "," + v.group + "," +
                csvField(v.name) +
                (score.rpe ? format(
-                                ",%zu,%.6g,%.9g,%.9g,\n",
+                                ",%zu,%.6g,%zu,%zu,%.9g,%.9g,\n",
                                 score.rpe->translation.count,
                                 score.rpe->coverage.share,
+                                score.rpe->coverage.predicted,
+                                score.rpe->coverage.lost,
                                 score.rpe->translation.rmse,
                                 score.rpe->rotation.rmse * kDegreesPerRadian)
-                          : ",,,,," + csvField(score.failure) + "\n");
+                          : ",,,,,,," + csvField(score.failure) + "\n");
     }
     return out;
 }

@@ -69,7 +69,8 @@ ReproductionTable alphaTable(const Reproduction& result)
             if (result.variants[v].group == "alpha" && rpe && rpe->translation.rmse < smallest)
             {
                 smallest = rpe->translation.rmse;
-                name = result.variants[v].name;
+                name = result.variants[v].name +
+                       unmeasuredText(result.scores[s * result.variants.size() + v], "l", "p");
             }
         }
         best.push_back(name);
@@ -120,6 +121,25 @@ ReproductionTable sequenceTable(const Reproduction& result)
     return table;
 }
 
+/** The error, and when it was the last one if the run ended before the recording. */
+std::string finalErrorText(const Reproduction& result, std::size_t corner)
+{
+    const LabScore& score = result.cornerScores[corner];
+    if (!score.rpe)
+    {
+        return "failed";
+    }
+    const std::string error = format("%.1f", 1000 * finalError(result, corner));
+    const Trajectory& estimate = score.estimate;
+    const double end = estimate.lostStamps.empty() ? 0 : estimate.lostStamps.back();
+    const double start = result.cornerTruth.stamps.front();
+    return estimate.stamps.back() < end
+               ? error +
+                     format(
+                         ", lost from %.1f to %.1f s", estimate.stamps.back() - start, end - start)
+               : error;
+}
+
 ReproductionTable cornerTable(const Reproduction& result)
 {
     ReproductionTable table{
@@ -132,10 +152,7 @@ ReproductionTable cornerTable(const Reproduction& result)
         const std::string& name = result.cornerVariants[k].name;
         const LabScore& score = result.cornerScores[k];
         table.rows.push_back(
-            {name,
-             score.rpe ? format("%.1f", 1000 * finalError(result, k)) : "failed",
-             name == "planes" ? "114" : "-",
-             cellText(score)});
+            {name, finalErrorText(result, k), name == "planes" ? "114" : "-", cellText(score)});
     }
     return table;
 }

@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "run_processes.h"
 
+#include <pointplane/mrpt_io/errors.h>
+
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <future>
 #include <mutex>
+#include <thread>
 
+#include "StopSignals.h"
 #include <fcntl.h>
 #include <spawn.h>
 #include <sys/wait.h>
@@ -19,6 +25,28 @@ namespace pointplane
 namespace
 {
 constexpr int kNotStarted = 127;  // as a shell
+constexpr std::chrono::milliseconds kBetweenLooks{5};
+
+/** Its exit code; a request to stop ends it. */
+int waitFor(pid_t pid)
+{
+    int status = 0;
+    bool isEnded = false;
+    for (pid_t ended = 0; ended != pid; ended = ::waitpid(pid, &status, WNOHANG))
+    {
+        if (ended < 0 && errno != EINTR)
+        {
+            return kNotStarted;
+        }
+        if (stopRequested() && !isEnded)
+        {
+            ::kill(pid, SIGTERM);
+            isEnded = true;
+        }
+        std::this_thread::sleep_for(kBetweenLooks);
+    }
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
 
 int runOne(const ProcessJob& job)
 {
@@ -42,15 +70,7 @@ int runOne(const ProcessJob& job)
     {
         return kNotStarted;
     }
-    int status = 0;
-    while (waitpid(pid, &status, 0) < 0)
-    {
-        if (errno != EINTR)
-        {
-            return kNotStarted;
-        }
-    }
-    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    return waitFor(pid);
 }
 }  // namespace
 
@@ -66,6 +86,10 @@ void runProcesses(
         for (std::size_t k = next++; k < jobs.size(); k = next++)
         {
             const int exitCode = runOne(jobs[k]);
+            if (stopRequested())
+            {
+                return;
+            }
             const std::lock_guard<std::mutex> lock(mutex);
             try
             {
@@ -87,6 +111,10 @@ void runProcesses(
         workers.push_back(std::async(std::launch::async, work));
     }
     std::for_each(workers.begin(), workers.end(), [](auto& worker) { worker.get(); });
+    if (stopRequested())
+    {
+        throw EnvironmentError("stopped by a signal; results of the runs are not written");
+    }
 }
 
 std::string siblingProgram(const std::string& name)

@@ -17,7 +17,8 @@ struct ProcessJob
 
 /** Runs all jobs, at most `parallel` at a time, in their order.
  * \param onDone called with a job's index and exit code (128 + signal if killed, 127 if it could
- * not be started), one call at a time, from other threads, so it must not throw; may be empty */
+ * not be started), one call at a time, from other threads, so it must not throw; may be empty
+ * \throws EnvironmentError if a signal asked to stop; no job is left running then */
 void runProcesses(
     const std::vector<ProcessJob>& jobs,
     std::size_t parallel,

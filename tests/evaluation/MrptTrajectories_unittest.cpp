@@ -651,6 +651,11 @@ TEST(MrptTrajectories, neesOfAShortRecordingLeavesOutWhatItIsTooShortFor)
     EXPECT_LT(page.find("NEES per degree of freedom"), page.find("Relative pose error"));
     EXPECT_THAT(page, testing::Not(HasSubstr("No NEES")));
 
+    // A limit is not passed by an interval that was not tested.
+    std::vector<std::string> limited = args;
+    limited.insert(limited.end(), {"--max-nees", "1000"});
+    EXPECT_EQ(evaluate(limited).code, 2);
+
     args.insert(args.end(), {"--interval", "10f,1f"});
     const test::AppRun chosen = evaluate(args);
     EXPECT_EQ(chosen.code, 2);

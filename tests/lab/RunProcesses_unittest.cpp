@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/mrpt_io/errors.h>
+
 #include <algorithm>
+#include <csignal>
 #include <filesystem>
 #include <map>
 #include <new>
 #include <sstream>
 
 #include "LabApp.h"
+#include "StopSignals.h"
 #include "reproduce_output.h"
 #include "run_app.h"
 #include "run_processes.h"
@@ -86,6 +90,67 @@ TEST(RunProcesses, anErrorInWhoIsToldIsPassedOn)
     runProcesses({}, 2, fails);  // nothing to do
 }
 
+TEST(RunProcesses, aSignalEndsTheProgramsAndTheRuns)
+{
+    test::TempDir dir;
+    std::vector<ProcessJob> jobs;
+    for (const char* log : {"log0", "log1", "log2"})
+    {
+        jobs.push_back({{"sh", "-c", "echo $$; kill -TERM $PPID; exec sleep 100"}, dir / log});
+    }
+    int done = 0;
+    installStopSignals();
+    EXPECT_THROW(runProcesses(jobs, 1, [&](std::size_t, int) { ++done; }), EnvironmentError);
+    EXPECT_EQ(done, 0);
+    EXPECT_EQ(::kill(std::stoi(lastLine(dir / "log0")), 0), -1);
+    EXPECT_FALSE(std::filesystem::exists(dir / "log1"));
+    installStopSignals();  // for the next test
+}
+
+/** The last second and a half is lost. */
+TEST_F(FakePrograms, lostFramesAreInTheTablesOfReproduce)
+{
+    std::filesystem::create_directories(dir / "s/rgbd_dataset_freiburg1_desk");
+    for (const char* file : {"rgb.txt", "depth.txt", "groundtruth.txt"})
+    {
+        std::ofstream(dir / ("s/rgbd_dataset_freiburg1_desk/" + std::string(file)))
+            << "12.5 rgb/a.png\n";
+    }
+    const std::string loses = script(
+        "loses",
+        "while [ $# -gt 0 ]; do case $1 in --trajectory) t=$2;; esac; shift; done\n" +
+            straightLine("1.01") +
+            " | awk 'NR<37; NR>36{print \"# pointplane-status \" $1 "
+            "\" lost: x\"}' > $t\n");
+    const test::AppRun r = run(
+        {"reproduce",
+         dir / "s",
+         "--paper-config",
+         writeFile(dir, "config-paper.ini", ""),
+         "--only",
+         "tables,alpha,corner",
+         "--alphas",
+         "1,2",
+         "--odometry",
+         loses,
+         "--convert",
+         convert,
+         "--simulate",
+         simulate,
+         "--csv",
+         dir / "out.csv",
+         "--json",
+         dir / "out.json"});
+    EXPECT_THAT(r.out, HasSubstr("n l: n frames were lost."));
+    EXPECT_THAT(r.out, HasSubstr("| 10.0 / 0.00 (15 l) |"));
+    EXPECT_THAT(r.out, HasSubstr("| smallest mm at | 1 (15 l) "));
+    EXPECT_THAT(r.out, HasSubstr("| 35.0, lost from 3.5 to 5.0 s "));
+    EXPECT_THAT(test::readBytes(dir / "out.csv"), HasSubstr(",0.7,0,15,0.01"));
+    const auto corner = nlohmann::json::parse(test::readBytes(dir / "out.json"))["corner"][0];
+    EXPECT_EQ(corner["finalTime"], 3.5);
+    EXPECT_EQ(corner["coverage"]["frames"]["lost"], 15);
+}
+
 TEST_F(FakePrograms, sweepScoresEveryValue)
 {
     const std::string rawlog = writeFile(dir, "a.rawlog", "");
@@ -105,7 +170,7 @@ TEST_F(FakePrograms, sweepScoresEveryValue)
     EXPECT_EQ(r.code, 0) << r.err;
     EXPECT_THAT(r.out, HasSubstr("1.2               200.0 mm / 0.00 deg"));
     EXPECT_THAT(r.err, HasSubstr("[3/3, 0 s left]"));
-    EXPECT_THAT(test::readBytes(dir / "out.csv"), HasSubstr("a,PoseSolver.alpha,1.3,40,0,0,0.3"));
+    EXPECT_THAT(test::readBytes(dir / "out.csv"), HasSubstr("a,PoseSolver.alpha,1.3,40,1,0,0,0.3"));
     EXPECT_THAT(test::readBytes(dir / "report/index.html"), HasSubstr("Sweep of PoseSolver.alpha"));
 }
 
