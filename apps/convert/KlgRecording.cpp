@@ -90,6 +90,13 @@ void KlgRecording::checkUnitOfStamps()
     file_.clear();
     file_.seekg(sizeof(numFrames_));
     const double interval = intervals.empty() ? 0 : median(intervals);
+    if (!intervals.empty() && interval == 0)
+    {
+        throw InputError(
+            options_.file +
+            ": its frames have one and the same stamp; the program that recorded "
+            "them must tell when they were taken");
+    }
     if (interval > kLongest || (interval > 0 && interval < kShortest))
     {
         std::ostringstream out;

@@ -44,7 +44,7 @@ using sensor_msgs::CameraInfo;
     return topic.compare(topic.rfind('/') + 1, 10, "image_rect") == 0;
 }
 
-[[nodiscard]] PinholeCamera cameraOf(
+[[nodiscard]] std::optional<PinholeCamera> toldCameraOf(
     const rosbag::Bag& bag, const ImageTopic& topic, const std::string& file)
 {
     // .../camera_info beside the images; RealSense's recorder: .../Depth_0/info/camera_info.
@@ -75,8 +75,18 @@ using sensor_msgs::CameraInfo;
             {
                 throw InputError(file + ": " + name + ": " + problem);
             }
-            return *out;
+            return out;
         }
+    }
+    return {};
+}
+
+[[nodiscard]] PinholeCamera cameraOf(
+    const rosbag::Bag& bag, const ImageTopic& topic, const std::string& file)
+{
+    if (const auto told = toldCameraOf(bag, topic, file))
+    {
+        return *told;
     }
     throw InputError(
         file + ": has no camera_info beside " + topic.name + "; give a calibration by --camera");
@@ -166,6 +176,30 @@ using sensor_msgs::CameraInfo;
            ": the two cameras are taken to be in one place";
     return Eigen::Isometry3d::Identity();
 }
+
+/** Registered images do not need a calibration of their own: one that cannot be used is none. */
+[[nodiscard]] std::optional<PinholeCamera> usableCameraOf(
+    const rosbag::Bag& bag, const ImageTopic& topic)
+{
+    try
+    {
+        return toldCameraOf(bag, topic, "");
+    }
+    catch (const InputError&)
+    {
+        return {};
+    }
+}
+
+/** Whether pixels of registered images cannot have these two, as they are of one camera. */
+[[nodiscard]] bool areOfTwoCameras(const PinholeCamera& depth, const PinholeCamera& colour)
+{
+    constexpr double kMost = 0.01;  // of the focal length
+    const PinholeCamera scaled = colour.scaled(static_cast<double>(depth.width) / colour.width);
+    const double most = kMost * scaled.fx;
+    return std::abs(depth.fx - scaled.fx) > most || std::abs(depth.fy - scaled.fy) > most ||
+           std::abs(depth.cx - scaled.cx) > most || std::abs(depth.cy - scaled.cy) > most;
+}
 }  // namespace
 
 BagCameras readBagCameras(
@@ -187,7 +221,16 @@ BagCameras readBagCameras(
     const bool isOneFrame = colour.frame == depth.frame && !colour.frame.empty();
     if (isOneFrame ? !extrinsicsOf(bag, depth) : depth.isRegistered())
     {
-        return out;  // the depth image may yet have another size
+        // The depth image may yet have another size.
+        const auto own = options.camera.empty() ? usableCameraOf(bag, depth) : std::nullopt;
+        if (own && areOfTwoCameras(*own, out.colour))
+        {
+            out.depth = DepthCamera{*own, Eigen::Isometry3d::Identity()};
+            out.note =
+                "depth images have another calibration than colour images, so they are not "
+                "registered; the two cameras are taken to be in one place";
+        }
+        return out;
     }
     const Eigen::Isometry3d T_depth_colour = depthFromColour(bag, colour, depth, out.note);
     out.depth = DepthCamera{cameraOf(bag, depth, options.file), T_depth_colour};

@@ -32,7 +32,8 @@ namespace
 
 bool ImageTopic::isRegistered() const
 {
-    return contains(name, "registered") || contains(name, "aligned");
+    return contains(name, "registered") ||
+           (contains(name, "aligned") && !contains(name, "aligned_depth_to_infra"));
 }
 
 std::vector<ImageTopic> imageTopics(const rosbag::Bag& bag)

@@ -96,7 +96,10 @@ void addFolderCommand(CLI::App& app, FolderOptions& options, RecordingOutput& ou
             kFileHelp + kCameraFile +
                 " (default: camera.txt in the folder, or what its layout tells)")
         ->type_name("FILE");
-    addDepthScale(*folder, options.depthScale, "the layout's, else 1000; 1 for floating point");
+    addDepthScale(
+        *folder,
+        options.depthScale,
+        "the layout's; 5000 with rgb.txt and depth.txt; else 1000; 1 for floating point");
     folder
         ->add_option(
             "--fps",

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dataset_layouts.h"
 
+#include <pointplane/core/se3.h>
+
 #include <string>
 
 #include "layout_files.h"
@@ -49,7 +51,14 @@ std::optional<FolderLayout> sevenScenes(const fs::path& folder)
     {
         return {};
     }
-    out.camera = colourCamera(pinholeOf(640, 480, 585, 320, 240));
+    // The images are those of an uncalibrated Kinect. The data set names 585 px for depth; 525 px
+    // and the place are what its users take: LIRIS' calibration of another Kinect.
+    out.camera = colourCamera(pinholeOf(640, 480, 525, 320, 240));
+    out.depthCamera = pinholeOf(640, 480, 585, 320, 240);
+    Eigen::Isometry3d T_colour_depth = Eigen::Isometry3d::Identity();
+    T_colour_depth.linear() = so3Exp({0.00816, -0.00789, -0.00271});
+    T_colour_depth.translation() << -0.02556, 0.0001, 0.00203;
+    out.T_depth_colour = T_colour_depth.inverse();
     out.cameraIsNominal = true;
     out.fps = 30;
     return out;

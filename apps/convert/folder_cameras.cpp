@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "folder_cameras.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "frame_images.h"
@@ -18,6 +20,28 @@ void checkCamera(const PinholeCamera& camera, const std::string& file, const cha
     }
 }
 
+/** A matrix without a size that is for a larger or smaller picture: its principal point is off the
+ * middle by the same factor in both directions. \throws BadFrame */
+void checkMatrixOf(
+    const PinholeCamera& camera,
+    const cv::Size& size,
+    const std::string& file,
+    const std::string& name)
+{
+    constexpr double kMost = 0.1;
+    const double across = 2 * camera.cx / size.width - 1, down = 2 * camera.cy / size.height - 1;
+    if (across * down > 0 && std::min(std::abs(across), std::abs(down)) > kMost)
+    {
+        throw BadFrame(
+            name + ": is " + sizeText(size) + ", but the matrix in " + file +
+            " seems to be of images of about " +
+            sizeText(
+                {static_cast<int>(std::lround(2 * camera.cx)),
+                 static_cast<int>(std::lround(2 * camera.cy))}) +
+            "; give a calibration for this size by --camera");
+    }
+}
+
 /** Fits the calibration to the size of an image. \param name of the image \throws BadFrame if it is
  * of another view */
 void fitCamera(
@@ -29,6 +53,7 @@ void fitCamera(
 {
     if (camera.width == 0)  // of a matrix without a size
     {
+        checkMatrixOf(camera, size, layout.calibration, name);
         camera.width = size.width;
         camera.height = size.height;
     }

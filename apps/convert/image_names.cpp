@@ -86,7 +86,9 @@ namespace
     const auto first = parseFinite(stem.substr(0, dash));
     const auto second =
         dash == std::string::npos ? std::nullopt : parseFinite(stem.substr(dash + 1));
-    if (!first || (dash != std::string::npos && !second))
+    // Redwood has twelve digits of microseconds; 20230501-120001 is a date.
+    const bool isRedwood = second && stem.size() - dash == 13;
+    if (!first || (dash != std::string::npos && !isRedwood))
     {
         return {};
     }

@@ -347,6 +347,30 @@ TEST_F(ConvertBag, depthOfAnotherCameraIsPlacedByTf)
 }
 
 /** Of an arm that carries one of the cameras. */
+/** Frames or names may say that depth is registered; the calibrations say that it is not. */
+TEST_F(ConvertBag, depthWithItsOwnCalibrationIsNotRegistered)
+{
+    bag_.write("/camera/rgb/camera_info", timeOf(0), cameraInfo("optical"));
+    bag_.write("/camera/depth/camera_info", timeOf(0), cameraInfo("optical", 45));
+    writeColour(0);
+    writeDepth(0);
+    ASSERT_EQ(convert(), kExitOk) << text_;
+    EXPECT_THAT(text_, HasSubstr("another calibration than colour"));
+    EXPECT_DOUBLE_EQ(scans().at(0)->cameraParams.fx(), 45);
+    EXPECT_DOUBLE_EQ(scans().at(0)->cameraParamsIntensity.fx(), 60);
+}
+
+TEST_F(ConvertBag, registeredDepthNeedsNoCalibration)
+{
+    sensor_msgs::CameraInfo none = cameraInfo("optical", 0);
+    bag_.write("/camera/rgb/camera_info", timeOf(0), cameraInfo("optical"));
+    bag_.write("/camera/depth/camera_info", timeOf(0), none);
+    writeColour(0);
+    writeDepth(0);
+    ASSERT_EQ(convert(), kExitOk) << text_;
+    EXPECT_DOUBLE_EQ(scans().at(0)->cameraParams.fx(), 60);
+}
+
 TEST_F(ConvertBag, aTransformThatChangesIsNotTaken)
 {
     bag_.close();

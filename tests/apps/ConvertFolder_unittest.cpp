@@ -172,9 +172,57 @@ TEST_F(ConvertFolder, sevenScenesMarksNoReadingBy65535)
     ASSERT_EQ(run({"folder", in_}), kExitOk) << text_;
     EXPECT_THAT(text_, HasSubstr("7-Scenes"));
     EXPECT_THAT(text_, HasSubstr("nominal"));
-    expectFrames(30);
-    EXPECT_DOUBLE_EQ(frames()[0].camera.fx, 585);
-    EXPECT_TRUE(std::isnan(frames()[0].depth.at<float>(0, 0)));
+    ASSERT_EQ(frames().size(), 3U);
+    EXPECT_NEAR(frames()[1].stamp - frames()[0].stamp, 1. / 30, 1e-6);
+    EXPECT_NEAR(frames()[1].depth.at<float>(240, 320), 1.001, 0.01);
+    EXPECT_FALSE(scans().at(0)->rangeImage(0, 0) > 0);
+    // Colour and depth are of two cameras.
+    EXPECT_DOUBLE_EQ(scans().at(0)->cameraParams.fx(), 585);
+    EXPECT_DOUBLE_EQ(scans().at(0)->cameraParamsIntensity.fx(), 525);
+    EXPECT_NEAR(scans().at(0)->relativePoseIntensityWRTDepth.norm(), 0.0256, 1e-3);
+}
+
+TEST_F(ConvertFolder, aMatrixOfLargerImagesIsNotTaken)
+{
+    writeFrames("in/rgb/%06d.png", "in/depth/%06d.png", 16);
+    write(
+        "in/odometry.csv",
+        "timestamp, frame, x, y, z, qx, qy, qz, qw\n"
+        "7.5, 000000, 0,0,0,0,0,0,1\n7.6, 000001, 0,0,0,0,0,0,1\n7.7, 000002, 0,0,0,0,0,0,1\n");
+    write("in/camera_matrix.csv", "80, 0, 42.2\n0, 80, 31.5\n0, 0, 1\n");
+    EXPECT_NE(run({"folder", in_}), kExitOk);
+    EXPECT_THAT(text_, HasSubstr("is 64x48, but the matrix in"));
+    EXPECT_THAT(text_, HasSubstr("seems to be of images of about 84x63"));
+}
+
+TEST_F(ConvertFolder, listsTellTumsUnits)
+{
+    writeFrames("in/rgb/%d.0.png", "in/depth/%d.0.png");
+    for (const char* const list : {"rgb", "depth"})
+    {
+        write(std::string("in/") + list + ".txt", "# stamp file\n");
+    }
+    write(
+        "camera.json",
+        R"({"width": 64, "height": 48, "intrinsic_matrix": [60, 0, 0, 0, 60, 0, 31.5, 23.5, 1]})");
+    const std::string camera = dir_ / "camera.json";
+    ASSERT_EQ(run({"folder", in_, "--camera", camera}), kExitOk) << text_;
+    EXPECT_NEAR(frames().at(0).depth.at<float>(24, 32), 0.2, 1e-4);
+    ASSERT_EQ(run({"folder", in_, "--camera", camera, "--depth-scale", "1000"}), kExitOk) << text_;
+    EXPECT_NEAR(frames().at(0).depth.at<float>(24, 32), 1, 1e-4);
+}
+
+/** Date and time, not Redwood's frame and microseconds. */
+TEST_F(ConvertFolder, datesAreNoStamps)
+{
+    write("in/camera.txt", kCamera);
+    for (int i = 0; i < 3; ++i)
+    {
+        writeImage(numbered("in/rgb/20230501-12000%d.png", i), colourImage(i));
+        writeImage(numbered("in/depth/20230501-12000%d.png", i), depthImage(i));
+    }
+    EXPECT_EQ(run({"folder", in_}), kExitBadInput);
+    EXPECT_THAT(text_, HasSubstr("20230501-120000.png"));
 }
 
 TEST_F(ConvertFolder, redwoodTellsMicroseconds)

@@ -178,6 +178,18 @@ TEST_F(ConvertKlg, depthMayBeAlone)
     EXPECT_NEAR(frames()[1].depth.at<float>(20, 30), 1.001, 1e-6);
 }
 
+TEST_F(ConvertKlg, framesWithoutTimesAreRefused)
+{
+    std::string bytes = log(3, true);
+    const std::size_t size = log(2, true).size() - log(1, true).size();
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+        std::fill_n(bytes.begin() + static_cast<std::ptrdiff_t>(4 + i * size), 8, '\0');
+    }
+    EXPECT_EQ(convert(bytes), kExitBadInput);
+    EXPECT_THAT(text_, HasSubstr("have one and the same stamp"));
+}
+
 /** A decoder would show what is missing in grey. */
 TEST_F(ConvertKlg, aCutPictureIsLeftOut)
 {
