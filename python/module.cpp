@@ -567,7 +567,12 @@ void addResult(py::module_& m)
             [](const py::tuple& state)
             {
                 OdometryResult r;
-                r.status = static_cast<TrackingStatus>(state[0].cast<int>());
+                const int status = state[0].cast<int>();
+                if (status < 0 || status > static_cast<int>(TrackingStatus::Lost))
+                {
+                    throw py::value_error("no status of a frame: " + std::to_string(status));
+                }
+                r.status = static_cast<TrackingStatus>(status);
                 r.reason = state[1].cast<std::string>();
                 r.stamp = state[2].cast<double>();
                 r.pose = poseOf(state[3]);

@@ -183,6 +183,19 @@ void addScore(const LabScore& score, nlohmann::ordered_json& run)
     run["coverage"] = toJson(score.rpe->coverage);
 }
 
+std::string scoreFields(const LabScore& score)
+{
+    return score.rpe ? format(
+                           "%zu,%.6g,%zu,%zu,%.9g,%.9g,\n",
+                           score.rpe->translation.count,
+                           score.rpe->coverage.share,
+                           score.rpe->coverage.predicted,
+                           score.rpe->coverage.lost,
+                           score.rpe->translation.rmse,
+                           score.rpe->rotation.rmse * kDegreesPerRadian)
+                     : ",,,,,," + csvField(score.failure) + "\n";
+}
+
 std::string unmeasuredText(const LabScore& score, const char* lost, const char* predicted)
 {
     if (!score.rpe)

@@ -86,6 +86,13 @@ class WorkDirectory
 /** Adds errors, pairs and coverage, or the failure, to the JSON object of a run. */
 void addScore(const LabScore& score, nlohmann::ordered_json& run);
 
+/** Columns of scoreFields(). */
+inline constexpr const char* kScoreColumns =
+    "pairs,coverage,predicted,lost,rpe_m,rpe_deg,failure\n";
+
+/** Of a line of CSV, with its end. */
+[[nodiscard]] std::string scoreFields(const LabScore& score);
+
 /** " (9 lost, 3 predicted)" with these words, or empty if all frames were measured. */
 [[nodiscard]] std::string unmeasuredText(
     const LabScore& score, const char* lost, const char* predicted);

@@ -169,24 +169,13 @@ nlohmann::ordered_json toJson(const Reproduction& result)
 
 std::string toCsv(const Reproduction& result)
 {
-    std::string out =
-        "sequence,part,group,variant,pairs,coverage,predicted,lost,rpe_m,rpe_deg,failure\n";
+    std::string out = std::string("sequence,part,group,variant,") + kScoreColumns;
     for (std::size_t k = 0; k < result.scores.size(); ++k)
     {
         const ReproducedSequence& s = result.sequences[k / result.variants.size()];
         const Variant& v = result.variants[k % result.variants.size()];
-        const LabScore& score = result.scores[k];
         out += csvField(s.name) + "," + (s.isPart ? "1" : "0") + "," + v.group + "," +
-               csvField(v.name) +
-               (score.rpe ? format(
-                                ",%zu,%.6g,%zu,%zu,%.9g,%.9g,\n",
-                                score.rpe->translation.count,
-                                score.rpe->coverage.share,
-                                score.rpe->coverage.predicted,
-                                score.rpe->coverage.lost,
-                                score.rpe->translation.rmse,
-                                score.rpe->rotation.rmse * kDegreesPerRadian)
-                          : ",,,,,,," + csvField(score.failure) + "\n");
+               csvField(v.name) + "," + scoreFields(result.scores[k]);
     }
     return out;
 }

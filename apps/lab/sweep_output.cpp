@@ -50,24 +50,13 @@ nlohmann::ordered_json toJson(const SweepResult& sweep)
 
 std::string toCsv(const SweepResult& sweep)
 {
-    std::string out =
-        "sequence,parameter,value,pairs,coverage,predicted,lost,rpe_m,rpe_deg,failure\n";
+    std::string out = std::string("sequence,parameter,value,") + kScoreColumns;
     for (std::size_t s = 0; s < sweep.sequences.size(); ++s)
     {
         for (std::size_t v = 0; v < sweep.values.size(); ++v)
         {
-            const LabScore& score = sweep.at(s, v);
             out += csvField(sweep.sequences[s]) + "," + sweep.parameter + "," +
-                   csvField(sweep.values[v]) +
-                   (score.rpe ? format(
-                                    ",%zu,%.6g,%zu,%zu,%.9g,%.9g,\n",
-                                    score.rpe->translation.count,
-                                    score.rpe->coverage.share,
-                                    score.rpe->coverage.predicted,
-                                    score.rpe->coverage.lost,
-                                    score.rpe->translation.rmse,
-                                    score.rpe->rotation.rmse * kDegreesPerRadian)
-                              : ",,,,,,," + csvField(score.failure) + "\n");
+                   csvField(sweep.values[v]) + "," + scoreFields(sweep.at(s, v));
         }
     }
     return out;

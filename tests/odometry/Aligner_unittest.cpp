@@ -84,7 +84,7 @@ TEST_F(AlignerTest, aFrameIsLaidOverItsReference)
     EXPECT_EQ(diagnostics_.surfaceAgreement, alignment.agreement.fraction());
 }
 
-/** Nothing is known of the motion over half a second: the images tell it. */
+/** Nothing is known of the motion over 20 s: the images tell it. */
 TEST_F(AlignerTest, theImagesTellWhatThePredictionDoesNot)
 {
     RgbdFrame later = frame(15);
@@ -142,7 +142,7 @@ TEST_F(AlignerTest, aMotionWithoutItsDoubtfulPointsIsComparedAnew)
     EXPECT_LE(alignment.agreement.seen(), PixelGrid::kSamples * PixelGrid::kSamples);
 }
 
-/** Nothing is known of the motion over half a second, and few points agree. Their motion is the
+/** Nothing is known of the motion over 20 s, and few points agree. Their motion is the
  * best guess, but the one without them may be right as well. */
 TEST_F(AlignerTest, aGuessIsAsUncertainAsItsDistanceFromTheOtherOne)
 {

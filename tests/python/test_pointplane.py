@@ -174,6 +174,9 @@ class Odometry(unittest.TestCase):
             other = change(camera)
             for name in ("fx", "fy", "cx", "cy", "width", "height", "distortion"):
                 self.assertEqual(getattr(other, name), getattr(camera, name))
+        for status in (-1, 4):
+            with self.assertRaisesRegex(ValueError, "no status of a frame"):
+                type(dark).__new__(type(dark)).__setstate__((status, *dark.__getstate__()[1:]))
 
     def test_depth_in_integers_is_scaled_and_zero_is_no_reading(self):
         frame = next(iter(pointplane.read_rawlog(RAWLOG)))

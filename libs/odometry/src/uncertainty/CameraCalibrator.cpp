@@ -18,7 +18,7 @@ namespace
 {
 constexpr int kNumLensErrors = kDepthScale - kPrincipalPointX;
 
-constexpr double kMaxTime = 0.05;  //!< no camera is slower [s]
+constexpr double kMaxTime = 0.05;  //!< longer readouts and delays are not learnt [s]
 
 /** Who knows the readouts knows when images are exposed. Otherwise the delay comes from time
  * stamps, which tell when they arrived. */

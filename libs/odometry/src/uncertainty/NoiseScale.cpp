@@ -7,14 +7,15 @@
 #include <limits>
 #include <utility>
 
-#include "../by_chance.h"
-
 namespace pointplane
 {
 namespace
 {
 /** In the quick mean, the first variance counts as so many frames. */
 constexpr double kFirstFrames = 3;
+
+/** Of residuals, before any is known: standard deviations are twice the stated ones. */
+constexpr double kFirstVariance = 4;
 }  // namespace
 
 double NoiseScale::plausible(double variance)
@@ -45,7 +46,7 @@ void NoiseScale::Residuals::follow(double variance, double rate)
 
 NoiseScale::NoiseScale(const TParams& params)
     : params_(params),
-      pointResiduals_(params.adaptive ? kConvincingRise : 1),
+      pointResiduals_(params.adaptive ? kFirstVariance : 1),
       planeResiduals_(pointResiduals_),
       pointCommon_(1, std::numeric_limits<double>::infinity()),
       planeCommon_(pointCommon_),

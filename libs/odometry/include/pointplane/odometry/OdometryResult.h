@@ -87,8 +87,8 @@ struct OdometryResult
 /** What became of a point or plane of a frame. */
 enum class FeatureUse
 {
-    Used,      //!< found again, and the pose follows it: robust weight above 1/2, of a plane over
-               //!< that of the best plane
+    Used,      //!< found again, and the pose follows it: its robust weight times the share of
+               //!< its surface is above 1/2, of a plane over that of the best plane
     Doubted,   //!< found again, but it counts for little or nothing
     Rejected,  //!< found again, but it contradicts the others, or the frame was not tracked
     New        //!< not compared with an earlier frame
