@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <numeric>
 
@@ -109,10 +110,11 @@ class BagRecording : public Recording
             bag_.open(options.file, rosbag::bagmode::Read);
             chooseTopics();
             cameras_ = readBagCameras(bag_, colour_, depth_, options);
-            if (!cameras_.note.empty())
-            {
-                notes_.push_back(cameras_.note);
-            }
+            std::copy_if(
+                cameras_.notes.begin(),
+                cameras_.notes.end(),
+                std::back_inserter(notes_),
+                [](const std::string& note) { return !note.empty(); });
             pair();
         }
         catch (const rosbag::BagUnindexedException&)

@@ -44,11 +44,16 @@ using sensor_msgs::CameraInfo;
     return topic.compare(topic.rfind('/') + 1, 10, "image_rect") == 0;
 }
 
-[[nodiscard]] std::optional<PinholeCamera> toldCameraOf(
-    const rosbag::Bag& bag, const ImageTopic& topic, const std::string& file)
+struct ToldCamera
+{
+    std::string topic;
+    CameraInfo info;
+};
+
+[[nodiscard]] std::optional<ToldCamera> infoOf(const rosbag::Bag& bag, const ImageTopic& images)
 {
     // .../camera_info beside the images; RealSense's recorder: .../Depth_0/info/camera_info.
-    std::string base = topic.name;
+    std::string base = images.name;
     std::vector<std::string> names;
     for (int up = 0; up < 2; ++up)
     {
@@ -57,28 +62,49 @@ using sensor_msgs::CameraInfo;
         names.push_back(base + "/camera_info");
         names.push_back(base + "/info/camera_info");
     }
+    std::optional<ToldCamera> out;
     for (const std::string& name : names)
     {
-        std::optional<PinholeCamera> out;
         forEachMessage<CameraInfo>(
             bag,
             name,
             [&](const CameraInfo& info)
             {
-                out = toCamera(info, isRectified(topic.name));
+                out = ToldCamera{name, info};
                 return false;
             });
         if (out)
         {
-            const std::string problem = out->problem();
-            if (!problem.empty())
-            {
-                throw InputError(file + ": " + name + ": " + problem);
-            }
-            return out;
+            break;
         }
     }
-    return {};
+    return out;
+}
+
+[[nodiscard]] std::optional<PinholeCamera> toldCameraOf(
+    const rosbag::Bag& bag, const ImageTopic& topic, const std::string& file)
+{
+    const auto told = infoOf(bag, topic);
+    if (!told)
+    {
+        return {};
+    }
+    const PinholeCamera out = toCamera(told->info, isRectified(topic.name));
+    if (const std::string problem = out.problem(); !problem.empty())
+    {
+        throw InputError(file + ": " + told->topic + ": " + problem);
+    }
+    return out;
+}
+
+/** Of a camera whose lens distortion is left out. \return empty: of no such */
+[[nodiscard]] std::string noteOnDistortion(const rosbag::Bag& bag, const ImageTopic& topic)
+{
+    const auto told = infoOf(bag, topic);
+    return told && hasInverseDistortion(told->info) && !isRectified(topic.name)
+               ? told->topic + ": its distortion (" + told->info.distortion_model +
+                     ") is left out; a calibration by --camera can have it"
+               : "";
 }
 
 [[nodiscard]] PinholeCamera cameraOf(
@@ -154,10 +180,13 @@ using sensor_msgs::CameraInfo;
     return out;
 }
 
-/** Takes points from the axes of colour to those of depth. \param[out] note set where the bag does
- * not tell: they are taken to be the same */
+/** Takes points from the axes of colour to those of depth. \param[in,out] notes one more where the
+ * bag does not tell: they are taken to be the same */
 [[nodiscard]] Eigen::Isometry3d depthFromColour(
-    const rosbag::Bag& bag, const ImageTopic& colour, const ImageTopic& depth, std::string& note)
+    const rosbag::Bag& bag,
+    const ImageTopic& colour,
+    const ImageTopic& depth,
+    std::vector<std::string>& notes)
 {
     const auto ofDepth = extrinsicsOf(bag, depth), ofColour = extrinsicsOf(bag, colour);
     if (ofDepth && ofColour)
@@ -171,9 +200,10 @@ using sensor_msgs::CameraInfo;
     }
     std::string moving = transforms.movingAbove(depth.frame);
     moving = moving.empty() ? transforms.movingAbove(colour.frame) : moving;
-    note = "no transform between " + depth.frame + " and " + colour.frame +
-           (moving.empty() ? "" : " that stays (that " + moving + " changes)") +
-           ": the two cameras are taken to be in one place";
+    notes.push_back(
+        "no transform between " + depth.frame + " and " + colour.frame +
+        (moving.empty() ? "" : " that stays (that " + moving + " changes)") +
+        ": the two cameras are taken to be in one place");
     return Eigen::Isometry3d::Identity();
 }
 
@@ -218,6 +248,10 @@ BagCameras readBagCameras(
     }
     out.colour = options.camera.empty() ? cameraOf(bag, colour, options.file)
                                         : loadCalibration(options.camera, "").camera;
+    if (options.camera.empty())
+    {
+        out.notes.push_back(noteOnDistortion(bag, colour));
+    }
     const bool isOneFrame = colour.frame == depth.frame && !colour.frame.empty();
     if (isOneFrame ? !extrinsicsOf(bag, depth) : depth.isRegistered())
     {
@@ -226,13 +260,13 @@ BagCameras readBagCameras(
         if (own && areOfTwoCameras(*own, out.colour))
         {
             out.depth = DepthCamera{*own, Eigen::Isometry3d::Identity()};
-            out.note =
+            out.notes.emplace_back(
                 "depth images have another calibration than colour images, so they are not "
-                "registered; the two cameras are taken to be in one place";
+                "registered; the two cameras are taken to be in one place");
         }
         return out;
     }
-    const Eigen::Isometry3d T_depth_colour = depthFromColour(bag, colour, depth, out.note);
+    const Eigen::Isometry3d T_depth_colour = depthFromColour(bag, colour, depth, out.notes);
     out.depth = DepthCamera{cameraOf(bag, depth, options.file), T_depth_colour};
     return out;
 }

@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "BagRecording.h"
 #include "bag_topics.h"
@@ -17,7 +18,7 @@ struct BagCameras
     PinholeCamera colour;
     std::optional<DepthCamera> depth;  //!< where depth is not registered
     double unitsPerMetre{1000};        //!< of 16 bit depth
-    std::string note;                  //!< what had to be assumed, or empty
+    std::vector<std::string> notes;    //!< what had to be assumed; some are empty
 };
 
 /** From CameraInfo, static transforms and what RealSense's recorder writes beside the images.

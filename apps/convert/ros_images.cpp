@@ -147,6 +147,12 @@ cv::Mat toMat(const sensor_msgs::CompressedImage& image)
     return image.format.compare(0, 5, "32FC1") == 0 ? depthFromInverse(values, header) : values;
 }
 
+bool hasInverseDistortion(const sensor_msgs::CameraInfo& info)
+{
+    return info.distortion_model == "Inverse Brown Conrady" &&
+           std::any_of(info.D.begin(), info.D.end(), [](double d) { return d != 0; });
+}
+
 PinholeCamera toCamera(const sensor_msgs::CameraInfo& info, bool isRectified)
 {
     PinholeCamera out;
@@ -175,8 +181,7 @@ PinholeCamera toCamera(const sensor_msgs::CameraInfo& info, bool isRectified)
                 "distortion '" + info.distortion_model + "' with " + std::to_string(info.D.size()) +
                 " parameters is not supported; give a calibration by --camera");
         }
-        // Image pixels of RealSense are distorted the other way round, by hardly anything.
-        if (info.distortion_model != "Inverse Brown Conrady")
+        if (!hasInverseDistortion(info))
         {
             std::copy_n(
                 info.D.begin(), std::min<std::size_t>(5, info.D.size()), out.distortion.begin());

@@ -21,7 +21,11 @@ namespace pointplane
 [[nodiscard]] cv::Mat toMat(const sensor_msgs::Image& image);
 [[nodiscard]] cv::Mat toMat(const sensor_msgs::CompressedImage& image);
 
+/** Whether there is distortion of RealSense's kind, from distorted to undistorted pixels. */
+[[nodiscard]] bool hasInverseDistortion(const sensor_msgs::CameraInfo& info);
+
 /** \param isRectified the images are: without distortion, by the matrix P
+ * \return without inverse distortion
  * \throws InputError for distortion other than plumb_bob's five parameters */
 [[nodiscard]] PinholeCamera toCamera(const sensor_msgs::CameraInfo& info, bool isRectified);
 }  // namespace pointplane

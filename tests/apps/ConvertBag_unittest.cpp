@@ -360,6 +360,19 @@ TEST_F(ConvertBag, depthWithItsOwnCalibrationIsNotRegistered)
     EXPECT_DOUBLE_EQ(scans().at(0)->cameraParamsIntensity.fx(), 60);
 }
 
+TEST_F(ConvertBag, inverseDistortionIsLeftOutAndSaid)
+{
+    sensor_msgs::CameraInfo info = cameraInfo("optical");
+    info.D = {0.1, 0, 0, 0, 0};
+    info.distortion_model = "Inverse Brown Conrady";
+    bag_.write("/camera/rgb/camera_info", timeOf(0), info);
+    writeColour(0);
+    writeDepth(0);
+    ASSERT_EQ(convert(), kExitOk) << text_;
+    EXPECT_THAT(text_, HasSubstr("distortion (Inverse Brown Conrady) is left out"));
+    EXPECT_EQ(frames().at(0).camera.distortion[0], 0);
+}
+
 TEST_F(ConvertBag, registeredDepthNeedsNoCalibration)
 {
     sensor_msgs::CameraInfo none = cameraInfo("optical", 0);
