@@ -125,7 +125,9 @@ class BagRecording : public Recording
         }
         catch (const ros::Exception& e)
         {
-            throw InputError(options.file + ": is not a whole ROS 1 bag: " + e.what());
+            throw InputError(
+                options.file + ": is not a whole ROS 1 bag: " + e.what() +
+                "; if its recording was broken off, run rosbag reindex");
         }
         view_ = std::make_unique<rosbag::View>(
             bag_, rosbag::TopicQuery(std::vector<std::string>{colour_.name, depth_.name}));

@@ -15,7 +15,8 @@ namespace pointplane
  * (usually the identity, as depth was moved to colour's axes). */
 [[nodiscard]] std::optional<FolderLayout> scanNet(const std::filesystem::path& folder);
 
-/** 7-Scenes: frame-000000.color.png, frame-000000.depth.png; calibration as its authors advise. */
+/** 7-Scenes: frame-000000.color.png, frame-000000.depth.png. Depth is not registered; the cameras
+ * are those of a usual Kinect. */
 [[nodiscard]] std::optional<FolderLayout> sevenScenes(const std::filesystem::path& folder);
 
 /** Replica as rendered for iMAP and NICE-SLAM: results/frame000000.jpg, results/depth000000.png,
