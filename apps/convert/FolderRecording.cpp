@@ -19,8 +19,6 @@ namespace pointplane
 namespace
 {
 namespace fs = std::filesystem;
-
-constexpr double kTumUnitsPerMetre = 5000;  // of folders with lists, unless the camera tells
 }  // namespace
 
 FolderRecording::FolderRecording(const FolderOptions& options)
@@ -44,8 +42,7 @@ FolderRecording::~FolderRecording() = default;
 void FolderRecording::chooseCamera(const FolderOptions& options)
 {
     const std::string local = folder_ + "/camera.txt";
-    const bool hasLists = fs::exists(folder_ + "/rgb.txt") && fs::exists(folder_ + "/depth.txt");
-    unitsPerMetre_ = hasLists ? kTumUnitsPerMetre : layout_.unitsPerMetre;
+    unitsPerMetre_ = layout_.unitsPerMetre;
     if (!options.camera.empty() || fs::exists(local))
     {
         layout_.calibration = options.camera.empty() ? local : options.camera;

@@ -94,7 +94,7 @@ void KlgRecording::checkUnitOfStamps()
     {
         throw InputError(
             options_.file +
-            ": its frames have one and the same stamp; the program that recorded "
+            ": its first frames have the same stamp; the program that recorded "
             "them must tell when they were taken");
     }
     if (interval > kLongest || (interval > 0 && interval < kShortest))

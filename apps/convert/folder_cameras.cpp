@@ -20,15 +20,15 @@ void checkCamera(const PinholeCamera& camera, const std::string& file, const cha
     }
 }
 
-/** A matrix without a size that is for a larger or smaller picture: its principal point is off the
- * middle by the same factor in both directions. \throws BadFrame */
+/** \throws BadFrame if a matrix without a size seems to be for a larger or smaller picture */
 void checkMatrixOf(
     const PinholeCamera& camera,
     const cv::Size& size,
     const std::string& file,
     const std::string& name)
 {
-    constexpr double kMost = 0.1;
+    // Principal points of real cameras are nearer to the middle, in one direction at least.
+    constexpr double kMost = 0.1;  // of half the image
     const double across = 2 * camera.cx / size.width - 1, down = 2 * camera.cy / size.height - 1;
     if (across * down > 0 && std::min(std::abs(across), std::abs(down)) > kMost)
     {

@@ -159,6 +159,10 @@ void requireNoOthers(const fs::path& folder, const std::vector<ImageRef>& depth)
         out.camera = colourCamera(pinholeOf(640, 480, 525, 319.5, 239.5));
         out.cameraIsNominal = true;
     }
+    if (fs::exists(folder / "rgb.txt") && fs::exists(folder / "depth.txt"))
+    {
+        out.unitsPerMetre = 5000;  // as TUM's folders with lists
+    }
     readPublishedCamera(folder, out);
     readOpen3d(folder, out);
     readRecord3d(folder, out);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Reproduction.h"
 
-#include <pointplane/evaluation/units.h>
-
 #include "PosesFromStart.h"
 #include "result_output.h"
 
@@ -34,20 +32,10 @@ std::string Reproduction::text(
     {
         if (variants[v].group == group && variants[v].name == name)
         {
-            return cellText(scores[sequence * variants.size() + v]);
+            return scoreText(scores[sequence * variants.size() + v], kShortWords);
         }
     }
     return "-";
-}
-
-std::string cellText(const LabScore& score)
-{
-    return score.rpe ? format(
-                           "%.1f / %.2f",
-                           1000 * score.rpe->translation.rmse,
-                           kDegreesPerRadian * score.rpe->rotation.rmse) +
-                           unmeasuredText(score, "l", "p")
-                     : "failed";
 }
 
 double finalError(const Reproduction& result, std::size_t corner)

@@ -35,8 +35,4 @@ struct Reproduction
 
 /** "fr1/desk", or "fr1/desk (part)". */
 [[nodiscard]] std::string displayName(const ReproducedSequence& sequence);
-
-/** "12.3 / 0.45 (9 l, 6 p)": mm and deg as in the paper's tables, and the frames that were lost or
- * predicted. */
-[[nodiscard]] std::string cellText(const LabScore& score);
 }  // namespace pointplane

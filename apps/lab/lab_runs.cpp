@@ -196,28 +196,30 @@ std::string scoreFields(const LabScore& score)
                      : ",,,,,," + csvField(score.failure) + "\n";
 }
 
-std::string unmeasuredText(const LabScore& score, const char* lost, const char* predicted)
+std::string unmeasuredText(const LabScore& score, const ScoreWords& words)
 {
     if (!score.rpe)
     {
         return "";
     }
     const Coverage& coverage = score.rpe->coverage;
-    std::string out = coverage.lost > 0 ? format("%zu %s", coverage.lost, lost) : "";
+    std::string out = coverage.lost > 0 ? format("%zu %s", coverage.lost, words.lost) : "";
     if (coverage.predicted > 0)
     {
-        out += (out.empty() ? "" : ", ") + format("%zu %s", coverage.predicted, predicted);
+        out += (out.empty() ? "" : ", ") + format("%zu %s", coverage.predicted, words.predicted);
     }
     return out.empty() ? "" : " (" + out + ")";
 }
 
-std::string scoreText(const LabScore& score)
+std::string scoreText(const LabScore& score, const ScoreWords& words)
 {
     return score.rpe ? format(
-                           "%.1f mm / %.2f deg",
+                           "%.1f%s / %.2f%s",
                            1000 * score.rpe->translation.rmse,
-                           kDegreesPerRadian * score.rpe->rotation.rmse) +
-                           unmeasuredText(score, "lost", "predicted")
+                           words.mm,
+                           kDegreesPerRadian * score.rpe->rotation.rmse,
+                           words.deg) +
+                           unmeasuredText(score, words)
                      : "failed";
 }
 

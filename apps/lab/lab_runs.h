@@ -93,10 +93,20 @@ inline constexpr const char* kScoreColumns =
 /** Of a line of CSV, with its end. */
 [[nodiscard]] std::string scoreFields(const LabScore& score);
 
-/** " (9 lost, 3 predicted)" with these words, or empty if all frames were measured. */
-[[nodiscard]] std::string unmeasuredText(
-    const LabScore& score, const char* lost, const char* predicted);
+/** How a score is said. */
+struct ScoreWords
+{
+    const char* mm;
+    const char* deg;
+    const char* lost;
+    const char* predicted;
+};
+inline constexpr ScoreWords kLongWords{" mm", " deg", "lost", "predicted"};
+inline constexpr ScoreWords kShortWords{"", "", "l", "p"};  //!< as in the paper's tables
 
-/** "12.3 mm / 0.46 deg", with " (9 lost, 3 predicted)" where frames were, or "failed". */
-[[nodiscard]] std::string scoreText(const LabScore& score);
+/** " (9 lost, 3 predicted)", or empty if all frames were measured or the run failed. */
+[[nodiscard]] std::string unmeasuredText(const LabScore& score, const ScoreWords& words);
+
+/** "12.3 mm / 0.46 deg" with unmeasuredText(), or "failed". */
+[[nodiscard]] std::string scoreText(const LabScore& score, const ScoreWords& words = kLongWords);
 }  // namespace pointplane

@@ -70,7 +70,7 @@ ReproductionTable alphaTable(const Reproduction& result)
             {
                 smallest = rpe->translation.rmse;
                 name = result.variants[v].name +
-                       unmeasuredText(result.scores[s * result.variants.size() + v], "l", "p");
+                       unmeasuredText(result.scores[s * result.variants.size() + v], kShortWords);
             }
         }
         best.push_back(name);
@@ -152,7 +152,10 @@ ReproductionTable cornerTable(const Reproduction& result)
         const std::string& name = result.cornerVariants[k].name;
         const LabScore& score = result.cornerScores[k];
         table.rows.push_back(
-            {name, finalErrorText(result, k), name == "planes" ? "114" : "-", cellText(score)});
+            {name,
+             finalErrorText(result, k),
+             name == "planes" ? "114" : "-",
+             scoreText(score, kShortWords)});
     }
     return table;
 }

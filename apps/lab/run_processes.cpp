@@ -31,17 +31,17 @@ constexpr std::chrono::milliseconds kBetweenLooks{5};
 int waitFor(pid_t pid)
 {
     int status = 0;
-    bool isEnded = false;
+    bool isAsked = false;
     for (pid_t ended = 0; ended != pid; ended = ::waitpid(pid, &status, WNOHANG))
     {
         if (ended < 0 && errno != EINTR)
         {
             return kNotStarted;
         }
-        if (stopRequested() && !isEnded)
+        if (stopRequested() && !isAsked)
         {
             ::kill(pid, SIGTERM);
-            isEnded = true;
+            isAsked = true;
         }
         std::this_thread::sleep_for(kBetweenLooks);
     }

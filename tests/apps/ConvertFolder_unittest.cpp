@@ -212,6 +212,21 @@ TEST_F(ConvertFolder, listsTellTumsUnits)
     EXPECT_NEAR(frames().at(0).depth.at<float>(24, 32), 1, 1e-4);
 }
 
+TEST_F(ConvertFolder, unitsThatTheLayoutTellsComeBeforeThoseOfLists)
+{
+    writeFrames("in/color/%d.0.png", "in/depth/%d.0.png");
+    for (const char* const list : {"rgb", "depth"})
+    {
+        write(std::string("in/") + list + ".txt", "# stamp file\n");
+    }
+    write(
+        "in/intrinsic.json",
+        R"({"width": 64, "height": 48, "intrinsic_matrix": [60, 0, 0, 0, 60, 0, 31.5, 23.5, 1],)"
+        R"( "depth_scale": 2000})");
+    ASSERT_EQ(run({"folder", in_}), kExitOk) << text_;
+    EXPECT_NEAR(frames().at(0).depth.at<float>(24, 32), 0.5, 1e-4);
+}
+
 /** Date and time, not Redwood's frame and microseconds. */
 TEST_F(ConvertFolder, datesAreNoStamps)
 {

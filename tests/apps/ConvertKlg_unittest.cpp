@@ -187,7 +187,7 @@ TEST_F(ConvertKlg, framesWithoutTimesAreRefused)
         std::fill_n(bytes.begin() + static_cast<std::ptrdiff_t>(4 + i * size), 8, '\0');
     }
     EXPECT_EQ(convert(bytes), kExitBadInput);
-    EXPECT_THAT(text_, HasSubstr("have one and the same stamp"));
+    EXPECT_THAT(text_, HasSubstr("first frames have the same stamp"));
 }
 
 /** A decoder would show what is missing in grey. */
