@@ -15,7 +15,8 @@ namespace pointplane
 {
 namespace
 {
-constexpr int kMaxPoints = 600;
+/** So many points tell a motion. */
+constexpr size_t kSample = 3;
 
 /** Motions of three points that are tried: with a fifth of the pairs right, 98 of 100 times one is.
  */
@@ -28,7 +29,6 @@ PointDetector::TParams detectorParams()
 {
     PointDetector::TParams out;
     out.detector = "orb";
-    out.maxPoints = kMaxPoints;
     out.upright = false;
     return out;
 }
@@ -75,7 +75,7 @@ class ReprojectionTest
     }
 
     /** Distances between three points do not change. */
-    [[nodiscard]] bool isRigid(const size_t (&s)[3]) const
+    [[nodiscard]] bool isRigid(const size_t (&s)[kSample]) const
     {
         for (int k = 0; k < 3; ++k)
         {
@@ -134,7 +134,7 @@ std::vector<size_t> mostInliers(const ReprojectionTest& test, size_t numPairs)
     std::vector<size_t> best;
     for (int t = 0, tries = 0; t < kMaxTrials && tries < 20 * kMaxTrials; ++tries)
     {
-        const size_t s[3] = {random() % numPairs, random() % numPairs, random() % numPairs};
+        const size_t s[kSample] = {random() % numPairs, random() % numPairs, random() % numPairs};
         if (s[0] == s[1] || s[1] == s[2] || s[0] == s[2] || !test.isRigid(s))
         {
             continue;
@@ -143,7 +143,7 @@ std::vector<size_t> mostInliers(const ReprojectionTest& test, size_t numPairs)
         std::vector<size_t> found = test.inliers(test.fit({s[0], s[1], s[2]}), 2);
         if (found.size() > best.size())
         {
-            if (found.size() >= 6)
+            if (found.size() > kSample)
             {
                 auto again = test.inliers(test.fit(found), 2);
                 if (again.size() > found.size())
@@ -207,7 +207,7 @@ std::optional<ImageMotion> ImageAligner::align(
     for (int k = 0; k < 3; ++k)
     {
         const std::vector<size_t> found = test.inliers(T, k == 0 ? 2 : 1);
-        if (found.size() < 4)
+        if (found.size() <= kSample)
         {
             break;
         }

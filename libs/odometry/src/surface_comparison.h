@@ -153,9 +153,8 @@ inline Eigen::Vector3f surfaceAt(
     if (z > 0)
     {
         const DepthRange range = rangeAround(frame.depth, pixel.x, pixel.y);
-        const double depth = static_cast<double>(z);
-        const double most = std::max(2 * DepthNoise::kDistortion * depth, noise.sameDepth(depth));
-        if (range.farthest - range.nearest < static_cast<float>(most))
+        const auto most = static_cast<float>(noise.sameDepth(static_cast<double>(z)));
+        if (range.farthest - range.nearest < most)
         {
             const Eigen::Vector2d xy = frame.camera.normalisedOfDepth(
                 {static_cast<double>(pixel.x), static_cast<double>(pixel.y)});
