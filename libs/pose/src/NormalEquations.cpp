@@ -41,7 +41,8 @@ double NormalEquations::costAt(const Motion& motion) const
     double cost = 0;
     for (size_t i = 0; i < pairs_.size(); ++i)
     {
-        cost += gain(i) * robust(i, pairs_.at(i, motion).squaredNorm).cost;
+        const Eigen::Vector3d r = pairs_.residual(i, motion).r;
+        cost += gain(i) * robust(i, r.dot(residuals_[i].W * r)).cost;
     }
     return cost;
 }

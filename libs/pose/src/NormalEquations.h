@@ -38,7 +38,8 @@ class NormalEquations
      * \param widening of that scale */
     void evaluate(const Motion& motion, double widening = 1);
 
-    /** Cost of all pairs at another motion, with the robust scale of the latest evaluate(). */
+    /** Cost of all pairs at another motion, with the weight matrices and the robust scale of the
+     * latest evaluate(). Those of the other motion would favour motions of larger covariances. */
     [[nodiscard]] double costAt(const Motion& motion) const;
 
     // At the latest evaluate():

@@ -40,9 +40,9 @@ class PairResiduals
     [[nodiscard]] size_t surfaceOf(size_t i) const;
 
     [[nodiscard]] WeightedResidual at(size_t i, const Motion& motion) const;
+    [[nodiscard]] Residual residual(size_t i, const Motion& motion) const;
 
  private:
-    [[nodiscard]] Residual residual(size_t i, const Motion& motion) const;
     [[nodiscard]] Eigen::Matrix3d weightMatrix(const Residual& residual) const;
 
     const PoseSolver::Settings& solver_;

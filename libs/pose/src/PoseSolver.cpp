@@ -19,8 +19,11 @@ namespace pointplane
 {
 namespace
 {
-/** Steps below a hundredth of a millimetre or of a milliradian end the search. */
-constexpr double kStepTolerance = 1e-5;
+/** The search ends where the next step is this part of its standard deviation. */
+constexpr double kConverged = 0.01;
+
+/** Least damping of Levenberg and Marquardt: hardly any. */
+constexpr double kLeastLambda = 1e-6;
 
 /** Keeps what nothing determines finite. */
 constexpr double kDamping = 1e-9;
@@ -72,8 +75,8 @@ class Descent
     {
     }
 
-    /** One step, damped until it lowers the cost. \param widening of the robust scale
-     * \return whether another one is worth trying */
+    /** One step, damped until it lowers the cost, unless it is too small to matter.
+     * \param widening of the robust scale \return whether another one is worth trying */
     bool step(double widening)
     {
         equations_.evaluate(motion_, widening);
@@ -82,20 +85,19 @@ class Descent
         const Matrix12d H = equations_.points().H + equations_.planes().H + information;
         const Vector12d g = equations_.points().g + equations_.planes().g -
                             information * prior_.prior.residual(motion_);
-        converged_ = false;
+        const Matrix12d regular = H + kDamping * Matrix12d::Identity();
+        converged_ = g.dot(regular.ldlt().solve(g)) < kConverged * kConverged;
         for (bool accepted = false; !accepted && !isDone();)
         {
             ++iterations_;
-            Matrix12d damped = H;
-            damped.diagonal() += lambda_ * H.diagonal() + Vector12d::Constant(kDamping);
+            Matrix12d damped = regular;
+            damped.diagonal() += lambda_ * H.diagonal();
             const Vector12d step = -damped.ldlt().solve(g);
             const Motion candidate{
                 se3Exp(step.head<6>()) * motion_.T_prev_cur, motion_.velocity + step.tail<6>()};
             accepted = step.allFinite() &&
                        equations_.costAt(candidate) + prior_.cost(candidate) <= cost * (1 + 1e-12);
-            converged_ = step.head<3>().norm() < kStepTolerance &&
-                         step.segment<3>(3).norm() < kStepTolerance;
-            lambda_ *= accepted ? 0.1 : 10;
+            lambda_ = accepted ? std::max(0.1 * lambda_, kLeastLambda) : 10 * lambda_;
             if (accepted)
             {
                 motion_ = {orthonormalised(candidate.T_prev_cur), candidate.velocity};
@@ -115,7 +117,7 @@ class Descent
     const RobustPrior& prior_;
     Motion motion_;
     int maxIterations_;
-    double lambda_{1e-6};
+    double lambda_{kLeastLambda};
     int iterations_{0};
     bool converged_{false};
 };
