@@ -356,6 +356,28 @@ TEST(PoseSolver, tukeyIgnoresThirtyPercentOfOutliers)
     EXPECT_GT(harmed, 10 * 10 * clean);
 }
 
+/** Points count for the scale by their surface; one that is far away must not set it alone. */
+TEST(PoseSolver, oneWrongFarPointDoesNotOpenTheGate)
+{
+    PairWorld world(33);
+    for (int i = 0; i < 60; ++i)
+    {
+        const double z = world.sampler().uniform(1, 2);
+        world.addPoint(
+            {z * world.sampler().uniform(-0.5, 0.5), z * world.sampler().uniform(-0.4, 0.4), z});
+    }
+    world.addPoint({1, 1, 16});
+    std::vector<PointPair> points = world.drawPoints();
+    for (size_t i = 0; i < 20; ++i)
+    {
+        points[i].cur.mean.x() += 0.1;  // on something that moves
+    }
+    points.back().cur.mean.x() += 8;
+    const PoseEstimate estimate = solve({}, points, {});
+    EXPECT_LT(sigmasFrom(world.T_prev_cur, estimate), 4);
+    EXPECT_LE(estimate.numPointInliers, 40);
+}
+
 TEST(PoseSolver, fewPointsThatTellADirectionAreBelieved)
 {
     // Many points on vertical edges, which tell nothing of the height; eight corners, which have

@@ -171,23 +171,27 @@ double NormalEquations::medianOf(size_t begin, size_t end, const IsChosen& isCho
 
 /** Each point counts for the surface that it stands for, which grows with the square of its depth:
  * what is close and moves may have most of the points, and must not set the scale by which it is
- * told apart. With the paper's weights all points count alike. */
+ * told apart. All points count alike with the paper's weights, and where the farthest are too few
+ * to decide: as if they were fewer (Kish 1965) than a pose has unknowns. */
 double NormalEquations::robustVariance() const
 {
-    if (solver_.weighting != PoseSolver::Weighting::Full)
-    {
-        return medianOf(0, pairs_.numPoints(), [&](size_t i) { return isUsable(i); });
-    }
     std::vector<std::pair<double, double>> normsAndSurfaces;
+    double sum = 0, sumOfSquares = 0;
     for (size_t i = 0; i < pairs_.numPoints(); ++i)
     {
         if (isUsable(i))
         {
             const double z = pairs_.point(i).cur.mean.z();
             normsAndSurfaces.emplace_back(relativeNorm(i), z * z);
+            sum += z * z;
+            sumOfSquares += z * z * z * z;
         }
     }
-    return medianVariance(normsAndSurfaces);
+    if (solver_.weighting == PoseSolver::Weighting::Full && sum * sum >= 6 * sumOfSquares)
+    {
+        return medianVariance(normsAndSurfaces);
+    }
+    return medianOf(0, pairs_.numPoints(), [&](size_t i) { return isUsable(i); });
 }
 
 double NormalEquations::planeVariance() const

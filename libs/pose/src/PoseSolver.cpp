@@ -108,6 +108,7 @@ class Descent
 
     [[nodiscard]] const Motion& motion() const { return motion_; }
     [[nodiscard]] int iterations() const { return iterations_; }
+    /** Whether the search ended because of that; the equations are those of the motion then. */
     [[nodiscard]] bool converged() const { return converged_; }
 
  private:
@@ -122,12 +123,11 @@ class Descent
     bool converged_{false};
 };
 
-/** Normal equations of pairs and prior at a motion. */
+/** Normal equations of pairs and prior at the motion that they were evaluated at. */
 struct Linearised
 {
-    Linearised(NormalEquations& equations, const RobustPrior& prior, const Motion& motion)
+    Linearised(const NormalEquations& equations, const RobustPrior& prior, const Motion& motion)
     {
-        equations.evaluate(motion);
         known = prior.information(motion) + kDamping * Matrix12d::Identity();
         H = equations.points().H + equations.planes().H + known;
         H_inverse = H.ldlt().solve(Matrix12d::Identity());
@@ -196,6 +196,10 @@ PoseEstimate PoseSolver::solve(
     {
     }
     const Motion& x = descent.motion();
+    if (!descent.converged())
+    {
+        equations.evaluate(x);
+    }
     const Linearised at(equations, prior, x);
     const FeatureSum& p = equations.points();
     const FeatureSum& m = equations.planes();
@@ -231,6 +235,7 @@ double PoseSolver::pointSupport(const PoseProblem& problem, const PoseEstimate& 
 {
     const RobustPrior prior{problem.prior, settings_.params.priorStudentDof};
     NormalEquations equations(settings_, problem);
+    equations.evaluate(solution.motion.mean);
     const Linearised at(equations, prior, solution.motion.mean);
     return supportByPoints(equations, problem, at.H);
 }
@@ -239,6 +244,7 @@ PoseAnalysis PoseSolver::analyse(const PoseProblem& problem, const PoseEstimate&
 {
     const RobustPrior prior{problem.prior, settings_.params.priorStudentDof};
     NormalEquations equations(settings_, problem);
+    equations.evaluate(solution.motion.mean);
     const Linearised at(equations, prior, solution.motion.mean);
     const Solution solved = solutionOf(equations, problem, at.H, at.H_inverse);
     PoseAnalysis out;
