@@ -79,6 +79,24 @@ double shareOf(const FrameAt& frameAt)
     return shareOf(parts, frameAt);
 }
 
+/** A lamp goes out: nothing tells then that the part is no longer the same. */
+TEST(AttachedParts, staysWhileTheImageIsDark)
+{
+    AttachedParts parts;
+    ASSERT_GT(shareOf(parts, [](int moved) { return withRobot(wall(moved)); }), kRobotShare);
+    for (int i = 5; i < 12; ++i)
+    {
+        RgbdFrame frame = withRobot(wall(10 * i));
+        if (i < 8)
+        {
+            frame.gray.setTo(5);
+        }
+        addNoise(i, frame);
+        parts.update(frame, {});
+        EXPECT_GT(parts.share(), kRobotShare) << i;
+    }
+}
+
 TEST(AttachedParts, findsWhatMovesWithTheCamera)
 {
     AttachedParts parts;

@@ -69,6 +69,17 @@ TEST_F(DepthNoiseLearnerTest, disparityLevelsAreStructuredLight)
     expectGiven(noise);
 }
 
+/** A RealSense D435 of 424x240 px: its steps of 1/32 px are nearly those of a Kinect. */
+TEST_F(DepthNoiseLearnerTest, levelsOfMoreNoiseAreActiveStereo)
+{
+    const auto d435 = [&](double z)
+    { return inMillimetres(1 / (2.95e-3 * std::round((1 / z + 7.5e-3 * normal()) / 2.95e-3))); };
+    const DepthNoise noise = learnt(0.8, 4, d435, {});
+    EXPECT_EQ(noise.kind, "activeStereo");
+    EXPECT_GT(noise.sigmaInverseDepth, 5e-3);
+    EXPECT_LT(noise.sigmaInverseDepth, 1.4 * 1.4 * 7.5e-3);
+}
+
 TEST_F(DepthNoiseLearnerTest, itsNoiseWithoutLevelsIsStructuredLight)
 {
     const DepthNoise noise =

@@ -167,6 +167,19 @@ TEST(PinholeCamera, whereTheDistortionFoldsThereIsNoRay)
     }
 }
 
+/** Beyond the fold, the polynomial leads back into the image. */
+TEST(PinholeCamera, whereTheDistortionFoldsNothingIsSeen)
+{
+    PinholeCamera camera{525, 525, 319.5, 239.5, 640, 480};
+    camera.distortion = {-0.4, 0, 0, 0, 0};
+    EXPECT_TRUE(camera.project({0.8, 0, 1}).allFinite());
+    for (const double x : {1.0, 1.5, 2.0, 5.0})
+    {
+        EXPECT_FALSE(camera.project({x, 0, 1}).allFinite()) << x;
+        EXPECT_FALSE(camera.project({0, -x, 1}).allFinite()) << x;
+    }
+}
+
 TEST(PinholeCamera, problemNamesWhatIsWrong)
 {
     using testing::HasSubstr;

@@ -145,14 +145,18 @@ void AttachedParts::update(const RgbdFrame& frame, const DepthNoise& noise)
         mask_.release();
         return;
     }
-    const CellChanges cells(earlier_, later, noise);
-    if (!isElsewhere(cells))
+    if (!isElsewhere(CellChanges(earlier_, later, noise)))
     {
         return;
     }
+    later.findContrast();
+    const CellChanges cells(earlier_, later, noise);
+    if (!isElsewhere(cells))
+    {
+        return;  // the image shows nothing, as in the dark
+    }
     const float farthest = medianDepth(cells);
     count(cells, farthest, timesSame_);
-    later.findContrast();
     earlier_ = later;
     Mask parts(cv::Mat(timesSame_ >= kTimes));
     removeSpecks(parts);

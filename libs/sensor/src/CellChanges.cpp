@@ -44,7 +44,8 @@ CellChange compareCell(
 {
     CellChange out = compareDepth(earlier, later, cell, noise);
     const CellView::Contrast contrast = earlier.contrastAt(cell);
-    if (out.change == Change::Same && contrast != CellView::Contrast::Noise)
+    if (out.change == Change::Same && contrast != CellView::Contrast::Noise &&
+        later.contrastAt(cell) != CellView::Contrast::Noise)
     {
         const double c = earlier.correlation(later, cell);
         const bool isSame = c > kSamePattern && contrast == CellView::Contrast::ShowsShift;

@@ -77,7 +77,7 @@ CellView::CellView(const RgbdFrame& frame)
     const cv::Size grid(kColumns, std::max(1, kColumns * size.height / size.width));
     cv::resize(frame.gray, gray, grid * kGraySide, 0, 0, cv::INTER_AREA);
     cv::resize(frame.depth, depth, grid * kDepthSide, 0, 0, cv::INTER_NEAREST);
-    contrast.create(grid);
+    contrast = cv::Mat_<std::uint8_t>(grid, static_cast<std::uint8_t>(Contrast::Pattern));
 }
 
 void CellView::findContrast()

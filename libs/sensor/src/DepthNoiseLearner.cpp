@@ -211,11 +211,13 @@ std::vector<NoiseAtDepth> DepthNoiseLearner::measured() const
 
 std::string DepthNoiseLearner::judgedKind(const std::vector<NoiseAtDepth>& depths) const
 {
-    if (hasLevels())
+    const std::vector<NoiseAtDepth> far = farOf(depths);
+    const double level = noiseLevelOf(far, given_.sigmaInverseDepth);
+    // Small images of active stereo have such levels, too, but more noise.
+    if (hasLevels() && (far.empty() || level <= kMoreNoise))
     {
         return "structuredLight";
     }
-    const std::vector<NoiseAtDepth> far = farOf(depths);
     if (far.empty())
     {
         return "learn";  // nothing told it yet
@@ -227,7 +229,6 @@ std::string DepthNoiseLearner::judgedKind(const std::vector<NoiseAtDepth>& depth
     {
         return "rendered";
     }
-    const double level = noiseLevelOf(far, given_.sigmaInverseDepth);
     return level < kLessNoise || !growsLikeTriangulation(far) ? "timeOfFlight"
            : level > kMoreNoise                               ? "activeStereo"
                                                               : "structuredLight";

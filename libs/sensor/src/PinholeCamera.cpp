@@ -152,6 +152,10 @@ Eigen::Vector2d PinholeCamera::project(const Eigen::Vector3d& p_cam) const
     Eigen::Vector2d p(p_cam.x() / p_cam.z(), p_cam.y() / p_cam.z());
     if (isDistorted())
     {
+        if (isFolded(distortionJacobian(distortion, p)))
+        {
+            return Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
+        }
         p = distorted(distortion, p);
     }
     return {fx * p.x() + cx, fy * p.y() + cy};

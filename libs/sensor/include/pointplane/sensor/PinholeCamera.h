@@ -48,7 +48,8 @@ struct PinholeCamera
     /** Normalised coordinates (x, y) of the ray through a pixel of the depth image. */
     [[nodiscard]] Eigen::Vector2d normalisedOfDepth(const Eigen::Vector2d& depthUv_px) const;
 
-    /** Raw (distorted) pixel of a point in front of the camera [m]. */
+    /** Raw (distorted) pixel of a point in front of the camera [m]; NaN where the distortion turns
+     * the image round, beyond what the camera sees. */
     [[nodiscard]] Eigen::Vector2d project(const Eigen::Vector3d& p_cam) const;
 
     /** The same camera after the image has been resized by `factor` (pixel centres kept right). */
