@@ -111,17 +111,23 @@ cv::Mat matOf(const py::array& array, int type, const char* what)
         static_cast<std::size_t>(array.strides(0))};
 }
 
-/** float32 in metres as it is; integers times `unit`, zero = no reading. */
-cv::Mat depthOf(const py::array& depth, double unit)
+/** float32 in metres as it is; integers times the unit, zero and kSaturatedDepth = no reading. */
+cv::Mat depthOf(const py::array& depth, std::optional<double> givenUnit)
 {
     if (isOf<float>(depth, "depth", "numpy.nan), or of integers depth.filled(0"))
     {
+        if (givenUnit)
+        {
+            throw py::value_error(
+                "depth_unit: is of uint16, but this depth is float32, and such depth is in metres");
+        }
         return matOf(depth, CV_32FC1, "depth");
     }
     if (!isOf<std::uint16_t>(depth, "depth", "0"))
     {
         refuseType(depth, "depth: expected float32 in metres, or uint16 in units of depth_unit");
     }
+    const double unit = givenUnit.value_or(0.001);
     if (!problemOfDepthUnits(1 / unit).empty())
     {
         std::ostringstream out;
@@ -132,7 +138,8 @@ cv::Mat depthOf(const py::array& depth, double unit)
     const cv::Mat readings = matOf(depth, CV_16UC1, "depth");
     cv::Mat metres;
     readings.convertTo(metres, CV_32FC1, unit);
-    metres.setTo(std::numeric_limits<float>::quiet_NaN(), readings == 0);
+    metres.setTo(
+        std::numeric_limits<float>::quiet_NaN(), (readings == 0) | (readings == kSaturatedDepth));
     return metres;
 }
 
@@ -143,10 +150,17 @@ cv::Mat grayOf(const py::object& colour, const char* name, const std::string& me
     {
         return {};
     }
-    const auto array = py::cast<py::array>(colour);
+    const std::string expected = std::string(name) + ": expected uint8, " + meaning;
+    if (!py::isinstance<py::array>(colour))
+    {
+        // NumPy would make an array of it, which nobody keeps while its memory is used.
+        throw py::type_error(
+            expected + "; it is " + py::cast<std::string>(py::type::of(colour).attr("__name__")));
+    }
+    const auto array = py::reinterpret_borrow<py::array>(colour);
     if (!isOf<std::uint8_t>(array, name, "0"))
     {
-        refuseType(array, std::string(name) + ": expected uint8, " + meaning);
+        refuseType(array, expected);
     }
     if (array.ndim() == 2)
     {
@@ -186,7 +200,34 @@ py::object arrayOf(const cv::Mat& image)
         keeper);
 }
 
-/** The frames of one camera of a rawlog. */
+/** While it lives, other threads of Python run. If Python ends meanwhile, as under a daemon thread,
+ * this thread stops here. Python would unwind it, and end the program on the way through C++. */
+class WithoutPython
+{
+ public:
+    WithoutPython() : state_(PyEval_SaveThread()) {}
+    ~WithoutPython()
+    {
+        try
+        {
+            PyEval_RestoreThread(state_);
+        }
+        catch (const abi::__forced_unwind&)
+        {
+            while (true)
+            {
+                ::pause();
+            }
+        }
+    }
+    WithoutPython(const WithoutPython&) = delete;
+    WithoutPython& operator=(const WithoutPython&) = delete;
+
+ private:
+    PyThreadState* state_;
+};
+
+/** The frames of one camera of a rawlog. Python's threads may share it. */
 class RawlogFrames
 {
  public:
@@ -200,8 +241,12 @@ class RawlogFrames
         converter_.setExternalsDirectory(reader_.externalsDirectory());
     }
 
-    [[nodiscard]] ConvertedFrame next()
+    /** \return nothing at the end */
+    [[nodiscard]] std::optional<ConvertedFrame> next()
     {
+        // In this order: who waits for a frame of another thread must not hold up Python.
+        const WithoutPython others;
+        const std::lock_guard lock(mutex_);
         while (true)
         {
             while (!pending_.empty())
@@ -234,7 +279,7 @@ class RawlogFrames
                     throw InputError(reader_.ending().message);
                 }
                 requireFrames();
-                throw py::stop_iteration();
+                return {};
             }
             if (auto observation = std::dynamic_pointer_cast<mrpt::obs::CObservation>(object))
             {
@@ -281,38 +326,12 @@ class RawlogFrames
             reader_.path() + ": no frames of camera '" + *label_ + "'; in it are " + there);
     }
 
+    std::mutex mutex_;
     RawlogReader reader_;
     ObservationConverter converter_;
     std::deque<mrpt::obs::CObservation::Ptr> pending_;
     std::optional<std::string> label_;
     std::map<std::string, std::size_t> framesOf_;
-};
-
-/** While it lives, other threads of Python run. If Python ends meanwhile, as under a daemon thread,
- * this thread stops here. Python would unwind it, and end the program on the way through C++. */
-class WithoutPython
-{
- public:
-    WithoutPython() : state_(PyEval_SaveThread()) {}
-    ~WithoutPython()
-    {
-        try
-        {
-            PyEval_RestoreThread(state_);
-        }
-        catch (const abi::__forced_unwind&)
-        {
-            while (true)
-            {
-                ::pause();
-            }
-        }
-    }
-    WithoutPython(const WithoutPython&) = delete;
-    WithoutPython& operator=(const WithoutPython&) = delete;
-
- private:
-    PyThreadState* state_;
 };
 
 /** An odometry that Python's threads may share: one frame after the other. */
@@ -321,18 +340,23 @@ class SharedOdometry
  public:
     explicit SharedOdometry(const OdometryParams& params) : odometry_(params) {}
 
+    [[nodiscard]] OdometryResult process(const RgbdFrame& frame)
+    {
+        // In this order, as in RawlogFrames.
+        const WithoutPython others;
+        const std::lock_guard lock(mutex_);
+        return odometry_.process(frame);
+    }
+
     [[nodiscard]] OdometryResult process(const ConvertedFrame& converted)
     {
-        OdometryResult result;
+        const WithoutPython others;
+        const std::lock_guard lock(mutex_);
+        const ConvertedFrame own = ofOneCamera(converted, label_);
+        OdometryResult result = odometry_.process(own.frame);
+        if (!own.problem.empty())
         {
-            // In this order: who waits for a frame of another thread must not hold up Python.
-            const WithoutPython others;
-            const std::lock_guard lock(mutex_);
-            result = odometry_.process(converted.frame);
-        }
-        if (!converted.problem.empty())
-        {
-            result.reason = converted.problem;
+            result.reason = own.problem;
         }
         return result;
     }
@@ -349,24 +373,14 @@ class SharedOdometry
         const WithoutPython others;
         const std::lock_guard lock(mutex_);
         odometry_.reset();
+        label_.reset();
     }
 
  private:
     std::mutex mutex_;
     Odometry odometry_;
+    std::optional<std::string> label_;  //!< of the first frame of a rawlog
 };
-
-/** Seconds. \throws std::invalid_argument for those since 1970 in another unit */
-[[nodiscard]] double checkedStamp(double stamp)
-{
-    if (std::isfinite(stamp) && std::abs(stamp) > static_cast<double>(kLatestStamp))
-    {
-        throw std::invalid_argument(
-            "stamp: " + numberText(stamp) +
-            " is too large for seconds; divide milliseconds by 1e3, nanoseconds by 1e9");
-    }
-    return stamp;
-}
 
 template <class T>
 constexpr bool kIsOfModule =
@@ -539,7 +553,7 @@ void addResult(py::module_& m)
             [](const OdometryResult& r) { return textOf(r.reason); },
             "why it was not tracked, or what limits a tracked one (directions that are predicted, "
             "an image that is left out); or empty")
-        .def_readonly("stamp", &OdometryResult::stamp, "of the frame [s]")
+        .def_readonly("stamp", &OdometryResult::stamp, "of the frame [s]; NaN: of another camera")
         .def_property_readonly(
             "pose",
             [](const OdometryResult& r) { return r.pose.mean.matrix(); },
@@ -554,15 +568,34 @@ void addResult(py::module_& m)
             "increment_covariance",
             [](const OdometryResult& r) { return r.increment.cov; },
             "6x6, of this increment alone")
+        .def_property_readonly(
+            "since",
+            [](const OdometryResult& r)
+            {
+                std::vector<std::pair<Eigen::Matrix4d, Matrix6d>> out;
+                for (const PoseGaussian& motion : r.since)
+                {
+                    out.emplace_back(motion.mean.matrix(), motion.cov);
+                }
+                return out;
+            },
+            "list of (4x4, 6x6): this frame in the ones 1, 2, ... before, up to "
+            "Covariance.history, with covariances")
         .def(py::pickle(  // what Python sees of it
             [](const OdometryResult& r)
             {
+                py::list since;
+                for (const PoseGaussian& motion : r.since)
+                {
+                    since.append(stateOf(motion));
+                }
                 return py::make_tuple(
                     static_cast<int>(r.status),
                     py::bytes(r.reason),
                     r.stamp,
                     stateOf(r.pose),
-                    stateOf(r.increment));
+                    stateOf(r.increment),
+                    since);
             },
             [](const py::tuple& state)
             {
@@ -577,6 +610,10 @@ void addResult(py::module_& m)
                 r.stamp = state[2].cast<double>();
                 r.pose = poseOf(state[3]);
                 r.increment = poseOf(state[4]);
+                for (const py::handle motion : state[5])
+                {
+                    r.since.push_back(poseOf(motion.cast<py::tuple>()));
+                }
                 return r;
             }))
         .def(
@@ -614,30 +651,30 @@ void addOdometry(py::module_& m)
                const py::object& colour,
                const PinholeCamera& camera,
                double stamp,
-               double unit)
+               std::optional<double> unit)
             {
-                ConvertedFrame converted;
-                converted.frame.stamp = checkedStamp(stamp);
-                converted.frame.camera = camera;
-                converted.frame.depth = depthOf(depth, unit);
-                converted.frame.gray = grayOf(colour, "colour", "gray or RGB");
-                return odometry.process(converted);
+                RgbdFrame frame;
+                frame.stamp = stamp;
+                frame.camera = camera;
+                frame.depth = depthOf(depth, unit);
+                frame.gray = grayOf(colour, "colour", "gray or RGB");
+                return odometry.process(frame);
             },
             py::arg("depth"),
             py::arg("colour"),
             py::arg("camera"),
             py::arg("stamp"),
-            py::arg("depth_unit") = 0.001,
+            py::arg("depth_unit") = py::none(),
             "depth: (height, width), float32 [m] with NaN for no reading, used in place; or uint16 "
-            "in units of depth_unit (1e-6 to 1 m) with 0 for none. colour: registered to it, "
-            "uint8, gray "
-            "(used in place) or RGB, or None. stamp [s]. A frame that cannot be used is lost, with "
-            "a reason, and no exception.")
+            "in units of depth_unit (1e-6 to 1 m; None: 0.001) with 0 or 65535 for none. colour: "
+            "registered to it, uint8, gray (used in place) or RGB, or None. stamp [s]. A frame "
+            "that cannot be used is lost, with a reason, and no exception.")
         .def(
             "process",
-            &SharedOdometry::process,
+            py::overload_cast<const ConvertedFrame&>(&SharedOdometry::process),
             py::arg("frame"),
-            "A frame of a rawlog, see read_rawlog().")
+            "A frame of a rawlog, see read_rawlog(), with its shutter. One of another camera than "
+            "the first is lost.")
         .def(
             "set_mask",
             [](SharedOdometry& odometry, const py::object& mask)
@@ -672,6 +709,8 @@ void addRawlogs(py::module_& m)
     py::class_<ConvertedFrame>(m, "Frame", "A frame of a rawlog, depth registered to colour.")
         .def_property_readonly("stamp", [](const ConvertedFrame& f) { return f.frame.stamp; })
         .def_property_readonly(
+            "sensor_label", [](const ConvertedFrame& f) { return textOf(f.sensorLabel); })
+        .def_property_readonly(
             "depth",
             [](const ConvertedFrame& f) { return arrayOf<float>(f.frame.depth); },
             "float32 [m], NaN for no reading; None if the frame cannot be used")
@@ -690,7 +729,17 @@ void addRawlogs(py::module_& m)
             "why it cannot be used, or empty");
     py::class_<RawlogFrames>(m, "RawlogFrames", "See read_rawlog().")
         .def("__iter__", [](RawlogFrames& self) -> RawlogFrames& { return self; })
-        .def("__next__", &RawlogFrames::next);
+        .def(
+            "__next__",
+            [](RawlogFrames& self)
+            {
+                auto frame = self.next();
+                if (!frame)
+                {
+                    throw py::stop_iteration();
+                }
+                return *std::move(frame);
+            });
     m.def(
         "read_rawlog",
         [](const std::filesystem::path& path, const std::string& label)

@@ -4,6 +4,10 @@
 #include <pointplane/mrpt_io/mrpt_poses.h>
 #include <pointplane/mrpt_io/params_ini.h>
 
+#include <cmath>
+#include <functional>
+#include <limits>
+
 #include "TempDir.h"
 #include "linear_algebra.h"
 #include "matchers.h"
@@ -116,6 +120,57 @@ TEST(VisualOdometry, resetStartsAnew)
     vo.reset();
     EXPECT_EQ(vo.process(*sampleScan(0, 64, 48)).status, TrackingStatus::First);
     EXPECT_EQ(vo.process(*sampleScan(1, 64, 48)).pose.mean, before.pose.mean);
+}
+
+/** Another recording may have another camera with the same label. */
+TEST(VisualOdometry, startingAnewForgetsWhatTheRecordingToldOfTheCamera)
+{
+    const test::TempDir dir;
+    test::writeBytes(dir / "a.ini", "[DepthNoise]\nsigmaPixelPx = 0.75\n");
+    VisualOdometry vo;
+    vo.setMinLoggingLevel(mrpt::system::LVL_ERROR);
+    const auto depthOnly = sampleScan(1, 64, 48);
+    depthOnly->hasIntensityImage = false;
+    depthOnly->cameraParams.cx(30);
+    const std::function<void()> ways[] = {
+        [&] { vo.reset(); }, [&] { vo.loadFromConfigFileName(dir / "a.ini"); }};
+    for (const auto& startAnew : ways)
+    {
+        mrpt::obs::CObservationComment comment;
+        comment.text = "pointplane-camera label=RGBD readoutColour=0.02 unheardOf=1";
+        (void)vo.converter().readComment(comment);
+        (void)vo.process(*sampleScan(0, 64, 48));
+        RgbdFrame frame = vo.converter().convert(*depthOnly).frame;
+        EXPECT_EQ(frame.camera.cx, 31.5) << "of the colour camera";
+        EXPECT_EQ(frame.shutter.readoutColour, 0.02);
+        startAnew();
+        frame = vo.converter().convert(*depthOnly).frame;
+        EXPECT_EQ(frame.camera.cx, 30);
+        EXPECT_TRUE(std::isnan(frame.shutter.readoutColour));
+        EXPECT_TRUE(vo.converter().unknownKeys().empty());
+    }
+}
+
+/** The robot's path must not end where its camera is nowhere. */
+TEST(VisualOdometry, aFrameWhoseCameraHasNoPoseOnTheRobotIsLost)
+{
+    VisualOdometry vo;
+    vo.setMinLoggingLevel(mrpt::system::LVL_ERROR);
+    (void)vo.process(*sampleScan(0, 64, 48));
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    for (const double scale : {2.0, 0.0, -1.0, none})
+    {
+        ConvertedFrame frame = ObservationConverter().convert(*sampleScan(1, 64, 48));
+        frame.T_robot_cam.linear() *= scale;
+        const RobotMotion lost = vo.process(frame);
+        EXPECT_EQ(lost.status, TrackingStatus::Lost) << scale;
+        EXPECT_THAT(lost.reason, testing::HasSubstr("T_robot_cam "));
+        EXPECT_EQ(lost.stamp, frame.frame.stamp);
+        EXPECT_TRUE(test::hasCholesky(lost.pose.cov.asEigen()));
+    }
+    const RobotMotion next = vo.process(*sampleScan(2, 64, 48));
+    EXPECT_EQ(next.status, TrackingStatus::Tracked) << next.reason;
+    EXPECT_LT(next.pose.mean.norm(), 0.1);
 }
 
 /** As those of a loop over a rawlog of two cameras. */

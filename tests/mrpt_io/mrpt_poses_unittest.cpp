@@ -5,7 +5,10 @@
 #include <pointplane/mrpt_io/errors.h>
 #include <pointplane/mrpt_io/mrpt_poses.h>
 
+#include <mrpt/system/datetime.h>
+
 #include <algorithm>
+#include <limits>
 
 #include "linear_algebra.h"
 #include "matchers.h"
@@ -177,6 +180,7 @@ TEST(MrptPoses, stampsOutsideOfTheClockStayInside)
     EXPECT_EQ(stampText(earliest).front(), '-');
     EXPECT_NEAR(toSeconds(fromSeconds(1e300)), 9e11, 1);
     EXPECT_NEAR(toSeconds(fromSeconds(-1e300)), -9e11, 1);
+    EXPECT_TRUE(fromSeconds(toSeconds(INVALID_TIMESTAMP)) == INVALID_TIMESTAMP);
 }
 
 TEST(MrptPoses, stampsAreExact)
@@ -310,8 +314,11 @@ TEST(MrptPoses, aCovarianceThatIsNoneHasNoInformation)
     edge.cov.setZero();
     EXPECT_THROW((void)optimizerInformation(edge), std::invalid_argument);
     edge.cov.setIdentity();
-    edge.cov(0, 0) = -1;
-    EXPECT_THROW((void)optimizerInformation(edge), std::invalid_argument);
+    for (const double variance : {-1.0, std::numeric_limits<double>::quiet_NaN()})
+    {
+        edge.cov(0, 0) = variance;
+        EXPECT_THROW((void)optimizerInformation(edge), std::invalid_argument) << variance;
+    }
 }
 }  // namespace
 }  // namespace pointplane

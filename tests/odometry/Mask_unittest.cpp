@@ -188,6 +188,8 @@ TEST(Mask, whatIsNoMaskIsRefused)
 {
     Odometry odometry{OdometryParams()};
     EXPECT_THROW(odometry.setMask(cv::Mat(kHeight, kWidth, CV_8UC3)), std::invalid_argument);
+    const cv::Mat stack(std::vector<int>{4, 3, 2}, CV_8UC1, cv::Scalar(255));
+    EXPECT_THROW(odometry.setMask(stack), std::invalid_argument);
     for (const int all : {0, 1, 255})
     {
         const cv::Mat mask(kHeight, kWidth, CV_8UC1, cv::Scalar(all));

@@ -685,10 +685,21 @@ TEST(OdometryFailures, badFrameHoursLater)
     }
 }
 
-/** Stamps of a damaged file are any numbers; what follows from them is finite. */
-TEST(OdometryFailures, stampsBeyondAnyTime)
+/** Milli-, micro- and nanoseconds since 1970, and what a damaged file may have. */
+TEST(OdometryFailures, stampsThatAreNoSeconds)
 {
-    for (const double stamp : {1e9, 1e100, 1e160, 1e300})
+    RgbdFrame frame = good(kBad);
+    for (const double stamp : {1305031102175.0, 1.3e15, 1.3e18, -1.3e18, 1e300})
+    {
+        frame.stamp = stamp;
+        expectLost(frame, "is too large for seconds; divide milliseconds by 1e3");
+    }
+}
+
+/** What follows from stamps that are far away is finite. */
+TEST(OdometryFailures, stampsOfAnotherCentury)
+{
+    for (const double stamp : {1e9, 1e10})
     {
         CheckedOdometry odometry;
         (void)odometry.run(0, 3);

@@ -14,6 +14,7 @@ import subprocess
 import sys
 import tempfile
 import threading
+import time
 import unittest
 
 import numpy as np
@@ -94,6 +95,41 @@ class Rawlogs(unittest.TestCase):
             frames = list(pointplane.read_rawlog(folder + "/two.rawlog"))
             self.assertEqual([frame.stamp for frame in frames], every[::2])
 
+    def test_other_threads_run_while_a_frame_is_read(self):
+        counts = {"now": 0}
+
+        def read():
+            counts["before"] = counts["now"]
+            counts["frames"] = len(list(frames))
+            counts["after"] = counts["now"]
+
+        frames = pointplane.read_rawlog(RAWLOG)
+        thread = threading.Thread(target=read)
+        interval = sys.getswitchinterval()
+        sys.setswitchinterval(60)  # threads take turns only where one lets the other run
+        try:
+            thread.start()
+            while thread.is_alive():
+                counts["now"] += 1
+                time.sleep(1e-4)
+        finally:
+            sys.setswitchinterval(interval)
+        self.assertGreaterEqual(counts["frames"], 10)
+        self.assertGreater(counts["after"] - counts["before"], 2)
+
+    def test_threads_may_share_a_rawlog(self):
+        every = [frame.stamp for frame in pointplane.read_rawlog(RAWLOG)]
+        shared, stamps = pointplane.read_rawlog(RAWLOG), []
+        threads = [
+            threading.Thread(target=lambda: stamps.extend(frame.stamp for frame in shared))
+            for _ in range(3)
+        ]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(sorted(stamps), every)
+
     def test_a_frame_that_cannot_be_used_has_no_camera(self):
         with gzip.open(RAWLOG) as file:
             content = file.read()
@@ -156,6 +192,39 @@ class Odometry(unittest.TestCase):
             self.assertTrue((np.linalg.eigvalsh(covariance) > 0).all())
         self.assertIn("tracked", repr(result))
 
+    def test_since_has_the_motions_from_several_frames_before(self):
+        odometry = pointplane.VisualOdometry(settings=["Covariance.history=3"])
+        results = [odometry.process(frame) for frame in pointplane.read_rawlog(RAWLOG)]
+        self.assertEqual([len(result.since) for result in results[:5]], [0, 1, 2, 3, 3])
+        last = results[-1]
+        np.testing.assert_array_equal(last.since[0][0], last.increment)
+        np.testing.assert_array_equal(last.since[0][1], last.increment_covariance)
+        for steps, (pose, covariance) in enumerate(last.since, 1):
+            before = results[-1 - steps].pose
+            np.testing.assert_allclose(pose, np.linalg.inv(before) @ last.pose, atol=1e-9)
+            self.assertTrue((np.linalg.eigvalsh(covariance) > 0).all())
+
+    def test_a_frame_of_another_camera_is_lost_and_changes_no_pose(self):
+        with gzip.open(RAWLOG) as file:
+            content = file.read()
+        with tempfile.TemporaryDirectory() as folder:
+            with gzip.open(folder + "/rear.rawlog", "wb") as file:
+                label = struct.pack("<I", 4)
+                file.write(content.replace(label + b"RGBD", label + b"REAR"))
+            rear = list(pointplane.read_rawlog(folder + "/rear.rawlog"))
+        frames = list(pointplane.read_rawlog(RAWLOG))
+        self.assertEqual((frames[0].sensor_label, rear[0].sensor_label), ("RGBD", "REAR"))
+        odometry = pointplane.VisualOdometry()
+        odometry.process(frames[0])
+        before = odometry.process(frames[1])
+        lost = odometry.process(rear[-1])
+        self.assertEqual(lost.status, "lost")
+        self.assertRegex(lost.reason, "^is of camera 'REAR', not of 'RGBD': each camera needs an")
+        np.testing.assert_allclose(lost.pose, before.pose, atol=1e-9)
+        self.assertEqual(odometry.process(frames[2]).status, "tracked")
+        odometry.reset()
+        self.assertEqual(odometry.process(rear[0]).status, "first")
+
     def test_results_and_cameras_can_be_pickled_and_copied(self):
         odometry = pointplane.VisualOdometry()
         for frame in pointplane.read_rawlog(RAWLOG):
@@ -169,6 +238,9 @@ class Odometry(unittest.TestCase):
                     self.assertEqual(getattr(other, name), getattr(given, name))
                 for name in ("pose", "covariance", "increment", "increment_covariance"):
                     np.testing.assert_array_equal(getattr(other, name), getattr(given, name))
+                self.assertEqual(len(other.since), 1)
+                for one, same in zip(other.since[0], given.since[0]):
+                    np.testing.assert_array_equal(one, same)
             camera = pointplane.Camera(500, 501, 320, 240, 640, 480, (0.1, 0, 0, 0, 0.2))
             self.assertIn("640x480, fx=500 fy=501 cx=320 cy=240, distorted", repr(camera))
             other = change(camera)
@@ -185,6 +257,13 @@ class Odometry(unittest.TestCase):
             odometry = pointplane.VisualOdometry()
             result = odometry.process(depth, None, frame.camera, frame.stamp, depth_unit=unit)
             self.assertEqual(result.status, "first")
+
+    def test_the_largest_integer_is_no_reading_as_in_rawlogs(self):
+        frame = next(iter(pointplane.read_rawlog(RAWLOG)))
+        for none in (0, 65535):
+            depth = np.full(frame.depth.shape, none, np.uint16)
+            result = pointplane.VisualOdometry().process(depth, None, frame.camera, 1.0)
+            self.assertIn("its depth image has no reading", result.reason)
 
     def test_colour_is_converted_and_views_with_gaps_between_rows_are_taken(self):
         frame = next(iter(pointplane.read_rawlog(RAWLOG)))
@@ -298,6 +377,15 @@ class Odometry(unittest.TestCase):
                 odometry.process(np.zeros((48, 64), kind), None, frame.camera, 1.0)
         with self.assertRaisesRegex(TypeError, "^colour: expected uint8, gray or RGB; it is int32$"):
             odometry.process(frame.depth, frame.gray.astype(np.int32), frame.camera, 1.0)
+        # What NumPy would have to convert: nobody would keep what it made.
+        converted = type("Image", (), {"__array__": lambda self: frame.gray.copy()})
+        for thing, name in ((frame.gray.tolist(), "list"), (converted(), "Image")):
+            with self.assertRaisesRegex(
+                TypeError, f"^colour: expected uint8, gray or RGB; it is {name}$"
+            ):
+                odometry.process(frame.depth, thing, frame.camera, 1.0)
+            with self.assertRaisesRegex(TypeError, f"^mask: expected uint8, 0 where .*is {name}$"):
+                odometry.set_mask(thing)
         rgb = np.zeros((*frame.gray.shape, 3), np.uint8)
         for view in (frame.gray[:, ::2], frame.gray.T, rgb[:, :, ::-1], rgb[:, ::2]):
             with self.assertRaisesRegex(
@@ -403,13 +491,16 @@ class Odometry(unittest.TestCase):
                 ValueError, r"^depth_unit: is \S+ m, not from 1e-06 to 1 m; 0.001 means millimetres$"
             ):
                 odometry.process(millimetres, None, frame.camera, 1.0, depth_unit=unit)
+        with self.assertRaisesRegex(ValueError, "^depth_unit: is of uint16, .*depth is in metres$"):
+            odometry.process(frame.depth * 1000, None, frame.camera, 1.0, depth_unit=0.001)
 
-    def test_stamps_in_other_units_than_seconds_are_refused(self):
+    def test_stamps_in_other_units_than_seconds_are_lost_with_a_reason(self):
         frame = next(iter(pointplane.read_rawlog(RAWLOG)))
         odometry = pointplane.VisualOdometry()
         for stamp in (1305031102175304000, 1305031102175304, 1305031102175):
-            with self.assertRaisesRegex(ValueError, r"^stamp: \S+ is too large for seconds; divide"):
-                odometry.process(frame.depth, None, frame.camera, stamp)
+            result = odometry.process(frame.depth, None, frame.camera, stamp)
+            self.assertEqual(result.status, "lost")
+            self.assertRegex(result.reason, r"^its time stamp, \S+, is too large for seconds; divide")
         result = odometry.process(frame.depth, None, frame.camera, 1305031102.175)
         self.assertEqual(result.status, "first")
 

@@ -15,6 +15,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <utility>
 
 #include "DepthRegistration.h"
 #include "cameraText.h"
@@ -45,13 +46,10 @@ using mrpt::obs::CObservation3DRangeScan;
     return camera;
 }
 
-/** Poses of damaged files may be any numbers. */
 void requirePose(const Eigen::Isometry3d& T, const std::string& name)
 {
-    constexpr double kLongestArm = 1e4;  // [m]; covariances lose their last digits beyond
-    requireUsable(T.matrix().allFinite(), name + " is not finite");
-    requireUsable(T.linear().isUnitary(1e-4), name + " has no rotation matrix");
-    requireUsable(T.translation().norm() < kLongestArm, name + " is longer than 10 km");
+    const std::string problem = problemOfPose(T, name);
+    requireUsable(problem.empty(), problem);
 }
 
 [[nodiscard]] bool sameProjection(const PinholeCamera& a, const PinholeCamera& b)
@@ -299,6 +297,27 @@ ConvertedFrame ObservationConverter::convert(const CObservation3DRangeScan& scan
     }
     out.frame.stamp = toSeconds(scan.timestamp);
     out.sensorLabel = scan.sensorLabel;
+    return out;
+}
+
+void ObservationConverter::reset()
+{
+    auto anew = std::make_unique<Impl>();
+    anew->externals = impl_->externals;
+    impl_ = std::move(anew);
+}
+
+ConvertedFrame ofOneCamera(const ConvertedFrame& converted, std::optional<std::string>& label)
+{
+    label = label.value_or(converted.sensorLabel);
+    if (converted.sensorLabel == *label)
+    {
+        return converted;
+    }
+    ConvertedFrame out;
+    out.frame.stamp = std::numeric_limits<double>::quiet_NaN();
+    out.problem = "is of camera '" + converted.sensorLabel + "', not of '" + *label +
+                  "': each camera needs an object of its own";
     return out;
 }
 }  // namespace pointplane

@@ -3,8 +3,9 @@
 #include <pointplane/mrpt_io/VisualOdometry.h>
 #include <pointplane/mrpt_io/params_ini.h>
 
-#include <limits>
 #include <utility>
+
+#include "scan_images.h"
 
 namespace pointplane
 {
@@ -18,8 +19,7 @@ void VisualOdometry::loadFromConfigFileName(const std::string& path)
     Odometry odometry(loadOdometryParams(path));
     odometry.setMask(odometry_.mask());
     odometry_ = std::move(odometry);
-    trajectory_.reset();
-    label_.reset();
+    reset();
 }
 
 RobotMotion VisualOdometry::process(const mrpt::obs::CObservation3DRangeScan& scan)
@@ -29,29 +29,26 @@ RobotMotion VisualOdometry::process(const mrpt::obs::CObservation3DRangeScan& sc
 
 RobotMotion VisualOdometry::process(const ConvertedFrame& converted)
 {
-    label_ = label_.value_or(converted.sensorLabel);
-    if (converted.sensorLabel == *label_)
+    ConvertedFrame own = ofOneCamera(converted, label_);
+    if (own.problem.empty())
     {
-        return add(converted);
+        own.problem = problemOfPose(own.T_robot_cam, "T_robot_cam");
     }
-    ConvertedFrame other;
-    other.frame.stamp = std::numeric_limits<double>::quiet_NaN();  // it says nothing of this camera
-    other.problem = "is of camera '" + converted.sensorLabel + "', not of '" + *label_ +
-                    "': each camera needs an object of its own";
-    return add(other);
-}
-
-RobotMotion VisualOdometry::add(const ConvertedFrame& converted)
-{
-    const bool usable = converted.problem.empty();
-    const OdometryResult result = odometry_.process(converted.frame);
-    RobotMotion motion =
-        usable ? trajectory_.add(result, converted.T_robot_cam) : trajectory_.add(result);
+    const bool usable = own.problem.empty();
     if (!usable)
     {
-        motion.reason = converted.problem;
+        RgbdFrame none;
+        none.stamp = own.frame.stamp;
+        own.frame = none;
     }
-    const auto stamp = [&] { return numberText(converted.frame.stamp, 6); };
+    const OdometryResult result = odometry_.process(own.frame);
+    RobotMotion motion =
+        usable ? trajectory_.add(result, own.T_robot_cam) : trajectory_.add(result);
+    if (!usable)
+    {
+        motion.reason = own.problem;
+    }
+    const auto stamp = [&] { return numberText(own.frame.stamp, 6); };
     if (motion.status == TrackingStatus::Predicted || motion.status == TrackingStatus::Lost)
     {
         MRPT_LOG_WARN_STREAM(stamp() << ": " << toString(motion.status) << ": " << motion.reason);
@@ -64,6 +61,7 @@ RobotMotion VisualOdometry::add(const ConvertedFrame& converted)
 void VisualOdometry::reset()
 {
     odometry_.reset();
+    converter_.reset();
     trajectory_.reset();
     label_.reset();
 }

@@ -98,10 +98,8 @@ mrpt::math::CMatrixDouble66 optimizerInformation(const mrpt::poses::CPose3DPDFGa
 {
     const PoseGaussian left = fromMrpt(edge);
     const Matrix6d cov = propagate(adjoint(left.mean.inverse()), left.cov);
-    const Eigen::LLT<Matrix6d> root(cov);
-    POINTPLANE_CHECK(
-        root.info() == Eigen::Success, "the covariance of an edge is not positive definite");
-    return mrpt::math::CMatrixDouble66(Matrix6d(root.solve(Matrix6d::Identity())));
+    POINTPLANE_CHECK(isPositiveDefinite(cov), "the covariance of an edge is not positive definite");
+    return mrpt::math::CMatrixDouble66(Matrix6d(cov.llt().solve(Matrix6d::Identity())));
 }
 
 double toSeconds(mrpt::Clock::time_point stamp)
@@ -115,6 +113,10 @@ double toSeconds(mrpt::Clock::time_point stamp)
 
 mrpt::Clock::time_point fromSeconds(double seconds)
 {
+    if (std::isnan(seconds))
+    {
+        return INVALID_TIMESTAMP;
+    }
     constexpr double kMaxTicks = 9e18;  // with kTicksTo1970 still a 64-bit number
     const double ticks = seconds * static_cast<double>(kTicksPerSecond);
     return fromTicksSince1970(std::llround(std::fmin(std::fmax(ticks, -kMaxTicks), kMaxTicks)));

@@ -24,6 +24,16 @@ void requireUsable(bool condition, const std::string& problem)
     }
 }
 
+std::string problemOfPose(const Eigen::Isometry3d& T, const std::string& name)
+{
+    constexpr double kLongestArm = 1e4;  // [m]; covariances lose their last digits beyond
+    return !T.matrix().allFinite() ? name + " is not finite"
+           : !T.linear().isUnitary(1e-4) || T.linear().determinant() < 0
+               ? name + " has no rotation matrix"
+           : T.translation().norm() >= kLongestArm ? name + " is longer than 10 km"
+                                                   : "";
+}
+
 cv::Mat grayOf(const cv::Mat& image, int& bits)
 {
     cv::Mat bytes = image;

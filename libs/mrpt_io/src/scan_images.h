@@ -22,6 +22,9 @@ class FrameProblem : public std::runtime_error
 /** \throws FrameProblem unless the condition is met */
 void requireUsable(bool condition, const std::string& problem);
 
+/** Why T is no pose of a camera, or empty: those of damaged files may be any numbers. */
+[[nodiscard]] std::string problemOfPose(const Eigen::Isometry3d& T, const std::string& name);
+
 /** @name Images of a scan as the odometry takes them
  * @{ */
 

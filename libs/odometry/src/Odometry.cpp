@@ -2,6 +2,7 @@
 #include <pointplane/core/check.h>
 #include <pointplane/odometry/Odometry.h>
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -99,7 +100,9 @@ void Odometry::Impl::place(const RgbdFrame& frame, OdometryResult& result)
     result.reason = whyUnusable(frame);
     if (!result.reason.empty())
     {
-        return extrapolate(TrackingStatus::Lost, frame.stamp, result);
+        constexpr double kNoTime = std::numeric_limits<double>::quiet_NaN();
+        return extrapolate(
+            TrackingStatus::Lost, isTime(frame.stamp) ? frame.stamp : kNoTime, result);
     }
     RgbdFrame own = frame;
     own.camera.isNominal = own.camera.isNominal || params.lens.nominal;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "frame_checks.h"
 
+#include <pointplane/core/latest_stamp.h>
+#include <pointplane/core/number_text.h>
+
 #include <opencv2/core.hpp>
 
 #include <algorithm>
@@ -16,6 +19,11 @@ bool sameCamera(const PinholeCamera& a, const PinholeCamera& b)
            a.cx == b.cx && a.cy == b.cy && a.distortion == b.distortion;
 }
 
+bool isTime(double stamp)
+{
+    return std::abs(stamp) <= static_cast<double>(kLatestStamp);  // false for NaN
+}
+
 std::string problemOf(const RgbdFrame& frame, const cv::Size& maskSize)
 {
     if (std::string problem = frame.camera.problem(); !problem.empty())
@@ -27,6 +35,11 @@ std::string problemOf(const RgbdFrame& frame, const cv::Size& maskSize)
     if (!std::isfinite(frame.stamp))
     {
         out << "the time stamp is not finite";
+    }
+    else if (!isTime(frame.stamp))
+    {
+        out << "its time stamp, " << numberText(frame.stamp)
+            << ", is too large for seconds; divide milliseconds by 1e3, nanoseconds by 1e9";
     }
     else if (!frame.shutter.isPlausible())
     {

@@ -11,6 +11,9 @@ namespace pointplane
 /** Nothing that pixels are turned into rays with differs. */
 [[nodiscard]] bool sameCamera(const PinholeCamera& a, const PinholeCamera& b);
 
+/** Whether a frame's stamp is a number of seconds: finite, and not too large for them. */
+[[nodiscard]] bool isTime(double stamp);
+
 /** Why a frame cannot be used, or empty. \param maskSize empty: there is no mask */
 [[nodiscard]] std::string problemOf(const RgbdFrame& frame, const cv::Size& maskSize);
 

@@ -10,7 +10,9 @@ namespace pointplane
 {
 cv::Mat withoutRobot(const cv::Mat& mask)
 {
-    POINTPLANE_CHECK(mask.type() == CV_8UC1 && !mask.empty(), "a mask has one byte for a pixel");
+    POINTPLANE_CHECK(
+        mask.type() == CV_8UC1 && mask.dims == 2 && !mask.empty(),
+        "a mask has one byte for a pixel, in rows and columns");
     double least = 0, most = 0;
     cv::minMaxLoc(mask, &least, &most);
     const double middle = std::ceil(0.5 * most);

@@ -7,6 +7,7 @@
 #include <mrpt/obs/CObservationComment.h>
 
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -35,7 +36,8 @@ struct ConvertedFrame
  *
  * Registered depth lies in the raw image if cameraParams has the distortion of
  * cameraParamsIntensity, and at undistorted pixels if it has none. Not thread-safe: convert() keeps
- * what it knows of the latest cameras. Docs: docs/rawlogs.md. */
+ * what it knows of the latest cameras. An object that was moved from may only be destroyed or
+ * assigned to. Docs: docs/rawlogs.md. */
 class ObservationConverter
 {
  public:
@@ -63,10 +65,19 @@ class ObservationConverter
      * it, but std::bad_alloc or OpenCV's own where memory is short */
     [[nodiscard]] ConvertedFrame convert(const mrpt::obs::CObservation3DRangeScan& scan) const;
 
+    /** For another recording: forgets the cameras, with comments and latest images. The folder of
+     * external images stays. */
+    void reset();
+
  private:
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };
+
+/** A frame as the odometry of one camera takes it. One of another camera has a problem, and no
+ * stamp, because it says nothing of this camera. \param label of the camera: the first frame's */
+[[nodiscard]] ConvertedFrame ofOneCamera(
+    const ConvertedFrame& converted, std::optional<std::string>& label);
 
 /** The comment that readComment() understands; unknown values are left out. */
 [[nodiscard]] std::string cameraComment(

@@ -37,7 +37,8 @@ namespace pointplane
  * Each camera needs an object of its own. The first scan's sensorLabel says which camera it is;
  * scans with another label are Lost. Scans must come in order of time. A scan that cannot be used
  * is Lost, and RobotMotion::reason says why; process() throws only if memory is short. Do not use
- * one object from two threads at once.
+ * one object from two threads at once. One that was moved from may only be destroyed or assigned
+ * to.
  *
  * It logs each frame at LVL_DEBUG, and frames that are Predicted or Lost at LVL_WARN. */
 class VisualOdometry : public mrpt::system::COutputLogger
@@ -48,7 +49,8 @@ class VisualOdometry : public mrpt::system::COutputLogger
     /** \throws std::invalid_argument naming the key when a parameter is out of range */
     explicit VisualOdometry(const TParams& params = {});
 
-    /** Replaces all parameters and starts anew. \throws InputError naming file, line and key */
+    /** Replaces all parameters and starts anew, as reset(). \throws InputError naming file, line
+     * and key */
     void loadFromConfigFileName(const std::string& path);
 
     /** Estimates the motion since the previous observation.
@@ -57,7 +59,8 @@ class VisualOdometry : public mrpt::system::COutputLogger
 
     /** The same for a frame that an ObservationConverter has made. One in another thread must not
      * be converter(), and needs the comments and the folder of external images itself. A frame with
-     * a problem (ConvertedFrame::problem) is Lost for that reason. */
+     * a problem (ConvertedFrame::problem), or whose T_robot_cam is no pose, is Lost for that
+     * reason. */
     [[nodiscard]] RobotMotion process(const ConvertedFrame& converted);
 
     /** Points and planes of the latest frame, in the camera's optical frame. Copy it to keep it:
@@ -72,12 +75,11 @@ class VisualOdometry : public mrpt::system::COutputLogger
      * (readComment()). */
     [[nodiscard]] ObservationConverter& converter() { return converter_; }
 
-    /** Starts anew with the same parameters. */
+    /** Starts anew with the same parameters, mask and folder of external images. It forgets the
+     * cameras, too (ObservationConverter::reset()): give it their comments again. */
     void reset();
 
  private:
-    [[nodiscard]] RobotMotion add(const ConvertedFrame& converted);
-
     Odometry odometry_;
     ObservationConverter converter_;
     RobotTrajectory trajectory_;

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <pointplane/core/PoseGaussian.h>
+#include <pointplane/core/latest_stamp.h>
 
 #include <mrpt/core/Clock.h>
 #include <mrpt/poses/CPose3DPDFGaussian.h>
 
-#include <cstdint>
 #include <string>
 
 namespace pointplane
@@ -29,7 +29,8 @@ namespace pointplane
  * (cos(pitch) is at least 1e-4). */
 [[nodiscard]] Matrix6d jacobianYprOfTangent(const Eigen::Isometry3d& T_a_b);
 
-/** Pose and covariance, through the Jacobian above; strictly positive definite. */
+/** Pose and covariance, through the Jacobian above; strictly positive definite.
+ * \throws std::invalid_argument if pose or covariance are not finite */
 [[nodiscard]] mrpt::poses::CPose3DPDFGaussian toMrpt(const PoseGaussian& T_a_b);
 
 /** The inverse of toMrpt(). */
@@ -47,15 +48,14 @@ namespace pointplane
 
 /** Seconds since 1970, UTC; NaN for MRPT's INVALID_TIMESTAMP. */
 [[nodiscard]] double toSeconds(mrpt::Clock::time_point stamp);
+/** The inverse. Seconds that MRPT's clock cannot tell become the nearest that it can. */
 [[nodiscard]] mrpt::Clock::time_point fromSeconds(double seconds);
 
 /** Exact decimal text of a stamp in seconds since 1970: nine decimals, of which MRPT's clock (100
  * ns) fills seven. */
 [[nodiscard]] std::string stampText(mrpt::Clock::time_point stamp);
-/** Seconds since 1970 that a text may tell: the largest number of its number of digits. */
-constexpr std::int64_t kLatestStamp = 99'999'999'999;
-/** The inverse; exact to 100 ns. \throws InputError if the text is not a decimal number, or has
- * more digits before the point than kLatestStamp */
+/** The inverse for stamps since 1970; exact to 100 ns. \throws InputError if the text is not a
+ * decimal number, has a sign, or more digits before the point than kLatestStamp */
 [[nodiscard]] mrpt::Clock::time_point stampFromText(const std::string& text);
 /** @} */
 }  // namespace pointplane

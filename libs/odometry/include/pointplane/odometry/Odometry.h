@@ -13,7 +13,10 @@ namespace pointplane
  * a result. The same frames and parameters give the same bits, whatever the number of threads.
  *
  * A frame that cannot be used (no depth image, unusable intrinsics, a stamp not after the previous
- * one) is Lost and never an exception; the next good frame recovers. */
+ * one or not in seconds) is Lost and never an exception; the next good frame recovers.
+ *
+ * Do not use one object from two threads at once. One that was moved from may only be destroyed or
+ * assigned to. */
 class Odometry
 {
  public:
@@ -27,7 +30,8 @@ class Odometry
      * kept \return status, increment and pose of the camera, with covariances */
     [[nodiscard]] OdometryResult process(const RgbdFrame& frame);
 
-    /** Points and planes of the latest frame. */
+    /** Points and planes of the latest frame. Copy it to keep it: process() changes it, and reset()
+     * ends it. */
     [[nodiscard]] const FrameFeatures& features() const;
 
     [[nodiscard]] const OdometryParams& params() const;

@@ -8,6 +8,7 @@ namespace pointplane
 /** What a mask of the robot leaves of an image. The robot is where the mask is darker than half of
  * its largest value, so masks may have 0 and 1, or JPEG's noise.
  * \param mask CV_8UC1 \return of the same size, 0 where the robot is, else 255
- * \throws std::invalid_argument if it is of another type, or leaves everything or nothing */
+ * \throws std::invalid_argument if it is of another type or shape, or leaves everything or nothing
+ */
 [[nodiscard]] cv::Mat withoutRobot(const cv::Mat& mask);
 }  // namespace pointplane
