@@ -28,16 +28,16 @@ class FreenectContext
     freenect_context* context_{nullptr};
 };
 
-constexpr const char* kFreenectUriPrefix = "freenect://";
-
-/** A Kinect for Xbox 360. Its two cameras stamp their frames with one 60 MHz clock; there is no
- * frame index, so lost frames are recognised by the time between stamps. */
+/** A Kinect for Xbox 360. Its two cameras stamp their frames with one 60 MHz clock. The
+ * frame index counts what arrives; lost frames show in the stamps. */
 class FreenectCamera : public Camera
 {
  public:
+    /** \param index among the Kinects */
     FreenectCamera(
         std::shared_ptr<FreenectContext> context,
         const DeviceInfo& device,
+        int index,
         const CameraSettings& settings);
     ~FreenectCamera() override;
     FreenectCamera(const FreenectCamera&) = delete;
