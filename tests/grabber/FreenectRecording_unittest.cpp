@@ -129,6 +129,7 @@ TEST_F(FreenectRecording, writesNoOniFiles)
         GRABBER, {"--driver", "freenect", "-o", dir_ / "out.oni"}, session.environment());
     EXPECT_EQ(process.wait(), 3);
     EXPECT_THAT(process.err(), HasSubstr("only the driver openni2 writes .oni files"));
+    EXPECT_FALSE(std::filesystem::exists(dir_ / "out.oni"));
 }
 
 TEST_F(FreenectRecording, odometryOnTheRecordingFindsTheTrueMotion)

@@ -235,8 +235,7 @@ void FreenectCamera::keep(StreamKind stream, cv::Mat pixels, std::uint32_t stamp
     image.layout = stream == StreamKind::Depth ? PixelLayout::Depth16 : PixelLayout::Rgb8;
     image.arrival = hostTime();
     image.deviceTime = timestamp_.seconds(stamp);
-    auto& index = stream == StreamKind::Depth ? depthIndex_ : colourIndex_;
-    image.index = index.next(image.deviceTime, kFps);
+    image.index = stream == StreamKind::Depth ? depthIndex_++ : colourIndex_++;
     image.pixels = std::move(pixels);
     received_.push_back(std::move(image));
 }

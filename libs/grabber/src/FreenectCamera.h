@@ -65,7 +65,7 @@ class FreenectCamera : public Camera
     freenect_frame_mode depthMode_{}, videoMode_{};
     std::vector<std::uint16_t> rawToMm_;  // empty when the library converts
     KinectTimestamp timestamp_;
-    KinectFrameIndex depthIndex_, colourIndex_;
+    std::int64_t depthIndex_{0}, colourIndex_{0};
     std::deque<CameraImage> received_;
     bool streaming_{false};
 };
