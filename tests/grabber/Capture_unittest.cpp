@@ -107,6 +107,21 @@ TEST(Capture, framesCountFromWhereTheOniFileBegins)
     EXPECT_EQ(capture.stats().pairing.unpairedDepth, 0U);
 }
 
+TEST(Capture, framesThatNoOniFileHasDoNotCount)
+{
+    class NoRecorder : public QuickCamera
+    {
+     public:
+        [[nodiscard]] bool startRecording() override { throw EnvironmentError("too busy"); }
+    } camera;
+    auto o = options();
+    o.oniPath = "/nowhere/out.oni";
+    Capture capture(camera, o, [](const ImagePair&) { return true; });
+    const std::atomic<bool> stop{false};
+    EXPECT_EQ(capture.run(stop), CaptureEnd::Error);
+    EXPECT_EQ(capture.stats().pairing.pairs, 0U);
+}
+
 TEST(Capture, aStreamThatEndsIsNamedThoughTheOtherGoesOn)
 {
     QuickCamera camera(5);

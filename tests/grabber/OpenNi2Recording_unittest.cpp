@@ -555,6 +555,17 @@ TEST_F(OpenNi2Recording, anOniFileOnAFullDiskIsToldIncomplete)
     }
 }
 
+/** Then OpenNI2's recorder never begins. */
+TEST_F(OpenNi2Recording, anOniFileThatCannotGrowIsToldIncomplete)
+{
+    const auto virtualCamera = camera();
+    Args args{"-c", "ulimit -f 1 && exec \"$@\"", "sh", GRABBER, "-o", oni_, "--driver", "openni2"};
+    args.insert(args.end(), {"--mode", "64x48@30", "--warm-up", "0.2", "--frames", "5"});
+    ChildProcess process("/bin/sh", args, virtualCamera.environment());
+    EXPECT_EQ(process.wait(), 3);
+    EXPECT_THAT(process.err(), HasSubstr("out.oni' is incomplete"));
+}
+
 TEST_F(OpenNi2Recording, damagedOniFilesAreBadInput)
 {
     writeBytes(dir_ / "random.oni", std::string(1000, 'x'));

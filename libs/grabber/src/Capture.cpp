@@ -155,11 +155,8 @@ void Capture::finishWarmUp()
 void Capture::tryToStartOni()
 {
     lastPair_ = hostTime();
-    if (camera_.startRecording())
-    {
-        waitsForOni_ = false;
-        pairer_ = pairerOf(options_, camera_.facts());
-    }
+    pairer_ = pairerOf(options_, camera_.facts());  // of what came so far, nothing is recorded
+    waitsForOni_ = !camera_.startRecording();
 }
 
 double Capture::stampOf(const ImagePair& pair) const

@@ -139,13 +139,15 @@ bool OpenNi2Camera::startRecording()
             (isBusy ? "the computer is too busy to begin with both images of a frame"
                     : openNi2Error()));
     }
-    // The recorder begins in a thread of its own. What it cannot write is found at the end.
-    const auto deadline = Clock::now() + std::chrono::seconds(1);
-    while (!oniFileHasBegun(oniPath_, numStreams()) && Clock::now() < deadline)
+    // The recorder begins in a thread of its own, or never if the disk is full, which is found at
+    // the end.
+    const auto deadline = Clock::now() + std::chrono::seconds(3);
+    bool hasBegun = false;
+    while (!(hasBegun = oniFileHasBegun(oniPath_, numStreams())) && Clock::now() < deadline)
     {
         std::this_thread::sleep_for(std::chrono::microseconds(200));
     }
-    if (!streaming_ || !waitForStream(openni::TIMEOUT_NONE))
+    if (!hasBegun || !streaming_ || !waitForStream(openni::TIMEOUT_NONE))
     {
         return true;
     }
