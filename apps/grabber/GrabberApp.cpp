@@ -226,6 +226,11 @@ void understand(const Words& words, GrabberOptions& o)
     {
         throw InputError("nothing to do: give -o FILE.rawlog, --live, --preview or --list");
     }
+    if (o.camera.depthOnly && o.camera.registration == RegistrationChoice::On)
+    {
+        throw InputError(
+            "--depth-only has no colour to register depth to: not with --registration on");
+    }
     const LiveOptions& live = o.liveOdometry;
     if (!o.live && !(live.config + live.mask + live.poseRawlog).empty())
     {
@@ -235,6 +240,24 @@ void understand(const Words& words, GrabberOptions& o)
     if (!o.output.empty() && !isRawlog && !o.recordsOni())
     {
         throw InputError("-o '" + o.output + "' must end in .rawlog or .oni");
+    }
+}
+
+/** Options that only a rawlog obeys must not be ignored. */
+void requireRawlogFor(const CLI::App& app, const GrabberOptions& o)
+{
+    std::vector<std::string> names{
+        "--images", "--compression", "--jpeg", "--queue", "--threads", "--split-minutes"};
+    if (!o.live)
+    {
+        names.insert(names.end(), {"--label", "--calibration", "--section"});
+    }
+    for (const std::string& name : names)
+    {
+        if (o.recordsOni() && app.count(name) > 0)
+        {
+            throw InputError(name + " is for a rawlog, not for '" + o.output + "'");
+        }
     }
 }
 
@@ -276,6 +299,7 @@ int runGrabber(const std::vector<std::string>& args, std::ostream& out, std::ost
                 return listCameras(makeCameraDrivers(options.driver), out, err);
             }
             understand(words, options);
+            requireRawlogFor(app, options);
             return GrabberRun(options, out, err).run();
         });
 }

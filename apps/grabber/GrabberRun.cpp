@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GrabberRun.h"
 
+#include <pointplane/grabber/DurableFile.h>
 #include <pointplane/mrpt_io/errors.h>
 
 #include <chrono>
@@ -43,17 +44,22 @@ int GrabberRun::run()
         return exitCode_;
     }
     calibrate();
+    outputs_ = std::make_unique<GrabberOutputs>(options_, camera_->facts(), *builder_, out_);
     if (options_.recordsOni())
     {
         options_.capture.oniPath = options_.output;
+        DurableFile(options_.output).close();  // OpenNI2 would write over another's
     }
-    outputs_ = std::make_unique<GrabberOutputs>(options_, camera_->facts(), *builder_, out_);
     const CaptureEnd end = captureWithStatus();
     for (const std::string& problem : outputs_->finish())
     {
         fail(problem);
     }
     explain(end);
+    if (options_.recordsOni() && capture_->stats().pairing.pairs == 0)
+    {
+        fs::remove(options_.output, error);  // it would be in the way of the next attempt
+    }
     printSummary();
     return exitCode_;
 }
@@ -175,9 +181,12 @@ void GrabberRun::explain(CaptureEnd end)
             fail(capture_->problem());
             break;
     }
-    if (end == CaptureEnd::EndOfFile && capture_->stats().pairing.pairs == 0)
+    if (exitCode_ == 0 && capture_->stats().pairing.pairs == 0)
     {
-        fail("recording '" + uri + "' has no depth image with a colour image near it in time");
+        fail(
+            end == CaptureEnd::EndOfFile
+                ? "recording '" + uri + "' has no depth image with a colour image near it in time"
+                : "ended before the first frame: nothing was recorded");
     }
 }
 
@@ -198,7 +207,8 @@ void GrabberRun::printSummary()
     {
         summary.notes.push_back(note);
     }
-    if (options_.recordsOni())
+    std::error_code error;
+    if (options_.recordsOni() && fs::exists(options_.output, error))
     {
         summary.outputs = {options_.output};
     }

@@ -31,6 +31,10 @@ void printLosses(const RunState& state, std::ostream& out)
 void printTimes(const RunSummary& summary, std::ostream& out)
 {
     const auto& capture = summary.state.capture;
+    if (capture.pairing.pairs == 0)
+    {
+        return;
+    }
     if (summary.camera.hasColour)
     {
         out << mrpt::format(
@@ -38,7 +42,7 @@ void printTimes(const RunSummary& summary, std::ostream& out)
             1e3 * capture.pairing.meanSkew,
             1e3 * capture.pairing.maxAbsSkew);
     }
-    if (!summary.camera.isFile)
+    if (!summary.camera.isFile && capture.hasClock)
     {
         out << mrpt::format(
             "clock: UTC with the camera's spacing; host against camera %+.0f ppm\n",
@@ -77,11 +81,12 @@ void print(const RunSummary& summary, std::ostream& out)
     if (state.isRecording)
     {
         out << mrpt::format(
-            "recorded %s, %s, %.1f MB (%.1f MB/s) to",
+            "recorded %s, %s, %.1f MB (%.1f MB/s)%s",
             framesText(state.recording.framesWritten).c_str(),
             durationText(state.capture.recordedTime).c_str(),
             1e-6 * bytes,
-            1e-6 * state.bytesPerSecond);
+            1e-6 * state.bytesPerSecond,
+            summary.outputs.empty() ? "" : " to");
     }
     else
     {

@@ -75,6 +75,53 @@ TEST(Capture, theCameraIsNotBlamedForASlowConsumer)
     EXPECT_EQ(numPairs, 5);
 }
 
+/** Its .oni file begins late. */
+class SlowRecorder : public QuickCamera
+{
+ public:
+    [[nodiscard]] bool startRecording() override { return ++numStarts == 3; }
+    int numStarts{0};
+};
+
+TEST(Capture, framesCountFromWhereTheOniFileBegins)
+{
+    SlowRecorder camera;
+    auto o = options();
+    o.oniPath = "/nowhere/out.oni";
+    o.warmUp = 0.01;
+    std::vector<std::int64_t> indices;
+    Capture capture(
+        camera,
+        o,
+        [&](const ImagePair& pair)
+        {
+            EXPECT_EQ(camera.numStarts, 3);
+            EXPECT_EQ(pair.depth.index, pair.colour.index);
+            indices.push_back(pair.depth.index);
+            return true;
+        });
+    const std::atomic<bool> stop{false};
+    EXPECT_EQ(capture.run(stop), CaptureEnd::Error);  // for there is no file
+    EXPECT_EQ(indices.size(), 5U);
+    EXPECT_EQ(capture.stats().pairing.pairs, 5U);
+    EXPECT_EQ(capture.stats().pairing.unpairedDepth, 0U);
+}
+
+TEST(Capture, framesThatNoOniFileHasDoNotCount)
+{
+    class NoRecorder : public QuickCamera
+    {
+     public:
+        [[nodiscard]] bool startRecording() override { throw EnvironmentError("too busy"); }
+    } camera;
+    auto o = options();
+    o.oniPath = "/nowhere/out.oni";
+    Capture capture(camera, o, [](const ImagePair&) { return true; });
+    const std::atomic<bool> stop{false};
+    EXPECT_EQ(capture.run(stop), CaptureEnd::Error);
+    EXPECT_EQ(capture.stats().pairing.pairs, 0U);
+}
+
 TEST(Capture, aStreamThatEndsIsNamedThoughTheOtherGoesOn)
 {
     QuickCamera camera(5);

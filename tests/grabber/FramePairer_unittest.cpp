@@ -30,7 +30,7 @@ CameraImage colour(std::int64_t index, double time)
 
 TEST(FramePairer, pairsInEitherOrderOfArrival)
 {
-    FramePairer pairer(kFramePeriod / 2);
+    FramePairer pairer(kFramePeriod / 2, kFramePeriod);
     EXPECT_TRUE(pairer.add(depth(1, 0.000)).empty());
     const auto first = pairer.add(colour(1, 0.003));
     EXPECT_TRUE(pairer.add(colour(2, 0.036)).empty());
@@ -46,7 +46,7 @@ TEST(FramePairer, pairsInEitherOrderOfArrival)
 
 TEST(FramePairer, imagesTooFarApartAreCountedNotJoined)
 {
-    FramePairer pairer(0.005);
+    FramePairer pairer(0.005, kFramePeriod);
     EXPECT_TRUE(pairer.add(depth(1, 0.000)).empty());
     EXPECT_TRUE(pairer.add(colour(1, 0.010)).empty());  // depth 1 can have no partner any more
     EXPECT_EQ(pairer.counts().unpairedDepth, 1U);
@@ -58,7 +58,7 @@ TEST(FramePairer, imagesTooFarApartAreCountedNotJoined)
 
 TEST(FramePairer, aLostImageLeavesItsPartnerAloneAndIsCounted)
 {
-    FramePairer pairer(kFramePeriod / 2);
+    FramePairer pairer(kFramePeriod / 2, kFramePeriod);
     std::size_t pairs = 0;
     for (int k = 0; k < 10; ++k)
     {
@@ -76,15 +76,42 @@ TEST(FramePairer, aLostImageLeavesItsPartnerAloneAndIsCounted)
 
 TEST(FramePairer, anIndexThatStartsAgainIsNoLoss)
 {
-    FramePairer pairer(kFramePeriod / 2);
+    FramePairer pairer(kFramePeriod / 2, kFramePeriod);
     (void)pairer.add(depth(100, 0.0));
     (void)pairer.add(depth(1, kFramePeriod));
     EXPECT_EQ(pairer.counts().droppedDepth, 0U);
 }
 
+/** Where the driver counts what it delivers. */
+TEST(FramePairer, gapsInTheStampsAreLosses)
+{
+    FramePairer pairer(kFramePeriod / 2, kFramePeriod);
+    (void)pairer.add(depth(1, 1.0));
+    (void)pairer.add(depth(2, 1.034));
+    (void)pairer.add(depth(3, 1.134));  // 3 periods later
+    EXPECT_EQ(pairer.counts().droppedDepth, 2U);
+    (void)pairer.add(depth(4, 1.1341));
+    (void)pairer.add(depth(7, 1.234));  // both tell of the same
+    EXPECT_EQ(pairer.counts().droppedDepth, 4U);
+    (void)pairer.add(depth(8, 1001.0));  // the clock was set
+    EXPECT_EQ(pairer.counts().droppedDepth, 4U);
+}
+
+TEST(FramePairer, timesOfArrivalTellOfNoLoss)
+{
+    FramePairer pairer(kFramePeriod / 2, kFramePeriod);
+    for (int k = 1; k < 5; ++k)
+    {
+        auto late = depth(k, k * 3 * kFramePeriod);
+        late.hasClock = false;
+        (void)pairer.add(late);
+    }
+    EXPECT_EQ(pairer.counts().droppedDepth, 0U);
+}
+
 TEST(FramePairer, aStreamAloneIsLetGo)
 {
-    FramePairer pairer(kFramePeriod / 2);
+    FramePairer pairer(kFramePeriod / 2, kFramePeriod);
     for (int k = 0; k < 100; ++k)
     {
         EXPECT_TRUE(pairer.add(depth(k, k * kFramePeriod)).empty());
@@ -96,12 +123,16 @@ TEST(FramePairer, aStreamAloneIsLetGo)
 
 TEST(FramePairer, depthOnlyNeedsNoColour)
 {
-    FramePairer pairer(kFramePeriod / 2, true);
+    FramePairer pairer(kFramePeriod / 2, kFramePeriod, true);
     EXPECT_EQ(pairer.add(depth(1, 0.0)).size(), 1U);
     EXPECT_TRUE(pairer.add(depth(2, kFramePeriod)).front().colour.pixels.empty());
 }
 
-TEST(FramePairer, rejectsASkewOfZero) { EXPECT_THROW(FramePairer(0.0), std::invalid_argument); }
+TEST(FramePairer, rejectsASkewOfZero)
+{
+    EXPECT_THROW(FramePairer(0.0, kFramePeriod), std::invalid_argument);
+    EXPECT_THROW(FramePairer(kFramePeriod, 0.0), std::invalid_argument);
+}
 
 /** Every image is paired once or counted, pairs are in order and within the limit, whatever is lost
  * and however the streams are shifted and jittered. */
@@ -112,7 +143,7 @@ TEST(FramePairer, everyImageIsAccountedFor)
         std::mt19937 random(seed);
         std::uniform_real_distribution<double> uniform(0.0, 1.0);
         const double shift = (uniform(random) - 0.5) * kFramePeriod;
-        FramePairer pairer(kFramePeriod / 2);
+        FramePairer pairer(kFramePeriod / 2, kFramePeriod);
         std::uint64_t numDepth = 0, numColour = 0;
         double lastTime = -1.0;
         const auto check = [&](const std::vector<ImagePair>& pairs)

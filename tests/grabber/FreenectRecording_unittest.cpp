@@ -112,6 +112,16 @@ TEST_F(FreenectRecording, listsTheKinect)
     EXPECT_THAT(process.out(), HasSubstr("freenect://0  Microsoft Kinect for Xbox 360"));
 }
 
+TEST_F(FreenectRecording, noOtherKinectIsTakenForOneThatIsNotThere)
+{
+    const FakenectSession session(patternFrames(1, 640, 480), 0U);
+    for (const char* device : {"freenect://abc", "freenect://", "freenect://-1", "freenect://0x"})
+    {
+        EXPECT_EQ(record(session, {"--device", device}), 3);
+        EXPECT_THAT(err_, HasSubstr(std::string("no camera '") + device + "'"));
+    }
+}
+
 TEST_F(FreenectRecording, writesNoOniFiles)
 {
     const FakenectSession session(patternFrames(2, 640, 480), 0U);
@@ -119,6 +129,7 @@ TEST_F(FreenectRecording, writesNoOniFiles)
         GRABBER, {"--driver", "freenect", "-o", dir_ / "out.oni"}, session.environment());
     EXPECT_EQ(process.wait(), 3);
     EXPECT_THAT(process.err(), HasSubstr("only the driver openni2 writes .oni files"));
+    EXPECT_FALSE(std::filesystem::exists(dir_ / "out.oni"));
 }
 
 TEST_F(FreenectRecording, odometryOnTheRecordingFindsTheTrueMotion)

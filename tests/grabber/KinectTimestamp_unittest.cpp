@@ -22,13 +22,4 @@ TEST(KinectTimestamp, theOtherStreamMayBeSlightlyEarlier)
     EXPECT_NEAR(timestamp.seconds(0U) - first, -0.01, 1e-12);
     EXPECT_NEAR(timestamp.seconds(1200000U) - first, 0.01, 1e-12);
 }
-
-TEST(KinectFrameIndex, lostFramesLeaveAGap)
-{
-    KinectFrameIndex index;
-    EXPECT_EQ(index.next(1.0, 30), 0);
-    EXPECT_EQ(index.next(1.034, 30), 1);
-    EXPECT_EQ(index.next(1.134, 30), 4);   // 3 periods later
-    EXPECT_EQ(index.next(1.1341, 30), 5);  // never the same twice
-}
 }  // namespace

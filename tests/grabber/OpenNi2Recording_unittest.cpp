@@ -50,6 +50,25 @@ class OpenNi2Recording : public ::testing::Test
         stdout_ = process->out();
         return code;
     }
+    /** Records the small camera to out.oni, and that to the rawlog. */
+    int recordOni(const std::string& settings, const Args& more)
+    {
+        const auto virtualCamera = camera(settings);
+        Args args{"-o", oni_, "--mode", "64x48@30", "--warm-up", "0.5"};
+        args.insert(args.end(), more.begin(), more.end());
+        const auto writing = start(virtualCamera, args);
+        EXPECT_EQ(writing->wait(), 0) << writing->err();
+        return record("noDevice 1", {"--device", oni_});
+    }
+    /** Which of the 30 frames. */
+    static int depthNumber(const mrpt::obs::CObservation3DRangeScan& scan)
+    {
+        return depthOf(scan).at<std::uint16_t>(0, 1) - 1001;
+    }
+    static int colourNumber(const mrpt::obs::CObservation3DRangeScan& scan)
+    {
+        return scan.intensityImage.asCvMatRef().at<cv::Vec3b>(0, 0)[2];
+    }
     void waitForFrames(const std::string& path, std::uintmax_t numBytes)
     {
         for (int i = 0; i < 1000; ++i)
@@ -69,7 +88,7 @@ class OpenNi2Recording : public ::testing::Test
     }
 
     TempDir dir_;
-    std::string out_{dir_ / "out.rawlog"};
+    std::string out_{dir_ / "out.rawlog"}, oni_{dir_ / "out.oni"};
     std::vector<PlainFrame> frames_{patternFrames(30, kWidth, kHeight)};
     std::string err_, stdout_;
 };
@@ -79,7 +98,7 @@ TEST_F(OpenNi2Recording, recordsEveryPixelOfConsecutiveFrames)
     ASSERT_EQ(record("skewUs 3000", {"--frames", "45"}), 0) << err_;
     const auto scans = scansOf(out_);
     ASSERT_EQ(scans.size(), 45U);
-    const auto first = static_cast<std::size_t>(depthOf(*scans[0]).at<std::uint16_t>(0, 1) - 1001);
+    const auto first = static_cast<std::size_t>(depthNumber(*scans[0]));
     for (std::size_t k = 0; k < scans.size(); ++k)
     {
         const auto& expected = frames_[(first + k) % frames_.size()];
@@ -136,9 +155,30 @@ TEST_F(OpenNi2Recording, lostImagesAreReportedAndNothingIsJoinedWrongly)
     EXPECT_THAT(err_, ::testing::ContainsRegex("1[0-3] depth and 0 colour images without"));
     for (const auto& scan : scans)
     {
-        const int depthFrame = depthOf(*scan).at<std::uint16_t>(0, 1) - 1001;
-        const int colourFrame = scan->intensityImage.asCvMatRef().at<cv::Vec3b>(0, 0)[2];
-        EXPECT_EQ(depthFrame, colourFrame);
+        EXPECT_EQ(depthNumber(*scan), colourNumber(*scan));
+    }
+}
+
+TEST_F(OpenNi2Recording, lossesThatTheDriverDoesNotNumberAreInTheStamps)
+{
+    ASSERT_EQ(record("countsDelivered 1\nloseBothEvery 5", {"--duration", "2"}), 0) << err_;
+    EXPECT_THAT(
+        err_,
+        ::testing::ContainsRegex("lost: 1[0-3] depth and 1[0-3] colour images by the camera"));
+}
+
+/** Times of arrival jitter: their difference is no delay of depth. */
+TEST_F(OpenNi2Recording, stampsThatFollowNoClockTellNoDelay)
+{
+    ASSERT_EQ(record("constantStamps 1\nskewUs 5000", {"--frames", "20"}), 0) << err_;
+    EXPECT_THAT(err_, HasSubstr("times of arrival are used instead"));
+    EXPECT_THAT(err_, ::testing::Not(HasSubstr("clock: UTC with the camera's spacing")));
+    EXPECT_THAT(err_, HasSubstr("lost: 0 depth and 0 colour images by the camera"));
+    RawlogReader reader(out_);
+    while (const auto object = reader.next())
+    {
+        const auto comment = std::dynamic_pointer_cast<mrpt::obs::CObservationComment>(object);
+        EXPECT_THAT(comment ? comment->text : "", ::testing::Not(HasSubstr("depthDelay")));
     }
 }
 
@@ -147,6 +187,8 @@ TEST_F(OpenNi2Recording, skewBeyondTheLimitIsNotJoined)
     EXPECT_EQ(record("skewUs 8000", {"--max-skew", "0.004", "--timeout", "2"}), 3);
     EXPECT_THAT(err_, HasSubstr("farther apart in time than a pair may be (--max-skew)"));
     EXPECT_THAT(err_, HasSubstr("recorded 0 frames"));
+    EXPECT_THAT(err_, ::testing::Not(HasSubstr("clock:")));
+    EXPECT_FALSE(fs::exists(out_)) << "it would be in the way of the next attempt";
 }
 
 TEST_F(OpenNi2Recording, unpluggingKeepsEverythingBefore)
@@ -279,6 +321,12 @@ TEST_F(OpenNi2Recording, badRequestsAreExplained)
         HasSubstr("no driver 'kinect' in this build"));
     EXPECT_THAT(messageOf({}), HasSubstr("nothing to do"));
     EXPECT_THAT(messageOf({"-o", dir_ / "out.bag"}), HasSubstr("must end in .rawlog or .oni"));
+    EXPECT_THAT(
+        messageOf({"-o", oni_, "--jpeg", "90"}), HasSubstr("--jpeg is for a rawlog, not for"));
+    EXPECT_THAT(messageOf({"-o", oni_, "--label", "A"}), HasSubstr("--label is for a rawlog"));
+    EXPECT_THAT(
+        messageOf({"-o", out_, "--depth-only", "--registration", "on"}),
+        HasSubstr("--depth-only has no colour to register depth to"));
     EXPECT_EQ(record("", {"--jpeg", "101"}), 2);
     EXPECT_EQ(record("", {"--warm-up", "nan"}), 2);
     EXPECT_EQ(record("", {"--frames", "99999999999999999999"}), 2);  // recorded for ever
@@ -324,6 +372,36 @@ TEST_F(OpenNi2Recording, toBeStoppedBeforeACameraAppearsIsNoSuccess)
     EXPECT_THAT(
         process->err(), HasSubstr("stopped before a camera appeared: nothing was recorded"));
     EXPECT_FALSE(fs::exists(out_));
+}
+
+TEST_F(OpenNi2Recording, toBeStoppedWhileItWarmsUpIsNoSuccess)
+{
+    const auto virtualCamera = camera();
+    for (const auto& path : {out_, oni_})
+    {
+        const auto process =
+            start(virtualCamera, {"-o", path, "--mode", "64x48@30", "--warm-up", "60"});
+        waitForFrames(path, 0);
+        std::this_thread::sleep_for(milliseconds(500));
+        process->signal(SIGINT);
+        EXPECT_EQ(process->wait(seconds(10)), 3);
+        EXPECT_THAT(
+            process->err(), HasSubstr("ended before the first frame: nothing was recorded"));
+        EXPECT_FALSE(fs::exists(path));
+    }
+}
+
+/** Between the check at the start and the camera's appearance. */
+TEST_F(OpenNi2Recording, anOniFileThatAppearsMeanwhileIsKept)
+{
+    const auto virtualCamera = camera("appearAfterMs 2000");
+    const auto process =
+        start(virtualCamera, {"-o", oni_, "--mode", "64x48@30", "--frames", "3", "--wait"});
+    std::this_thread::sleep_for(seconds(1));
+    writeBytes(oni_, "precious");
+    EXPECT_EQ(process->wait(), 2);
+    EXPECT_THAT(process->err(), HasSubstr("exists already; recordings never overwrite"));
+    EXPECT_EQ(readBytes(oni_), "precious");
 }
 
 /** nohup(1) has it ignored, so that a recording outlives its terminal. */
@@ -381,7 +459,7 @@ TEST_F(OpenNi2Recording, aFullDiskStopsBeforeIt)
 {
     EXPECT_EQ(record("", {"--min-free-mb", "1e12"}), 3);
     EXPECT_THAT(err_, HasSubstr("nearly full"));
-    EXPECT_TRUE(fs::exists(out_));
+    EXPECT_FALSE(fs::exists(out_)) << "it would be in the way of the next attempt";
 }
 
 TEST_F(OpenNi2Recording, previewIsACompletePicture)
@@ -396,23 +474,48 @@ TEST_F(OpenNi2Recording, previewIsACompletePicture)
 
 TEST_F(OpenNi2Recording, toOniFileAndBackLosesNothing)
 {
-    const std::string oni = dir_ / "out.oni";
-    const auto virtualCamera = camera();
-    const auto writing = start(
-        virtualCamera, {"-o", oni, "--mode", "64x48@30", "--duration", "2", "--warm-up", "0.2"});
-    ASSERT_EQ(writing->wait(), 0) << writing->err();
-    ASSERT_EQ(record("noDevice 1", {"--device", oni}), 0) << err_;
+    ASSERT_EQ(recordOni("", {"--duration", "2"}), 0) << err_;
     const auto scans = scansOf(out_);
     ASSERT_GE(scans.size(), 58U);
+    ASSERT_LE(scans.size(), 62U);
     for (std::size_t k = 1; k < scans.size(); ++k)
     {
         EXPECT_NEAR(stampOf(*scans[k]) - stampOf(*scans[k - 1]), kPeriod, 1e-4);
-        const int step = depthOf(*scans[k]).at<std::uint16_t>(0, 1) -
-                         depthOf(*scans[k - 1]).at<std::uint16_t>(0, 1);
-        EXPECT_EQ((step + 30) % 30, 1);
+        EXPECT_EQ((depthNumber(*scans[k]) - depthNumber(*scans[k - 1]) + 30) % 30, 1);
     }
     EXPECT_THAT(err_, HasSubstr("taken as registered"));
     EXPECT_THAT(err_, HasSubstr("time stamps count from the date of the .oni file"));
+}
+
+/** OpenNI2 lets the stamps of each stream begin at 0. */
+TEST_F(OpenNi2Recording, anOniFilePairsWhatWasTakenTogether)
+{
+    for (const char* settings : {"firstColour 5", "skewUs 12000", "skewUs -12000"})
+    {
+        ASSERT_EQ(recordOni(settings, {"--frames", "20"}), 0) << err_;
+        const auto scans = scansOf(out_);
+        EXPECT_GE(scans.size(), 20U) << settings;
+        EXPECT_LE(scans.size(), 22U) << settings;
+        for (const auto& scan : scans)
+        {
+            EXPECT_EQ(depthNumber(*scan), colourNumber(*scan)) << settings;
+        }
+        fs::remove(oni_);
+        fs::remove(out_);
+    }
+}
+
+TEST_F(OpenNi2Recording, aMirroredOniFileIsTurned)
+{
+    ASSERT_EQ(recordOni("claimsMirrored 1", {"--frames", "5"}), 0) << err_;
+    const auto scan = scansOf(out_).front();
+    cv::Mat depth, colour;
+    cv::flip(depthOf(*scan), depth, 1);
+    cv::flip(scan->intensityImage.asCvMatRef(), colour, 1);
+    const auto number = static_cast<std::size_t>(depth.at<std::uint16_t>(0, 1) - 1001);
+    ASSERT_LT(number, frames_.size());
+    EXPECT_TRUE(samePixels(depth, frames_[number].depth));
+    EXPECT_TRUE(samePixels(colour, frames_[number].colour));
 }
 
 TEST_F(OpenNi2Recording, anOniFileOnAFullDiskIsToldIncomplete)
@@ -450,6 +553,17 @@ TEST_F(OpenNi2Recording, anOniFileOnAFullDiskIsToldIncomplete)
         EXPECT_EQ(code, 3) << kilobytes;
         EXPECT_THAT(readBytes(err), HasSubstr("out.oni' is incomplete")) << kilobytes;
     }
+}
+
+/** Then OpenNI2's recorder never begins. */
+TEST_F(OpenNi2Recording, anOniFileThatCannotGrowIsToldIncomplete)
+{
+    const auto virtualCamera = camera();
+    Args args{"-c", "ulimit -f 1 && exec \"$@\"", "sh", GRABBER, "-o", oni_, "--driver", "openni2"};
+    args.insert(args.end(), {"--mode", "64x48@30", "--warm-up", "0.2", "--frames", "5"});
+    ChildProcess process("/bin/sh", args, virtualCamera.environment());
+    EXPECT_EQ(process.wait(), 3);
+    EXPECT_THAT(process.err(), HasSubstr("out.oni' is incomplete"));
 }
 
 TEST_F(OpenNi2Recording, damagedOniFilesAreBadInput)

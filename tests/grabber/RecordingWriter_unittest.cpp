@@ -192,6 +192,24 @@ TEST_F(Recording, neverOverwrites)
     EXPECT_EQ(readBytes(options().path), "precious");
 }
 
+/** It would be in the way of the next attempt. */
+TEST_F(Recording, aFileWithoutAFrameIsRemoved)
+{
+    for (const double splitAfter : {0.0, 0.5})
+    {
+        auto o = options();
+        o.splitAfter = splitAfter;
+        o.marksEnds = true;
+        RecordingWriter writer(o, builder_);
+        ASSERT_EQ(writer.paths().size(), 1U);
+        const std::string path = writer.paths().front();
+        EXPECT_TRUE(fs::exists(path));
+        writer.finish();
+        EXPECT_FALSE(fs::exists(path));
+        EXPECT_TRUE(writer.paths().empty());
+    }
+}
+
 TEST_F(Recording, anImpossibleFolderIsAnEnvironmentError)
 {
     auto o = options();

@@ -183,6 +183,26 @@ TEST_F(CalibrationFile, yamlOfCameraCalibTellsTheColourCamera)
     }
 }
 
+/** Depth alone is never registered: it has the infrared camera's intrinsics. */
+TEST_F(CalibrationFile, yamlOfTheColourCameraIsNotForDepthAlone)
+{
+    path_ = dir_ / "calibration.yml";
+    auto f = facts(false);
+    f.hasColour = false;
+    try
+    {
+        (void)calibrationFromFile(write(kYaml), "OPENNI2", f);
+        FAIL() << "accepted";
+    }
+    catch (const InputError& e)
+    {
+        EXPECT_THAT(e.what(), ::testing::StartsWith(path_));
+        EXPECT_THAT(e.what(), ::testing::HasSubstr("--depth-only needs the depth camera's"));
+    }
+    path_ = dir_ / "camera.ini";
+    EXPECT_EQ(calibrationFromFile(write(kIni), "OPENNI2", f).depth.fx(), 572.9);
+}
+
 TEST_F(CalibrationFile, scalesToTheMode)
 {
     auto f = facts(false);

@@ -12,9 +12,10 @@ namespace
 {
 constexpr std::chrono::milliseconds kPoll{100};  // how late a request to stop is noticed
 
-double maxSkewOf(const CaptureOptions& options, const Camera& camera)
+FramePairer pairerOf(const CaptureOptions& options, const CameraFacts& camera)
 {
-    return options.maxSkew > 0.0 ? options.maxSkew : 0.5 / camera.facts().mode.fps;
+    const double period = 1.0 / camera.mode.fps;
+    return {options.maxSkew > 0.0 ? options.maxSkew : 0.5 * period, period, !camera.hasColour};
 }
 }  // namespace
 
@@ -22,7 +23,7 @@ Capture::Capture(Camera& camera, const CaptureOptions& options, Consumer consume
     : camera_(camera),
       options_(options),
       consumer_(std::move(consumer)),
-      pairer_(maxSkewOf(options, camera), !camera.facts().hasColour),
+      pairer_(pairerOf(options, camera.facts())),
       warm_(camera.facts().isFile)
 {
     stats_.started = warm_;
@@ -33,11 +34,12 @@ CaptureEnd Capture::run(const std::atomic<bool>& stop)
     CaptureEnd end = CaptureEnd::Error;
     try
     {
-        camera_.start();
         if (!options_.oniPath.empty())
         {
             camera_.recordTo(options_.oniPath);
+            waitsForOni_ = !(camera_.facts().isFile && camera_.startRecording());
         }
+        camera_.start();
         end = capture(stop);
     }
     catch (const std::exception& e)
@@ -147,6 +149,14 @@ void Capture::finishWarmUp()
     lastPair_ = hostTime();
     const std::lock_guard<std::mutex> lock(mutex_);
     stats_.started = true;
+    stats_.hasClock = !hostStamps_;
+}
+
+void Capture::tryToStartOni()
+{
+    lastPair_ = hostTime();
+    pairer_ = pairerOf(options_, camera_.facts());  // of what came so far, nothing is recorded
+    waitsForOni_ = !camera_.startRecording();
 }
 
 double Capture::stampOf(const ImagePair& pair) const
@@ -162,12 +172,22 @@ double Capture::stampOf(const ImagePair& pair) const
 
 std::optional<CaptureEnd> Capture::record(CameraImage image)
 {
+    image.hasClock = !hostStamps_;
     image.deviceTime = hostStamps_ ? image.arrival : image.deviceTime * timeScale_;
     if (!hostStamps_ && !camera_.facts().isFile && isStampStream(image))
     {
         clock_.observe({image.deviceTime, image.arrival});
     }
-    for (auto& pair : pairer_.add(image))
+    auto pairs = pairer_.add(image);
+    if (waitsForOni_)
+    {
+        if (!pairs.empty())
+        {
+            tryToStartOni();
+        }
+        return std::nullopt;
+    }
+    for (auto& pair : pairs)
     {
         pair.stamp = stampOf(pair);
         if (numPairs_ == 0)

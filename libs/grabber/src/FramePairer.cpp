@@ -11,24 +11,36 @@ namespace
 {
 // A stream that waits longer than this many images has lost its partner: do not hoard its pixels.
 constexpr std::size_t kMaxWaiting = 8;
+
+/** Images that a stream lost between these two. */
+std::int64_t numMissing(const CameraImage& last, const CameraImage& image, double period)
+{
+    constexpr double kLongestGap = 10.0;  // [s]; after more, the clock was set
+    // An index that goes back is a stream that started again, not a loss. Drivers may number only
+    // what they deliver: then the stamps tell.
+    const std::int64_t byIndex = image.index - last.index - 1;
+    const double step = image.deviceTime - last.deviceTime;
+    const bool isTold = image.hasClock && std::abs(step) < kLongestGap;
+    const std::int64_t byStamp = isTold ? std::llround(step / period) - 1 : 0;
+    return std::max<std::int64_t>({byIndex, byStamp, 0});
+}
 }  // namespace
 
-FramePairer::FramePairer(double maxSkew, bool depthOnly) : maxSkew_(maxSkew), depthOnly_(depthOnly)
+FramePairer::FramePairer(double maxSkew, double period, bool depthOnly)
+    : maxSkew_(maxSkew), period_(period), depthOnly_(depthOnly)
 {
     POINTPLANE_CHECK(maxSkew > 0.0, "maxSkew is " << maxSkew << " s, must be positive");
+    POINTPLANE_CHECK(period > 0.0, "period is " << period << " s, must be positive");
 }
 
 void FramePairer::countGap(const CameraImage& image)
 {
     const bool isDepth = image.stream == StreamKind::Depth;
-    auto& last = isDepth ? lastDepthIndex_ : lastColourIndex_;
-    // An index that goes back is a stream that started again, not a loss.
-    if (last && image.index > *last + 1)
-    {
-        auto& dropped = isDepth ? counts_.droppedDepth : counts_.droppedColour;
-        dropped += static_cast<std::uint64_t>(image.index - *last - 1);
-    }
-    last = image.index;
+    auto& last = isDepth ? lastDepth_ : lastColour_;
+    auto& dropped = isDepth ? counts_.droppedDepth : counts_.droppedColour;
+    dropped += last ? static_cast<std::uint64_t>(numMissing(*last, image, period_)) : 0;
+    last = image;
+    last->pixels.release();
 }
 
 void FramePairer::dropOldest(StreamKind stream)

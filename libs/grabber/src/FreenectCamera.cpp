@@ -108,6 +108,7 @@ std::string FreenectContext::lastError()
 FreenectCamera::FreenectCamera(
     std::shared_ptr<FreenectContext> context,
     const DeviceInfo& device,
+    int index,
     const CameraSettings& settings)
     : context_(std::move(context))
 {
@@ -119,7 +120,6 @@ FreenectCamera::FreenectCamera(
             "the Kinect has no mode " + toString(wanted) +
             "; it offers: " + toString({kWidth, kHeight, kFps, ""}));
     }
-    const int index = std::atoi(device.uri.c_str() + std::string(kFreenectUriPrefix).size());
     if (context_->get() == nullptr || freenect_open_device(context_->get(), &device_, index) < 0)
     {
         throw EnvironmentError(
@@ -129,8 +129,16 @@ FreenectCamera::FreenectCamera(
     facts_.mode = facts_.colourMode = {kWidth, kHeight, kFps, "RGB888"};
     facts_.hasColour = !settings.depthOnly;
     freenect_set_user(device_, this);
-    chooseDepthMode(settings);
-    chooseVideoMode(settings);
+    try
+    {
+        chooseDepthMode(settings);
+        chooseVideoMode(settings);
+    }
+    catch (...)
+    {
+        freenect_close_device(device_);
+        throw;
+    }
 }
 
 FreenectCamera::~FreenectCamera()
@@ -192,12 +200,12 @@ void FreenectCamera::chooseVideoMode(const CameraSettings& settings)
 
 void FreenectCamera::start()
 {
+    streaming_ = true;  // the first may run when the second does not start
     if (freenect_start_depth(device_) < 0 ||
         (facts_.hasColour && freenect_start_video(device_) < 0))
     {
         throw EnvironmentError("the Kinect does not start: " + FreenectContext::lastError());
     }
-    streaming_ = true;
 }
 
 void FreenectCamera::onDepth(freenect_device* device, void* data, std::uint32_t stamp)
@@ -227,8 +235,7 @@ void FreenectCamera::keep(StreamKind stream, cv::Mat pixels, std::uint32_t stamp
     image.layout = stream == StreamKind::Depth ? PixelLayout::Depth16 : PixelLayout::Rgb8;
     image.arrival = hostTime();
     image.deviceTime = timestamp_.seconds(stamp);
-    auto& index = stream == StreamKind::Depth ? depthIndex_ : colourIndex_;
-    image.index = index.next(image.deviceTime, kFps);
+    image.index = stream == StreamKind::Depth ? depthIndex_++ : colourIndex_++;
     image.pixels = std::move(pixels);
     received_.push_back(std::move(image));
 }

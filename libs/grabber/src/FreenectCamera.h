@@ -28,16 +28,16 @@ class FreenectContext
     freenect_context* context_{nullptr};
 };
 
-constexpr const char* kFreenectUriPrefix = "freenect://";
-
-/** A Kinect for Xbox 360. Its two cameras stamp their frames with one 60 MHz clock; there is no
- * frame index, so lost frames are recognised by the time between stamps. */
+/** A Kinect for Xbox 360. Its two cameras stamp their frames with one 60 MHz clock. The
+ * frame index counts what arrives; lost frames show in the stamps. */
 class FreenectCamera : public Camera
 {
  public:
+    /** \param index among the Kinects */
     FreenectCamera(
         std::shared_ptr<FreenectContext> context,
         const DeviceInfo& device,
+        int index,
         const CameraSettings& settings);
     ~FreenectCamera() override;
     FreenectCamera(const FreenectCamera&) = delete;
@@ -65,7 +65,7 @@ class FreenectCamera : public Camera
     freenect_frame_mode depthMode_{}, videoMode_{};
     std::vector<std::uint16_t> rawToMm_;  // empty when the library converts
     KinectTimestamp timestamp_;
-    KinectFrameIndex depthIndex_, colourIndex_;
+    std::int64_t depthIndex_{0}, colourIndex_{0};
     std::deque<CameraImage> received_;
     bool streaming_{false};
 };

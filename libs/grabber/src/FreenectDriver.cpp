@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <charconv>
+#include <optional>
+#include <string_view>
+
 #include "FreenectCamera.h"
 #include "drivers.h"
 
@@ -10,6 +14,21 @@ namespace pointplane
 {
 namespace
 {
+constexpr std::string_view kUriPrefix = "freenect://";
+
+/** 2 of "freenect://2". */
+std::optional<int> indexIn(const std::string& uri)
+{
+    int index = -1;
+    if (uri.rfind(kUriPrefix, 0) == 0)
+    {
+        const char* const end = uri.data() + uri.size();
+        const auto result = std::from_chars(uri.data() + kUriPrefix.size(), end, index);
+        index = result.ptr == end ? index : -1;
+    }
+    return index < 0 ? std::nullopt : std::optional<int>(index);
+}
+
 class FreenectDriver : public CameraDriver
 {
  public:
@@ -22,13 +41,15 @@ class FreenectDriver : public CameraDriver
         {
             return devices;
         }
-        const auto serials = serialNumbers();
         const int count = freenect_num_devices(context_->get());
+        auto serials = serialNumbers();
+        // Kinects that do not open have none: then nobody knows whose the others are.
+        serials.resize(static_cast<int>(serials.size()) == count ? serials.size() : 0);
         for (int i = 0; i < count; ++i)
         {
             DeviceInfo info;
             info.driver = name();
-            info.uri = kFreenectUriPrefix + std::to_string(i);
+            info.uri = std::string(kUriPrefix) + std::to_string(i);
             info.vendor = "Microsoft";
             info.name = "Kinect for Xbox 360";
             const auto n = static_cast<std::size_t>(i);
@@ -44,11 +65,12 @@ class FreenectDriver : public CameraDriver
     [[nodiscard]] std::unique_ptr<Camera> open(
         const DeviceInfo& device, const CameraSettings& settings) override
     {
-        if (device.uri.rfind(kFreenectUriPrefix, 0) != 0)
+        const auto index = indexIn(device.uri);
+        if (!index)
         {
             throw EnvironmentError("'" + device.uri + "' is no Kinect");
         }
-        return std::make_unique<FreenectCamera>(context_, device, settings);
+        return std::make_unique<FreenectCamera>(context_, device, *index, settings);
     }
 
     [[nodiscard]] std::string description() override

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 #include <optional>
 
@@ -30,26 +29,5 @@ class KinectTimestamp
  private:
     std::optional<std::uint32_t> last_;
     std::int64_t unwrapped_{0};
-};
-
-/** Numbers the frames of a stream that has no index of its own: a frame that comes n periods after
- * the last one has an index n higher, so that gaps show. */
-class KinectFrameIndex
-{
- public:
-    [[nodiscard]] std::int64_t next(double time, int fps)
-    {
-        if (last_)
-        {
-            const auto periods = std::llround((time - *last_) * fps);
-            index_ += periods > 1 ? periods : 1;
-        }
-        last_ = time;
-        return index_;
-    }
-
- private:
-    std::optional<double> last_;
-    std::int64_t index_{0};
 };
 }  // namespace pointplane

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OpenNi2Camera.h"
 
+#include <opencv2/core.hpp>
+
 #include <array>
 #include <cstdint>
 #include <thread>
 
 #include "OpenNi2Events.h"
 #include "drivers.h"
+#include "oni_file.h"
 #include "openni2_formats.h"
 
 namespace pointplane
@@ -30,16 +33,21 @@ void OpenNi2Camera::start()
     streaming_ = true;
 }
 
-Delivery OpenNi2Camera::wait(CameraImage& image, std::chrono::milliseconds timeout)
+std::optional<std::size_t> OpenNi2Camera::waitForStream(int timeout_ms)
 {
     std::array<openni::VideoStream*, 2> streams{&depth_, &colour_};
-    const int numStreams = facts_.hasColour ? 2 : 1;
+    int ready = 0;
+    const auto status =
+        openni::OpenNI::waitForAnyStream(streams.data(), numStreams(), &ready, timeout_ms);
+    return status == openni::STATUS_OK ? std::optional<std::size_t>(ready) : std::nullopt;
+}
+
+Delivery OpenNi2Camera::wait(CameraImage& image, std::chrono::milliseconds timeout)
+{
     // Once the device is gone only what is already here can come.
     const bool over = events_->disconnected || events_->atEnd;
-    const int limit = over ? 100 : static_cast<int>(timeout.count());
-    int ready = 0;
-    const auto status = openni::OpenNI::waitForAnyStream(streams.data(), numStreams, &ready, limit);
-    if (status != openni::STATUS_OK)
+    const auto ready = waitForStream(over ? 100 : static_cast<int>(timeout.count()));
+    if (!ready)
     {
         if (over)
         {
@@ -48,12 +56,11 @@ Delivery OpenNi2Camera::wait(CameraImage& image, std::chrono::milliseconds timeo
         return Delivery::Timeout;
     }
     openni::VideoFrameRef frame;
-    if (streams.at(static_cast<std::size_t>(ready))->readFrame(&frame) != openni::STATUS_OK ||
-        !frame.isValid())
+    if ((*ready == 0 ? depth_ : colour_).readFrame(&frame) != openni::STATUS_OK || !frame.isValid())
     {
         return Delivery::Timeout;
     }
-    image = copy(frame, ready == 0 ? StreamKind::Depth : StreamKind::Colour);
+    image = copy(frame, *ready == 0 ? StreamKind::Depth : StreamKind::Colour);
     return Delivery::Image;
 }
 
@@ -82,7 +89,16 @@ CameraImage OpenNi2Camera::copy(const openni::VideoFrameRef& frame, StreamKind s
         layout.cvType,
         const_cast<void*>(frame.getData()),  // NOLINT: cv::Mat has no const view; only read
         static_cast<std::size_t>(frame.getStrideInBytes()));
-    image.pixels = borrowed.clone();
+    // Devices do not mirror: setUpDevice() has seen to it.
+    const auto& source = stream == StreamKind::Depth ? depth_ : colour_;
+    if (facts_.isFile && source.getMirroringEnabled())
+    {
+        cv::flip(borrowed, image.pixels, 1);
+    }
+    else
+    {
+        image.pixels = borrowed.clone();
+    }
     return image;
 }
 
@@ -100,30 +116,63 @@ bool OpenNi2Camera::lockWhiteBalance()
 
 void OpenNi2Camera::recordTo(const std::string& oniPath)
 {
+    oniPath_ = oniPath;
     bool good = recorder_.create(oniPath.c_str()) == openni::STATUS_OK &&
                 recorder_.attach(depth_) == openni::STATUS_OK;
     good = good && (!facts_.hasColour || recorder_.attach(colour_) == openni::STATUS_OK);
-    if (!good || recorder_.start() != openni::STATUS_OK)
+    if (!good)
     {
         throw EnvironmentError("cannot record to '" + oniPath + "': " + openNi2Error());
     }
 }
 
+bool OpenNi2Camera::startRecording()
+{
+    using Clock = std::chrono::steady_clock;
+    constexpr int kMostStarts = 30;
+    constexpr std::chrono::milliseconds kPause{100};  // longer than a frame takes
+    const bool isBusy = ++numStarts_ > kMostStarts;
+    if (isBusy || recorder_.start() != openni::STATUS_OK)
+    {
+        throw EnvironmentError(
+            "cannot record to '" + oniPath_ + "': " +
+            (isBusy ? "the computer is too busy to begin with both images of a frame"
+                    : openNi2Error()));
+    }
+    // The recorder begins in a thread of its own, or never if the disk is full, which is found at
+    // the end.
+    const auto deadline = Clock::now() + std::chrono::seconds(3);
+    bool hasBegun = false;
+    while (!(hasBegun = oniFileHasBegun(oniPath_, numStreams())) && Clock::now() < deadline)
+    {
+        std::this_thread::sleep_for(std::chrono::microseconds(200));
+    }
+    if (!hasBegun || !streaming_ || !waitForStream(openni::TIMEOUT_NONE))
+    {
+        return true;
+    }
+    recorder_.stop();
+    // While it still takes a frame, destroy() would never return.
+    std::this_thread::sleep_for(kPause);
+    recorder_.destroy();
+    recordTo(oniPath_);
+    return false;
+}
+
 void OpenNi2Camera::stop()
 {
-    if (!streaming_)
-    {
-        return;
-    }
-    streaming_ = false;
     if (recorder_.isValid())
     {
         recorder_.stop();
-        recorder_.destroy();
     }
-    depth_.stop();
-    colour_.stop();
-    // Some drivers do not join their threads: destroying a stream at once makes them crash.
-    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    if (streaming_)
+    {
+        streaming_ = false;
+        depth_.stop();
+        colour_.stop();
+        // Some drivers do not join their threads: destroying a stream at once makes them crash.
+        std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    }
+    recorder_.destroy();  // while it still takes a frame, this would never return
 }
 }  // namespace pointplane

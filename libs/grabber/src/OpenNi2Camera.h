@@ -4,6 +4,7 @@
 #include <pointplane/grabber/Camera.h>
 
 #include <atomic>
+#include <optional>
 #include <string>
 
 #include <OpenNI.h>
@@ -28,6 +29,7 @@ class OpenNi2Camera : public Camera
     bool lockExposure() override;
     bool lockWhiteBalance() override;
     void recordTo(const std::string& oniPath) override;
+    [[nodiscard]] bool startRecording() override;
     void stop() override;
 
  private:
@@ -41,6 +43,9 @@ class OpenNi2Camera : public Camera
     void setUpDevice();
     void chooseRegistration();
     void describeOptics();
+    [[nodiscard]] int numStreams() const { return facts_.hasColour ? 2 : 1; }
+    /** \return number of the stream that has an image, or nothing */
+    [[nodiscard]] std::optional<std::size_t> waitForStream(int timeout_ms);
     [[nodiscard]] CameraImage copy(const openni::VideoFrameRef& frame, StreamKind stream) const;
 
     CameraSettings settings_;
@@ -48,6 +53,8 @@ class OpenNi2Camera : public Camera
     openni::Device device_;
     openni::VideoStream depth_, colour_;
     openni::Recorder recorder_;
+    std::string oniPath_;
+    int numStarts_{0};  // of the recorder
     std::unique_ptr<Events> events_;
     bool streaming_{false};
 };

@@ -13,6 +13,13 @@ namespace
 // PrimeSense's reference design, which Kinect, Xtion and Carmine share: the colour camera sits 25
 // mm to the right of the infrared one.
 constexpr double kPrimeSenseOffset = 0.025;
+
+/** Whether two neighbouring pixels have one colour: such images cannot be turned by pixels. */
+bool sharesColour(const openni::VideoStream& stream)
+{
+    const auto layout = layoutOf(stream.getVideoMode().getPixelFormat()).layout;
+    return layout == PixelLayout::Yuyv || layout == PixelLayout::Uyvy;
+}
 }  // namespace
 
 OpenNi2Camera::OpenNi2Camera(const DeviceInfo& device, const CameraSettings& settings)
@@ -135,6 +142,13 @@ void OpenNi2Camera::setUpFile()
                 ", is in a format that is not supported" +
                 (stream == &depth_ ? "" : "; --depth-only leaves it out"));
         }
+        if (stream->isValid() && stream->getMirroringEnabled() && sharesColour(*stream))
+        {
+            throw InputError(
+                "'" + facts_.device.uri + "': its colour stream, " +
+                toString(videoModeOf(stream->getVideoMode())) +
+                ", is mirrored, which can be undone for RGB888 only; --depth-only leaves it out");
+        }
     }
     // Speed -1 waits for the reader: at speed 1 frames are lost. Repeat is on by default.
     playback->setSpeed(-1.0F);
@@ -148,7 +162,8 @@ void OpenNi2Camera::setUpFile()
         facts_.startTime = static_cast<double>(status.st_mtim.tv_sec) +
                            1e-9 * static_cast<double>(status.st_mtim.tv_nsec);
     }
-    facts_.notes.emplace_back("time stamps count from the date of the .oni file");
+    facts_.notes.emplace_back(
+        "time stamps count from the date of the .oni file, which is that of its end");
 }
 
 void OpenNi2Camera::setUpDevice()

@@ -271,6 +271,14 @@ void RecordingWriter::joinThreads()
         thread.join();
     }
     threads_.clear();
+    if (file_ && file_->numBytes() == 0)  // it would be in the way of the next attempt
+    {
+        std::error_code error;
+        fs::remove(file_->path(), error);
+        file_.reset();
+        const std::lock_guard<std::mutex> lock(mutex_);
+        paths_.pop_back();
+    }
 }
 
 void RecordingWriter::finish()

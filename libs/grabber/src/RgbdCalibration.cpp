@@ -136,12 +136,15 @@ RgbdCalibration fromIni(
 /** What camera-calib writes: one camera. */
 RgbdCalibration fromYaml(const std::string& path, const CameraFacts& facts)
 {
-    if (!facts.registered && facts.hasColour)
+    if (!facts.registered)
     {
         throw InputError(
             path +
-            ": tells one camera, but depth is not registered to colour, so both must be known; use "
-            "--registration on, or calibrate with kinect-stereo-calib (ini)");
+            (facts.hasColour
+                 ? ": tells one camera, but depth is not registered to colour, so both must be "
+                   "known; use --registration on, or calibrate with kinect-stereo-calib (ini)"
+                 : ": tells the colour camera, but --depth-only needs the depth camera's "
+                   "intrinsics; calibrate with kinect-stereo-calib (ini)"));
     }
     RgbdCalibration calibration;
     try

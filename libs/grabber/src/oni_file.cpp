@@ -18,7 +18,7 @@ namespace
 // them.
 constexpr std::int64_t kFileHeader = 24;
 constexpr std::uint32_t kMagic = 0x0052494E;  // "NIR"
-constexpr std::uint32_t kFrame = 10, kEnd = 11, kIndex = 14;
+constexpr std::uint32_t kBegin = 8, kFrame = 10, kEnd = 11, kIndex = 14;
 constexpr std::uint32_t kLeastSize = 28, kIndexEntry = 20;
 
 /** The records of a file, up to the one that ends it. */
@@ -26,6 +26,7 @@ struct OniRecords
 {
     std::map<std::uint32_t, std::uint32_t> frames;   //!< of each node
     std::map<std::uint32_t, std::uint32_t> indexed;  //!< likewise, by its index at the end
+    int numBegun{0};                                 //!< nodes whose frames are taken
     std::int64_t end{-1};  //!< where the last record is; -1: there is none
 };
 
@@ -47,6 +48,7 @@ struct OniRecords
             out.end = place;
             return out;
         }
+        out.numBegun += kind == kBegin ? 1 : 0;
         out.frames[node] += kind == kFrame ? 1 : 0;
         // Its first entry stands for no frame.
         out.indexed[node] += kind == kIndex ? sizeBehind / kIndexEntry - 1 : 0;
@@ -75,5 +77,10 @@ std::string problemOfOniFile(const std::string& path)
         records.end >= 0 && records.frames == records.indexed && placeOfHole(path) > records.end;
     return isWhole ? ""
                    : "'" + path + "' is incomplete: it could not be written, or the disk is full";
+}
+
+bool oniFileHasBegun(const std::string& path, int numStreams)
+{
+    return recordsOf(path).numBegun == numStreams;
 }
 }  // namespace pointplane

@@ -128,7 +128,10 @@ class VirtualStream : public oni::driver::StreamBase
     {
         if (id == ONI_STREAM_PROPERTY_MIRRORING && size == sizeof(OniBool))
         {
-            std::memcpy(&mirrored_, data, sizeof(OniBool));
+            if (state_.settings.number("claimsMirrored", 0) == 0)
+            {
+                std::memcpy(&mirrored_, data, sizeof(OniBool));
+            }
             return ONI_STATUS_OK;
         }
         if (id != ONI_STREAM_PROPERTY_VIDEO_MODE || size != sizeof(OniVideoMode))
@@ -209,6 +212,11 @@ class VirtualStream : public oni::driver::StreamBase
         const int period_us = set.number("periodUs", kPeriod_us);
         const bool silent = set.number(isDepth ? "silentDepth" : "silentColour", 0) != 0;
         const int unplugAt = isDepth ? set.number("unplugAt", 0) : 0;
+        const int first = isDepth ? 1 : set.number("firstColour", 1);
+        const int loseBothEvery = set.number("loseBothEvery", 0);
+        const bool countsDelivered = set.number("countsDelivered", 0) != 0;
+        const bool hasClock = set.number("constantStamps", 0) == 0;
+        int numDelivered = 0;
         // A camera's clock, not the host's: all stamps are multiples of its own period.
         const auto begin = Clock::now() + std::chrono::milliseconds(set.number("startDelayMs", 0));
         for (int k = 1; running_; ++k)
@@ -220,9 +228,12 @@ class VirtualStream : public oni::driver::StreamBase
                 state_.unplugged = true;
                 state_.unplug();
             }
-            if (!state_.unplugged && !silent && !(dropEvery > 0 && k % dropEvery == 0))
+            const bool isLost = k < first || (dropEvery > 0 && k % dropEvery == 0) ||
+                                (loseBothEvery > 0 && k % loseBothEvery == 0);
+            if (!state_.unplugged && !silent && !isLost)
             {
-                deliver(k, time_us * set.number("ticksPerUs", 1));
+                const int index = countsDelivered ? ++numDelivered : k;
+                deliver(k, index, hasClock ? time_us * set.number("ticksPerUs", 1) : 5);
             }
         }
     }
@@ -239,7 +250,7 @@ class VirtualStream : public oni::driver::StreamBase
         return phase < count ? phase : 2 * count - 2 - phase;
     }
 
-    void deliver(int k, std::int64_t stamp)
+    void deliver(int k, int index, std::int64_t stamp)
     {
         OniFrame* frame = getServices().acquireFrame();
         if (frame == nullptr)
@@ -247,7 +258,7 @@ class VirtualStream : public oni::driver::StreamBase
             return;
         }
         const auto& file = state_.frames;
-        frame->frameIndex = k;
+        frame->frameIndex = index;
         frame->videoMode = mode_;
         frame->width = file.width();
         frame->height = file.height();

@@ -93,9 +93,15 @@ class Camera
     virtual bool lockExposure() = 0;
     virtual bool lockWhiteBalance() = 0;  //!< \sa lockExposure
 
-    /** Writes the streams to an .oni file, too, from now until stop().
+    /** Before start(): prepares an .oni file of the streams, which is made anew.
      * \throws InputError if this driver cannot \throws EnvironmentError if the file fails */
     virtual void recordTo(const std::string& oniPath) = 0;
+
+    /** Writes to that file until stop(). Call it when all images of a frame have come: in the file,
+     * the stamps of both streams begin at 0.
+     * \return false if others came before it began: call it after their frame
+     * \throws EnvironmentError if that does not end */
+    [[nodiscard]] virtual bool startRecording() { return true; }
 
     virtual void stop() = 0;
 };

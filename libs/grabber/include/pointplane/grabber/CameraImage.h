@@ -28,8 +28,9 @@ struct CameraImage
 {
     StreamKind stream{StreamKind::Depth};
     PixelLayout layout{PixelLayout::Depth16};
-    std::int64_t index{0};    //!< the camera's own count; a gap is a lost frame
+    std::int64_t index{0};    //!< the driver's own count; a gap is a lost frame
     double deviceTime{0};     //!< [s] of the camera's clock, arbitrary zero, same for both streams
+    bool hasClock{true};      //!< false: the stamps follow none, deviceTime is that of arrival
     double arrival{0};        //!< [s] UTC when the host had it; never steps back
     double depthUnit{0.001};  //!< [m] per count
     cv::Mat pixels;
@@ -42,11 +43,11 @@ struct ImagePair
     CameraImage colour;  //!< without pixels when the camera has no colour
     double stamp{0};     //!< [s] UTC, of the colour image if there is one
 
-    /** By the camera's own clock [s]; NaN without colour. */
+    /** By the camera's own clock [s]; NaN without colour or clock. */
     [[nodiscard]] double depthDelay() const
     {
-        return colour.pixels.empty() ? std::numeric_limits<double>::quiet_NaN()
-                                     : depth.deviceTime - colour.deviceTime;
+        return colour.pixels.empty() || !colour.hasClock ? std::numeric_limits<double>::quiet_NaN()
+                                                         : depth.deviceTime - colour.deviceTime;
     }
 };
 }  // namespace pointplane

@@ -44,6 +44,7 @@ struct CaptureStats
     double frameRate{0};        //!< [Hz] of pairs, by the camera's clock, over the last second
     std::size_t clockJumps{0};  //!< \sa DeviceClock::numJumps()
     double clockDrift{0};       //!< \sa DeviceClock::drift()
+    bool hasClock{true};        //!< stamps are the camera's, not times of arrival
     bool started{false};        //!< the warm-up is over
 };
 
@@ -68,6 +69,7 @@ class Capture
     [[nodiscard]] CaptureEnd capture(const std::atomic<bool>& stop);
     void warmUp(const CameraImage& image);
     void finishWarmUp();
+    void tryToStartOni();
     [[nodiscard]] std::optional<CaptureEnd> record(CameraImage image);
     /** The camera is not to blame for the time in which nobody listened to it. */
     void addPause(double pause);
@@ -85,6 +87,7 @@ class Capture
     std::vector<ClockReading> readings_;  // of the warm-up
     double warmUpStart_{0};
     bool warm_{false};
+    bool waitsForOni_{false};                            // until its recording can begin
     double timeScale_{1.0};                              // of the device's stamps
     bool hostStamps_{false};                             // the device's are useless
     double lastDepth_{0}, lastColour_{0}, lastPair_{0};  // arrival of the latest

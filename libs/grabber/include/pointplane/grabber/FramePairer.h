@@ -13,7 +13,7 @@ namespace pointplane
 struct PairingCounts
 {
     std::uint64_t pairs{0};
-    std::uint64_t droppedDepth{0};    //!< never arrived: gaps in the camera's frame index
+    std::uint64_t droppedDepth{0};    //!< never arrived: gaps in the frame index or the stamps
     std::uint64_t droppedColour{0};   //!< likewise
     std::uint64_t unpairedDepth{0};   //!< arrived, but no colour image was near enough
     std::uint64_t unpairedColour{0};  //!< arrived, but no depth image was near enough
@@ -31,8 +31,9 @@ class FramePairer
 {
  public:
     /** \param maxSkew [s] largest distance of the two time stamps of a pair, > 0
-     * \param depthOnly every depth image is a pair without colour */
-    explicit FramePairer(double maxSkew, bool depthOnly = false);
+     * \param period [s] of a stream, > 0 \param depthOnly every depth image is a pair without
+     * colour */
+    FramePairer(double maxSkew, double period, bool depthOnly = false);
 
     /** \return the pairs that this image completes, in order of time (their `stamp` is not set) */
     [[nodiscard]] std::vector<ImagePair> add(const CameraImage& image);
@@ -47,10 +48,10 @@ class FramePairer
     void dropOldest(StreamKind stream);
     ImagePair takePair();
 
-    double maxSkew_;
+    double maxSkew_, period_;
     bool depthOnly_;
     std::deque<CameraImage> depth_, colour_;
-    std::optional<std::int64_t> lastDepthIndex_, lastColourIndex_;
+    std::optional<CameraImage> lastDepth_, lastColour_;  // without their pixels
     double sumSkew_{0};
     PairingCounts counts_;
 };

@@ -66,7 +66,7 @@ class RecordingWriter
     /** Whether a disk error has ended the recording; finish() throws it. */
     [[nodiscard]] bool hasFailed() const { return failed_; }
 
-    /** Writes what is queued and closes the file.
+    /** Writes what is queued and closes the file. One without a frame is removed.
      * \throws EnvironmentError if the recording ended early; the frames before are in the file */
     void finish();
 
