@@ -419,7 +419,7 @@ TEST(MotionModel, noiseIsNotTakenForMotion)
     EXPECT_NEAR(density, kDensity, 0.15 * kDensity);
 }
 
-/** The camera is as fast as the estimate says, or as fast as its error. */
+/** The square of the estimated velocity, and its variance. */
 TEST(MotionModel, howFastTheCameraMayBeIsLearnt)
 {
     MotionModel::TParams params;
