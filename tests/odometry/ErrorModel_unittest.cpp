@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "uncertainty/ErrorModel.h"
 
+#include <pointplane/odometry/uncertainty/view_errors.h>
+
 #include <cmath>
 #include <vector>
 
 #include "matchers.h"
+#include "monte_carlo.h"
 #include <gtest/gtest.h>
 
 namespace pointplane
@@ -21,6 +24,8 @@ class ErrorModelTest : public testing::Test
         params.noiseScale.adaptive = false;
         camera.fx = 500;
         reference.id = 1;
+        nearReference.id = 2;
+        nearReference.T_world_cam.translation().x() = 0.65;
         estimate.motion.mean.T_prev_cur.translation().x() = 0.6;
         estimate.infoPoints = Matrix6d::Identity();
         estimate.infoPoints.bottomRightCorner<3, 3>() *= 2;  // as if they were 1 m away
@@ -37,6 +42,38 @@ class ErrorModelTest : public testing::Test
         return model.learn({{&reference}, estimate, analysis, 1e-9, Matrix12d::Zero()});
     }
 
+    /** The last of many frames of these residuals, seen from two places. */
+    [[nodiscard]] JointCovariance::Measurement learnForLong(double dt, double bend = 0)
+    {
+        params.noiseScale.adaptive = true;
+        ErrorModel model(params);
+        (void)model.changeCamera(camera);
+        ErrorModel::Measured frame{
+            {&reference, &nearReference}, estimate, analysis, dt, Matrix12d::Zero()};
+        frame.bend = bend;
+        JointCovariance::Measurement out;
+        for (int i = 0; i < 300; ++i)
+        {
+            out = model.learn(frame);
+        }
+        return out;
+    }
+
+    /** What both references show of errors with these variances, of which the latter depends on the
+     * view. */
+    [[nodiscard]] std::vector<ReferenceVariance> residuals(double own, double byView) const
+    {
+        std::vector<ReferenceVariance> out;
+        for (const Reference* of : {&reference, &nearReference})
+        {
+            const Eigen::Isometry3d motion =
+                of->T_world_cam.inverse() * estimate.motion.mean.T_prev_cur;
+            out.push_back(
+                {of->id, own + byView * (1 - planeViewCorrelation(motion, 1, viewAngle())), 9});
+        }
+        return out;
+    }
+
     [[nodiscard]] double viewAngle() const
     {
         return 2 * std::atan(std::sqrt(camera.width / camera.fx * camera.height / camera.fy) / 2);
@@ -44,7 +81,7 @@ class ErrorModelTest : public testing::Test
 
     OdometryParams params;
     PinholeCamera camera;
-    Reference reference;
+    Reference reference, nearReference;
     PoseEstimate estimate;
     PoseAnalysis analysis;
 };
@@ -75,6 +112,55 @@ TEST_F(ErrorModelTest, aFrameWhoseImageIsPulledApartErrsMore)
 TEST_F(ErrorModelTest, noiseByHand)
 {
     EXPECT_NEAR(learn().noise(0, 0), params.covariance.noise + 2, 1e-12);
+}
+
+/** The rest of the residuals is not noise of this frame. */
+TEST_F(ErrorModelTest, noiseOfPointsIsAPartOfTheirResiduals)
+{
+    analysis.pointVariance = 9;
+    analysis.sensitivity.planes.setZero();
+    EXPECT_NEAR(learnForLong(1).noise(0, 0), 9 * params.covariance.noise, 1e-9);
+}
+
+/** Within what the prior weighs: 3 of 1100 dimensions. */
+TEST_F(ErrorModelTest, planesErrAsTheirResidualsTell)
+{
+    analysis.planeResiduals.references = residuals(2, 8);
+    analysis.planeResiduals.followed = 0;
+    analysis.sensitivity.points.setZero();
+    const JointCovariance::Measurement out = learnForLong(1.0 / 30);
+    EXPECT_NEAR(out.noise(0, 0), 2 * 2, 0.2);
+    EXPECT_NEAR(std::pow(out.planeViewRoot(0, 0), 2), 8 * 2, 0.5);
+}
+
+TEST_F(ErrorModelTest, aSmoothErrorOfDepthIsAsLargeAsItsResidualsTell)
+{
+    constexpr double kBend = 0.1;  // as much is expected: half of its square is new in each image
+    analysis.patchResiduals = residuals(2, 8);
+    for (ReferenceVariance& of : analysis.patchResiduals)
+    {
+        of.variance *= kBend * kBend / 2;
+    }
+    const JointCovariance::Measurement out = learnForLong(1.0 / 30, kBend);
+    EXPECT_NEAR(std::pow(out.bendSigma, 2), 10 * kBend * kBend / 2, 0.02 * 10 * kBend * kBend / 2);
+    EXPECT_NEAR(out.views.ofPatches(0, 1), 0.8 * out.views.ofPlanes(0, 1), 0.01);
+    EXPECT_NEAR(out.views.ofPatches(2, 2), 1, 1e-12);
+}
+
+/** A part of the predicted motion that the solution follows brings its own noise. */
+TEST_F(ErrorModelTest, whatTimeAddsToThePredictedMotionIsNoise)
+{
+    test::GaussianSampler sampler(7);
+    const Matrix12d motionNoise = sampler.covariance<12>(0.1, 1);
+    analysis.sensitivity.prior = sampler.vector<12>() * sampler.vector<12>().transpose();
+    analysis.sensitivity.prior += 0.5 * Matrix12d::Identity();
+    ErrorModel model(params);
+    (void)model.changeCamera(camera);
+    const JointCovariance::Measurement out =
+        model.learn({{&reference}, estimate, analysis, 1e-9, motionNoise});
+    EXPECT_EQ(out.prior, analysis.sensitivity.prior);
+    const Matrix12d expected = out.prior * motionNoise * out.prior.transpose();
+    EXPECT_THAT(out.priorNoise, test::IsMatrixNear(expected, 1e-9));
 }
 
 /** Points that may be wrong add what they may be wrong by, in either model. */
@@ -123,6 +209,38 @@ TEST_F(ErrorModelTest, viewsAreAsWideAsTheCamera)
     estimate.motion.mean.T_prev_cur = Eigen::AngleAxisd(M_PI_2, Eigen::Vector3d::UnitY());
     const double angle = 2 * std::atan(2);  // 2000 pixels in the mean, at 500 pixels
     EXPECT_NEAR(learn().views.correlation(0, 1), std::exp(-M_PI_2 / angle), 1e-6);
+}
+
+/** Planes tell turns as if they were far away: all features together, as if they were 2 m away. */
+TEST_F(ErrorModelTest, viewsAreAsFarAwayAsPointsAndPlanes)
+{
+    estimate.infoPlanes.bottomRightCorner<3, 3>() = 6 * Eigen::Matrix3d::Identity();
+    const JointCovariance::Measurement out = learn();
+    EXPECT_NEAR(out.views.correlation(0, 1), std::exp(-0.6 / 2 / viewAngle()), 1e-6);
+    EXPECT_NEAR(out.viewSigma[0], 2 * out.viewSigma[3], 1e-12);
+}
+
+/** The new frame is 0.6 m from the previous one, which is 0.2 m from another reference. */
+TEST_F(ErrorModelTest, allViewsAreCompared)
+{
+    reference.T_world_cam = Eigen::Translation3d(1, 2, 3) *
+                            Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, -2, 0.5).normalized());
+    nearReference.T_world_cam = reference.T_world_cam * Eigen::Translation3d(-0.2, 0, 0);
+    ErrorModel model(params);
+    (void)model.changeCamera(camera);
+    const JointCovariance::Views views =
+        model.learn({{&reference, &nearReference}, estimate, analysis, 1e-9, Matrix12d::Zero()})
+            .views;
+    EXPECT_EQ(views.frames, (std::vector<int>{1, 2}));
+    Eigen::Matrix3d apart;
+    apart << 0, 0.2, 0.6, 0.2, 0, 0.8, 0.6, 0.8, 0;
+    apart /= viewAngle();
+    EXPECT_THAT(
+        views.correlation,
+        test::IsMatrixNear(Eigen::Matrix3d((-apart.array()).exp().matrix()), 1e-6));
+    EXPECT_THAT(
+        views.ofPlanes,
+        test::IsMatrixNear(Eigen::Matrix3d((-3 * apart.array()).exp().matrix()), 1e-6));
 }
 
 TEST_F(ErrorModelTest, aFrameErrsByItsView)
@@ -286,6 +404,9 @@ TEST_F(ErrorModelTest, timesAreToldAsWellAsVelocitiesAreKnown)
     EXPECT_NEAR(gain(0, 0), 0.5, 1e-9);
     EXPECT_NEAR(gain(1, 0), 2.0 / 3, 1e-9);
     EXPECT_NEAR(gain(0, 1), 0.5, 1e-9) << "the solution follows the frame's own velocity";
+    params.shutter.findDirection = true;
+    EXPECT_NEAR(gain(0, 1), 2.0 / 3, 1e-9) << "as long as it does not know the readout";
+    EXPECT_NEAR(gain(1, 1), 0.75, 1e-9);
 }
 
 TEST_F(ErrorModelTest, independentIncrementsErrAsTheSolverSays)

@@ -154,6 +154,22 @@ TEST_F(PairBuilderTest, knowsHowFeaturesChangeWithTheLens)
     }
 }
 
+/** A track is displaced by how much darker it is here than in the reference. */
+TEST_F(PairBuilderTest, vignettingMovesWhatWasTracked)
+{
+    reference.T_world_cam = se3Exp((Vector6d() << 0.1, 0, -0.2, 0.3, 0.1, 0.2).finished());
+    const Eigen::Vector3d displaced(0.01, -0.02, 0.03);
+    association.points.front().cur.ofVignetting_m = displaced;
+    reference.points.points.front().ofVignetting_m << 0.4, 0.5, 0.6;  // where it was tracked once
+    build();
+    PairBuilder(previous, current, calibrator)
+        .addCameraErrors(
+            {association}, {Eigen::Isometry3d::Identity(), Vector6d::Zero()}, points, planes);
+    EXPECT_EQ(points.front().dCur_dCamera.col(kVignetting), displaced);
+    EXPECT_TRUE(points.front().dRef_dCamera.col(kVignetting).isZero(0));
+    EXPECT_TRUE(planes.front().dCur_dCamera.col(kVignetting).isZero(0));
+}
+
 /** Two images of a camera that moves on as before, in the same rows: they do not show how fast. To
  * take an unknown velocity for none would say that the camera has just started. */
 TEST_F(PairBuilderTest, aReferenceOfUnknownVelocityWasAsFastAsTheFrame)

@@ -242,6 +242,8 @@ TEST(Sensitivity, toErrorsOfTheCamera)
     }
     problem.planes[1].dRef_dCamera = by(0.02);
     problem.planes[2].dCur_dCamera = by(0.02);
+    problem.planes[3].dRef_dCamera = by(0.02);
+    problem.planes[3].dCur_dCamera = by(0.02);
     const Solved solved = solve(problem);
     for (int k = 0; k < kNumCameraErrors; ++k)
     {
