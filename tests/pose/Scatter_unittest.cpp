@@ -56,25 +56,6 @@ TEST(Scatter, growsWithTheSquareOfTheNoise)
     EXPECT_NEAR(meanScatter(94, 3, true, true) / meanScatter(94, 1, true, true), 9, 0.1);
 }
 
-/** Of one wall, 40 patches tell three of the six directions. Their noise is as large as ever. */
-TEST(Scatter, countsTheDirectionsThatFeaturesTell)
-{
-    constexpr int kPatches = 40;
-    test::PairWorld w(98);
-    for (int i = 0; i < kPatches; ++i)
-    {
-        w.addPlane({0.1, 0.2, -1}, 2);
-    }
-    const PoseGaussian prior{{}, 1e-2 * Matrix6d::Identity()};
-    double mean = 0;
-    for (int run = 0; run < kNumProblems; ++run)
-    {
-        mean += scatterOf(test::atRest({}, w.drawPlanes(), {}, prior)) / kNumProblems;
-    }
-    // A few per cent are followed; three standard deviations of 100 means of 120 squares are 0.08.
-    EXPECT_NEAR(mean, 2, 0.15);
-}
-
 /** The residuals are as large, and their order tells them apart. */
 TEST(Scatter, showsThatNeighboursErrTogether)
 {
