@@ -17,6 +17,7 @@
 #include "TempDir.h"
 #include "matchers.h"
 #include "rawlog_samples.h"
+#include "scan_images.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -123,6 +124,18 @@ TEST(ObservationConverter, deepImagesAreAsBrightAsTheirCameraCanBe)
     EXPECT_EQ(middleOf(4095, "sixteen"), 8) << "a dark image is dark";
     EXPECT_EQ(middleOf(1023, "twelve"), 32);
     EXPECT_EQ(middleOf(4095, "ten"), 128) << "it has more bits than were seen";
+}
+
+TEST(ObservationConverter, aHotPixelDoesNotDarkenTheImage)
+{
+    cv::Mat pixels(48, 64, CV_16UC1, cv::Scalar(512));
+    pixels.row(0).setTo(1023);
+    pixels.at<std::uint16_t>(20, 20) = 65535;
+    int bits = kFewestBits;
+    const cv::Mat gray = grayOf(pixels, bits);
+    EXPECT_EQ(bits, 10);
+    EXPECT_EQ(gray.at<std::uint8_t>(3, 3), 128);
+    EXPECT_EQ(gray.at<std::uint8_t>(20, 20), 255);
 }
 
 TEST(ObservationConverter, saturatedDepthIsNoReading)

@@ -3,6 +3,7 @@
 
 #include <pointplane/mrpt_io/ScanWriter.h>
 
+#include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include <cstddef>
@@ -14,6 +15,14 @@ namespace pointplane
 namespace
 {
 constexpr float kNoDepth = std::numeric_limits<float>::quiet_NaN();
+
+/** Hot pixels are full whatever the camera sees: so few do not tell how many bits it has. */
+constexpr double kHotPixels = 0.001;
+
+int numAbove(const cv::Mat& image, int brightest)
+{
+    return cv::countNonZero(image.reshape(1) > brightest);
+}
 }  // namespace
 
 void requireUsable(bool condition, const std::string& problem)
@@ -39,9 +48,8 @@ cv::Mat grayOf(const cv::Mat& image, int& bits)
     cv::Mat bytes = image;
     if (image.depth() == CV_16U)
     {
-        double brightest = 0;
-        cv::minMaxIdx(image.reshape(1), nullptr, &brightest);
-        while (brightest >= 1 << bits)
+        const double few = kHotPixels * static_cast<double>(image.total());
+        while (bits < 16 && numAbove(image, (1 << bits) - 1) > few)
         {
             bits += 2;
         }
