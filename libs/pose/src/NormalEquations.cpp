@@ -171,12 +171,12 @@ double NormalEquations::medianOf(size_t begin, size_t end, const IsChosen& isCho
 
 /** Each point counts for the surface that it stands for, which grows with the square of its depth:
  * what is close and moves may have most of the points, and must not set the scale by which it is
- * told apart. All points count alike with the paper's weights, and where the farthest are too few
- * to decide: as if they were fewer (Kish 1965) than a pose has unknowns. */
+ * told apart. All points count alike with the paper's weights, and where one point outweighs all
+ * others, if these could tell the six unknowns of a pose. */
 double NormalEquations::robustVariance() const
 {
     std::vector<std::pair<double, double>> normsAndSurfaces;
-    double sum = 0, sumOfSquares = 0;
+    double sum = 0, largest = 0;
     for (size_t i = 0; i < pairs_.numPoints(); ++i)
     {
         if (isUsable(i))
@@ -184,10 +184,11 @@ double NormalEquations::robustVariance() const
             const double z = pairs_.point(i).cur.mean.z();
             normsAndSurfaces.emplace_back(relativeNorm(i), z * z);
             sum += z * z;
-            sumOfSquares += z * z * z * z;
+            largest = std::max(largest, z * z);
         }
     }
-    if (solver_.weighting == PoseSolver::Weighting::Full && sum * sum >= 6 * sumOfSquares)
+    const bool isOutvoted = normsAndSurfaces.size() > 6 && largest > sum - largest;
+    if (solver_.weighting == PoseSolver::Weighting::Full && !isOutvoted)
     {
         return medianVariance(normsAndSurfaces);
     }
