@@ -83,6 +83,22 @@ TEST(WarpedPatches, findsWhatIsTurnedLargerOrSlanted)
     }
 }
 
+/** From where it ended, it goes nowhere, also if it is told the wrong turn. */
+TEST(WarpedPatches, theSearchGoesOnUntilItHasArrived)
+{
+    const Matrix2d turned = Eigen::Rotation2Dd(0.14).toRotationMatrix();
+    for (unsigned seed = 1; seed <= 8; ++seed)
+    {
+        const WarpedPatches patches = patchAt(textured(seed), {70, 55}, kBoth);
+        const cv::Mat image = warped(seed, turned);
+        cv::Point2f first(81.3F, 60.6F);
+        ASSERT_TRUE(patches.refine(0, image, Matrix2d::Identity(), first));
+        cv::Point2f second = first;
+        ASSERT_TRUE(patches.refine(0, image, Matrix2d::Identity(), second));
+        EXPECT_LT(cv::norm(second - first), 0.05) << seed;
+    }
+}
+
 TEST(WarpedPatches, aShiftOfBrightnessDoesNotMatter)
 {
     const Matrix2d A = Eigen::Rotation2Dd(0.05).toRotationMatrix();

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -23,9 +22,9 @@ struct ReferencePatches
         refined.reserve(numPoints, windowPx / 2);
     }
 
-    /** \param pyramid with derivatives \param patch of the search's window \param brightness
-     * constant for edges, along which it may be all that tells anything \param measured see
-     * WarpedPatches */
+    /** \param pyramid with derivatives \param patch by which the point is placed, at most as large
+     * as the search's window \param brightness constant for edges, along which it may be all that
+     * tells anything \param measured see WarpedPatches */
     void add(
         const std::vector<cv::Mat>& pyramid,
         const Patch& patch,
@@ -33,13 +32,7 @@ struct ReferencePatches
         const Directions& measured)
     {
         searched.add(pyramid, patch.centre(), brightness);
-        // Corners have structure enough nearer to their centre, where the surface is flatter.
-        const int innerPx = std::max(3 * patch.halfPx() / 4, WarpedPatches::kComparedPx / 2);
-        refined.add(
-            brightness == Brightness::Shifted ? patch.inner(std::min(innerPx, patch.halfPx()))
-                                              : patch,
-            brightness,
-            measured);
+        refined.add(patch, brightness, measured);
     }
 };
 

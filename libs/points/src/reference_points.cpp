@@ -48,6 +48,13 @@ std::vector<cv::Point2f> cornersOf(
     return out;
 }
 
+/** Corners have structure enough nearer to their centre, where the surface is flatter. */
+Patch middleOf(const Patch& window)
+{
+    const int halfPx = std::max(3 * window.halfPx() / 4, WarpedPatches::kComparedPx / 2);
+    return window.inner(std::min(halfPx, window.halfPx()));
+}
+
 /** Nothing without structure or depth, and nothing on an edge where the depth jumps. */
 std::optional<Candidate> candidateAt(
     const cv::Point2f& pixel,
@@ -63,17 +70,17 @@ std::optional<Candidate> candidateAt(
         return {};
     }
     Patch patch(frame.gray, derivatives, pixel, params.windowPx / 2);
-    Brightness brightness = Brightness::Shifted;
-    PatchUncertainty uncertainty = patchUncertainty(patch, noise, brightness);
-    const bool isCorner = uncertainty.worst() <= params.maxNoisePx;
-    if (!isCorner)
+    const bool isCorner =
+        patchUncertainty(patch, noise, Brightness::Shifted).worst() <= params.maxNoisePx;
+    if (isCorner)
     {
-        brightness = Brightness::Constant;
-        uncertainty = patchUncertainty(patch, noise, brightness);
-        if (!(uncertainty.best() <= kEdgeOfCorner * params.maxNoisePx))
-        {
-            return {};
-        }
+        patch = middleOf(patch);
+    }
+    const Brightness brightness = isCorner ? Brightness::Shifted : Brightness::Constant;
+    const PatchUncertainty uncertainty = patchUncertainty(patch, noise, brightness);
+    if (!(uncertainty.best() <= (isCorner ? 1 : kEdgeOfCorner) * params.maxNoisePx))
+    {
+        return {};
     }
     const auto point = lifter.lift(frame, Eigen::Vector2f(pixel.x, pixel.y).cast<double>());
     if (!point || (!isCorner && isNearDepthJump(frame, *point)))

@@ -10,7 +10,8 @@ namespace pointplane
 {
 namespace
 {
-constexpr int kIterations = 2;
+constexpr int kMostSteps = 4;
+constexpr float kConverged_px = 0.02F;  // well below the noise of a position
 constexpr float kFarthest_px = 2;
 // What does not fit is much the same at neighbours: 2 x 2 pixels tell as much as one.
 constexpr double kPixelsAlike = 4;
@@ -100,7 +101,7 @@ std::optional<double> WarpedPatches::refine(
     Step last;
     const auto isInside = [&](float x, float y)
     { return canSample(image, found + A * Eigen::Vector2f(x, y)); };
-    for (int i = 0; i < kIterations; ++i)
+    for (int i = 0; i < kMostSteps; ++i)
     {
         const cv::Rect2f& r = p.pixels;
         if (!(isInside(r.x, r.y) && isInside(r.x + r.width, r.y) && isInside(r.x, r.y + r.height) &&
@@ -113,6 +114,10 @@ std::optional<double> WarpedPatches::refine(
         if (!((found - start).norm() <= kFarthest_px))  // also for NaN
         {
             return {};
+        }
+        if (last.shift.norm() < kConverged_px)
+        {
+            break;
         }
     }
     position = {found.x(), found.y()};
