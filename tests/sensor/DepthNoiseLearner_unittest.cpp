@@ -128,6 +128,35 @@ TEST_F(DepthNoiseLearnerTest, itIsToldAtWhichDistancesItWasLearnt)
     EXPECT_EQ(learnt(0.5, 4, camera, given).learntTo, 0);
 }
 
+/** Depth of 256 columns, enlarged to the size of colour images. */
+TEST_F(DepthNoiseLearnerTest, theSizeToWhichDepthIsEnlargedDoesNotMatter)
+{
+    const auto sigmaAt = [&](int width)
+    {
+        DepthNoiseLearner learner(DepthNoise{});
+        for (int i = 0; i < 3; ++i)
+        {
+            cv::Mat image;
+            cv::resize(
+                floorImage(0.8, 4, [&](double z) { return z + 6e-3 * normal(); }),
+                image,
+                {256, 192},
+                0,
+                0,
+                cv::INTER_NEAREST);
+            cv::resize(image, image, {width, width * 3 / 4}, 0, 0, cv::INTER_LINEAR);
+            learner.update(image);
+        }
+        return learner.noise().sigmaZ(2);
+    };
+    const double sigma = sigmaAt(640);
+    EXPECT_GT(sigma, 3e-3);
+    for (const int width : {1280, 1920, 2560})
+    {
+        EXPECT_NEAR(sigmaAt(width), sigma, 0.2 * sigma) << width;
+    }
+}
+
 TEST_F(DepthNoiseLearnerTest, muchNoiseInInverseDepthIsActiveStereo)
 {
     const DepthNoise noise =

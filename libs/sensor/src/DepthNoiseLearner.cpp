@@ -3,6 +3,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <opencv2/imgproc.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -54,6 +55,20 @@ constexpr double kRenderedSigma = 1e-4;  // [m]
 
 [[nodiscard]] double depthOfBin(int bin) { return kLeastDepth * std::exp2(0.5 * (bin + 0.5)); }
 
+/** The image with 640 columns, or not many more. Large depth images are enlarged ones, whose
+ * neighbours err alike: cells of few pixels would see too little of the noise. */
+[[nodiscard]] cv::Mat thinned(const cv::Mat& depth)
+{
+    constexpr double kWidth_px = 640;
+    const double factor = std::round(depth.cols / kWidth_px);
+    cv::Mat out = depth;
+    if (factor > 1)
+    {
+        cv::resize(depth, out, {}, 1 / factor, 1 / factor, cv::INTER_NEAREST);
+    }
+    return out;
+}
+
 /** Of its values, some lie between the least and the largest. Otherwise they are rounded to one or
  * two, which hides their noise. */
 [[nodiscard]] bool hasThreeLevels(const cv::Mat& cell)
@@ -100,14 +115,15 @@ void DepthNoiseLearner::update(const cv::Mat& depth)
         ++numImages_;
         return;
     }
+    const cv::Mat cells = thinned(depth);
     Counts image;
     const int stride = kEveryCell * kCellPx;
-    for (int v = 0; v + kCellPx <= depth.rows; v += stride)
+    for (int v = 0; v + kCellPx <= cells.rows; v += stride)
     {
         // Columns are shifted from row to row, so that a grid in the scene is no grid here.
-        for (int u = v / stride % kEveryCell * kCellPx; u + kCellPx <= depth.cols; u += stride)
+        for (int u = v / stride % kEveryCell * kCellPx; u + kCellPx <= cells.cols; u += stride)
         {
-            addCell(depth, u, v, image);
+            addCell(cells, u, v, image);
         }
     }
     if (std::any_of(image.cells.begin(), image.cells.end(), [](double n) { return n > 0; }))
