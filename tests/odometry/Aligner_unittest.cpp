@@ -157,7 +157,8 @@ TEST_F(AlignerTest, aGuessIsAsUncertainAsItsDistanceFromTheOtherOne)
     EXPECT_GT(apart.norm(), 1e-4);
     EXPECT_THAT(
         alignment.doubt,
-        test::IsMatrixNear(Matrix6d(apart * apart.transpose()), 0.01 * apart.squaredNorm()));
+        test::IsMatrixNear(Matrix6d(apart * apart.transpose()), 0.05 * apart.squaredNorm()))
+        << "a solution is known to a hundredth of its sigma";
 }
 }  // namespace
 }  // namespace pointplane

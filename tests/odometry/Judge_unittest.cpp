@@ -279,6 +279,19 @@ TEST(Judge, moreSurfacesDoNotOutweighResidualsOfNoMotion)
     EXPECT_TRUE(isBetter(right, between));
 }
 
+/** Planes alone have no residuals of points. */
+TEST(Judge, residualsOfNoPointsDoNotOutweighThoseOfABlurredFrame)
+{
+    Alignment blurred = makeAlignment(kCertain);
+    blurred.estimate.pointChi2PerDof = 2.1 * kUsual.points;
+    blurred.numSought = 200;
+    blurred.estimate.numPointInliers = 150;
+    Alignment planes = makeAlignment(kCertain);
+    planes.estimate.pointChi2PerDof = 0;
+    planes.estimate.numPointInliers = 0;
+    EXPECT_TRUE(isBetter(blurred, planes));
+}
+
 TEST(Judge, residualsDoNotDecideBetweenTwoMotionsOfABlurredFrame)
 {
     Alignment more = makeAlignment(kCertain);

@@ -126,6 +126,17 @@ TEST(LatestImages, depthWithoutReadingsIsNotRepeated)
     EXPECT_EQ(renew(images, depthAlone), "");
 }
 
+TEST(LatestImages, anImageIsRepeatedAlsoAfterAFrameWithoutOne)
+{
+    LatestImages images(0.1, 20);
+    EXPECT_EQ(renew(images, frameOf(2, 100)), "");
+    RgbdFrame depthAlone = frameOf(3, 100);
+    depthAlone.gray.release();
+    EXPECT_EQ(renew(images, depthAlone), "");
+    EXPECT_NE(renew(images, frameOf(4, 100)), "");
+    EXPECT_EQ(renew(images, frameOf(5, 101)), "");
+}
+
 TEST(LatestImages, whatIsForgottenIsNotRepeated)
 {
     LatestImages images(0.1, 20);

@@ -177,6 +177,28 @@ TEST_F(OdometryEnvelope, blindForASecondAndBackInAKnownPlace)
     EXPECT_THAT(back.pose.mean, test::IsNearPose(desk().sequence().trueMotion(0, 52), 0.03, 0.03));
 }
 
+/** As of a stream that mixes up cameras. The images are told apart by the prediction alone. */
+TEST(OdometryEnvelopeOfForeignFrames, twoOfThemDoNotHideTheKnownPlace)
+{
+    OdometryParams params;
+    params.pipeline.searchImages = false;
+    test::CheckedOdometry odometry(params);
+    (void)odometry.run(0, 5);
+    test::CachedSequence room("room");
+    const RgbdFrame foreign[] = {test::CachedSequence::desk().frame(6), room.frame(7)};
+    for (int i = 0; i < 2; ++i)
+    {
+        RgbdFrame frame = foreign[i];
+        frame.stamp = test::CachedSequence::corner().frame(6 + i).stamp;
+        EXPECT_EQ(odometry.process(frame).status, TrackingStatus::Predicted) << i;
+    }
+    const OdometryResult back = odometry.run(8, 8);
+    EXPECT_EQ(back.status, TrackingStatus::Tracked) << back.reason;
+    EXPECT_THAT(
+        back.pose.mean,
+        test::IsNearPose(test::CachedSequence::corner().sequence().trueMotion(0, 8), 0.005, 0.005));
+}
+
 TEST_F(OdometryEnvelope, frozenImagesAreSaid)
 {
     for (int i = 0; i < 5; ++i)

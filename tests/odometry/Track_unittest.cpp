@@ -210,15 +210,25 @@ TEST_F(TrackTest, aLateFrameStays)
     EXPECT_GT(sigma(), before);
 }
 
-TEST_F(TrackTest, whatInterruptsItIsTold)
+TEST_F(TrackTest, anotherCameraIsTold)
 {
     measure(1, 0.01);
-    EXPECT_EQ(track_.interruption(2, camera()), "");
-    EXPECT_NE(track_.interruption(0.5, camera()), "");
     PinholeCamera other = camera();
     other.fx = 510;
     EXPECT_FALSE(track_.isOf(other));
-    EXPECT_NE(track_.interruption(2, other), "");
+}
+
+/** Any time may have passed since the frames before: a long gap, whatever the new clock shows. */
+TEST_F(TrackTest, whenTheClockIsSetTheTimeThatPassedIsUnknown)
+{
+    measure(1, 0.01);
+    EXPECT_FALSE(track_.followClock(1.1));
+    EXPECT_TRUE(track_.isLate(0.5));
+    EXPECT_FALSE(track_.isLate(0.6));
+    EXPECT_TRUE(track_.followClock(0.6));
+    EXPECT_EQ(track_.references().size(), 2) << "they can still be compared with";
+    EXPECT_DOUBLE_EQ(track_.prediction(0.6).dt, MotionModel::kLongestStep);
+    EXPECT_FALSE(track_.isLate(0.7));
 }
 
 /** A stamp that is no number is taken for a usual step. */

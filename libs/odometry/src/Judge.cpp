@@ -63,6 +63,13 @@ double pointShare(const Alignment& a)
     return static_cast<double>(a.estimate.numPointInliers) / std::max(a.numSought, kFewPoints);
 }
 
+/** Of the residuals of points; without points, they tell nothing. */
+double pointVariance(const Alignment& a)
+{
+    return a.estimate.numPointInliers > 0 ? a.estimate.pointChi2PerDof
+                                          : std::numeric_limits<double>::infinity();
+}
+
 /** How much speaks for an alignment, to compare it with another one of the same frame.
  * \param motionVariance residuals of points that are larger are those of no motion, but of one
  * between two */
@@ -71,7 +78,7 @@ double evidence(const Alignment& alignment, double motionVariance)
     const double surfaces =
         alignment.agreement.fraction() *
         std::min(1.0, 1.0 * alignment.agreement.seen() / Judge::kEnoughSurfaces);
-    const bool isMotion = alignment.estimate.pointChi2PerDof < motionVariance;
+    const bool isMotion = pointVariance(alignment) < motionVariance;
     return (alignment.holds ? 1 : 0) + (isMotion ? 1 : 0) + surfaces + pointShare(alignment);
 }
 
@@ -136,8 +143,7 @@ void Judge::keepBetter(Alignment& best, Alignment other, const NoiseFactors& usu
     marks.insert(marks.end(), other.marks.begin(), other.marks.end());
     const double motionVariance =
         kConvincingRise *
-        std::max(
-            usual.points, std::min(best.estimate.pointChi2PerDof, other.estimate.pointChi2PerDof));
+        std::max(usual.points, std::min(pointVariance(best), pointVariance(other)));
     if (evidence(other, motionVariance) > evidence(best, motionVariance))
     {
         best = std::move(other);

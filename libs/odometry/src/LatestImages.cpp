@@ -90,7 +90,7 @@ std::string LatestImages::renew(RgbdFrame& frame)
     {
         std::swap(depth_, readings_);
     }
-    if (!repeatsGray)
+    if (!repeatsGray && !frame.gray.empty())
     {
         makeOwn(gray_);
         frame.gray.copyTo(gray_);
@@ -101,7 +101,7 @@ std::string LatestImages::renew(RgbdFrame& frame)
     {
         frame.depth = cv::Mat(depth_.size(), depth_.type(), kNoReading);
     }
-    frame.gray = repeatsGray ? cv::Mat() : gray_;
+    frame.gray = repeatsGray || frame.gray.empty() ? cv::Mat() : gray_;
     return repeatsReadings && frame.gray.empty()
                ? "its images are those of the frame before, byte for byte"
            : repeatsReadings ? "its depth image is that of the frame before, byte for byte"

@@ -2,6 +2,8 @@
 #include <pointplane/core/check.h>
 #include <pointplane/odometry/Odometry.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <limits>
 #include <optional>
 #include <string>
@@ -39,13 +41,14 @@ struct Odometry::Impl
     [[nodiscard]] std::string whyUnusable(const RgbdFrame& frame);
     [[nodiscard]] std::string whyNoDepth(const RgbdFrame& frame, const Features& current) const;
     [[nodiscard]] Alignment align(const Features& current, FrameDiagnostics& diagnostics);
-    [[nodiscard]] Reference newReference(const Features& current, const RgbdFrame& part);
+    [[nodiscard]] Reference newReference(const Features& current, PointReference points);
     void restart(const RgbdFrame& frame, const Features& current, OdometryResult& result);
     void measure(const Features& current, Alignment& alignment, OdometryResult& result);
     [[nodiscard]] PoseAnalysis analyse(const Features& current, Alignment& alignment) const;
     [[nodiscard]] JointCovariance::Measurement learnErrors(
         const Features& current, const Alignment& alignment, const PoseAnalysis& analysis);
-    [[nodiscard]] bool needsKeyframe(const Features& current, const Alignment& alignment) const;
+    [[nodiscard]] std::optional<PointReference> keyframePoints(
+        const Features& current, const Alignment& alignment, const PoseAnalysis& analysis) const;
     void predict(const Features& current, OdometryResult& result);
     void extrapolate(TrackingStatus status, double stamp, OdometryResult& result);
 
@@ -129,9 +132,16 @@ void Odometry::Impl::place(const RgbdFrame& frame, OdometryResult& result)
         addReason("a path cannot begin without depth", result);
         return extrapolate(TrackingStatus::Lost, frame.stamp, result);
     }
-    const std::string interruption = isFirst ? "" : track.interruption(frame.stamp, frame.camera);
-    addReason(interruption, result);
-    if (isFirst || !interruption.empty())
+    const bool isOtherCamera = !isFirst && !track.isOf(frame.camera);
+    if (!isFirst && track.followClock(frame.stamp))
+    {
+        addReason(
+            "two stamps in a row are not after an earlier one: the clock was set back, or frames "
+            "are out of order",
+            result);
+    }
+    addReason(isOtherCamera ? "the camera's size or calibration has changed" : "", result);
+    if (isFirst || isOtherCamera)
     {
         return restart(frame, current, result);
     }
@@ -194,26 +204,34 @@ Alignment Odometry::Impl::align(const Features& current, FrameDiagnostics& diagn
         // What cannot be told in this frame, later frames may tell with the same references.
         return out;
     }
-    const auto place =
-        params.pipeline.searchImages ? recognise(frontEnd, current, track) : std::nullopt;
-    if (place)
+    // On a copy: what may be in view makes room only for what is.
+    const auto holdsAfter = [&](const auto& change)
     {
-        // On a copy: key frames that may be in view make room only for a place that is.
-        Track recalled = track;
-        recalled.recall(*place);
-        FrameDiagnostics ofRecalled = diagnostics;
-        if (aligner.align(frontEnd, current, recalled, errors, ofRecalled).holds)
+        Track changed = track;
+        FrameDiagnostics ignored = diagnostics;
+        return change(changed) && aligner.align(frontEnd, current, changed, errors, ignored).holds;
+    };
+    const auto alignAfter = [&](const auto& change)
+    {
+        change(track);
+        return aligner.align(frontEnd, current, track, errors, diagnostics);
+    };
+    const auto& places = track.places();
+    for (auto place = places.rbegin(); place != places.rend() && params.pipeline.searchImages;
+         ++place)
+    {
+        const auto recall = [id = place->id](Track& t)
         {
-            track.recall(*place);
-            out = aligner.align(frontEnd, current, track, errors, diagnostics);
+            t.recall(id);
+            return true;
+        };
+        if (recognises(frontEnd, current, *place) && holdsAfter(recall))
+        {
+            return alignAfter(recall);
         }
     }
-    if (!out.holds && track.restartAtUnmatched())
-    {
-        // None of the references is in view any more; the latest frame did not find them either.
-        out = aligner.align(frontEnd, current, track, errors, diagnostics);
-    }
-    return out;
+    const auto restart = [](Track& t) { return t.restartAtUnmatched(); };
+    return holdsAfter(restart) ? alignAfter(restart) : out;
 }
 
 namespace
@@ -229,12 +247,11 @@ Reference referenceOf(const Features& current)
 }
 }  // namespace
 
-/** With all that later frames are compared by, but for what the track adds. \param part of the
- * frame that points are taken from */
-Reference Odometry::Impl::newReference(const Features& current, const RgbdFrame& part)
+/** With all that later frames are compared by, but for what the track adds. */
+Reference Odometry::Impl::newReference(const Features& current, PointReference points)
 {
     Reference out = referenceOf(current);
-    out.points = frontEnd.pointReference(current, part);
+    out.points = std::move(points);
     out.images = frontEnd.keyframeImages(current);
     showNewPoints(out.points, shown);
     return out;
@@ -245,7 +262,7 @@ void Odometry::Impl::restart(
     const RgbdFrame& frame, const Features& current, OdometryResult& result)
 {
     result.status = track.isEmpty() ? TrackingStatus::First : TrackingStatus::Predicted;
-    Reference reference = newReference(current, current.frame);
+    Reference reference = newReference(current, frontEnd.pointReference(current, current.frame));
     if (reference.points.points.empty())
     {
         addReason(frontEnd.whyNoPoint(frame), result);
@@ -276,11 +293,9 @@ void Odometry::Impl::measure(const Features& current, Alignment& alignment, Odom
     showPairs(alignment.associations, &analysis, shown);
     shown.moving = frontEnd.findMoving(
         current, earlierViews(track, current.frame, motion.mean, errors.camera()));
-    shown.isKeyframe = needsKeyframe(current, alignment);
-    Reference reference =
-        shown.isKeyframe
-            ? newReference(current, stillPart(current, shown.moving, analysis.surfaces))
-            : referenceOf(current);
+    std::optional<PointReference> points = keyframePoints(current, alignment, analysis);
+    shown.isKeyframe = points.has_value();
+    Reference reference = points ? newReference(current, std::move(*points)) : referenceOf(current);
     reference.surfaces = analysis.surfaces;
     track.measure(
         {std::move(reference),
@@ -323,20 +338,39 @@ JointCovariance::Measurement Odometry::Impl::learnErrors(
          alignment.doubt});
 }
 
-bool Odometry::Impl::needsKeyframe(const Features& current, const Alignment& alignment) const
+/** Those of a measured frame that becomes a key frame. */
+std::optional<PointReference> Odometry::Impl::keyframePoints(
+    const Features& current, const Alignment& alignment, const PoseAnalysis& analysis) const
 {
-    // Without depth, it shows nothing that others could be compared with.
-    return current.hasDepth && (track.needsKeyframe(
-                                    alignment.estimate.motion.mean.T_prev_cur,
-                                    track.overlap(alignment.associations, current)) ||
-                                Judge::needsNewView(alignment, shown.moving));
+    constexpr std::size_t kPointsOfPose = 3;
+    if (!current.hasDepth)
+    {
+        return {};  // it shows nothing that others could be compared with
+    }
+    const bool isNew = track.needsKeyframe(
+                           alignment.estimate.motion.mean.T_prev_cur,
+                           track.overlap(alignment.associations, current)) ||
+                       Judge::needsNewView(alignment, shown.moving);
+    // The newest one may have been dark, blurred or without colour.
+    const std::size_t known = track.numPoints();
+    const bool mayHaveMore = !current.frame.gray.empty() &&
+                             known < static_cast<std::size_t>(params.pointTracker.minPoints);
+    if (!isNew && !mayHaveMore)
+    {
+        return {};
+    }
+    PointReference out =
+        frontEnd.pointReference(current, stillPart(current, shown.moving, analysis.surfaces));
+    const bool hasMore = out.points.size() >= 2 * std::max(kPointsOfPose, known);
+    return isNew || hasMore ? std::optional(std::move(out)) : std::nullopt;
 }
 
 /** A usable frame that could not be measured. */
 void Odometry::Impl::predict(const Features& current, OdometryResult& result)
 {
     result.status = TrackingStatus::Predicted;
-    std::optional<Reference> unmatched = newReference(current, current.frame);
+    std::optional<Reference> unmatched =
+        newReference(current, frontEnd.pointReference(current, current.frame));
     // [P17, section Matching]: consecutive frames, whatever became of the one before.
     const bool isAdjacent = params.reference.isAdjacent();
     if (!isAdjacent && unmatched->planes.planes.empty() && unmatched->points.points.empty())

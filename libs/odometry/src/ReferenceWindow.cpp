@@ -101,6 +101,18 @@ void ReferenceWindow::refinePreviousVelocity(const Vector6d& velocity)
     }
 }
 
+void ReferenceWindow::changeStamps(double by)
+{
+    previous_.stamp += by;
+    for (std::deque<Reference>* frames : {&keyframes_, &places_})
+    {
+        for (Reference& frame : *frames)
+        {
+            frame.stamp += by;
+        }
+    }
+}
+
 void ReferenceWindow::notePoints(const Association& association)
 {
     for (Reference& keyframe : keyframes_)

@@ -46,16 +46,6 @@ bool Track::isOf(const PinholeCamera& camera) const
     return started_ && sameCamera(camera_, camera);
 }
 
-std::string Track::interruption(double stamp, const PinholeCamera& camera) const
-{
-    if (stamp <= latestStamp_)
-    {
-        return "two stamps in a row are not after an earlier one: the clock was set back, or "
-               "frames are out of order";
-    }
-    return isOf(camera) ? "" : "the camera's size or calibration has changed";
-}
-
 bool Track::isLate(double stamp)
 {
     if (stamp > latestStamp_)
@@ -66,6 +56,23 @@ bool Track::isLate(double stamp)
     const bool clockWasSet = lateStamp_ && stamp > *lateStamp_;
     lateStamp_ = stamp;
     return !clockWasSet;
+}
+
+bool Track::followClock(double stamp)
+{
+    if (!(stamp <= latestStamp_))
+    {
+        return false;
+    }
+    const double change = stamp - MotionModel::kLongestStep - latestStamp_;
+    latestStamp_ += change;
+    window_.changeStamps(change);
+    if (unmatched_)
+    {
+        unmatched_->stamp += change;
+    }
+    lateStamp_.reset();
+    return true;
 }
 
 Prediction Track::prediction(double stamp)
@@ -197,8 +204,11 @@ PoseGaussian Track::predict(double stamp, std::optional<Reference> unmatched)
 
 PoseGaussian Track::stay(double stamp)
 {
-    const bool tells = latestStamp_ - stamp <= maxGap_;  // else the clock was set, or it is NaN
-    const double dt = tells ? stepBetween(stamp, latestStamp_) : MotionModel::kUsualStep;
+    // If the clock was set, any time may have passed. Without a stamp, frames follow in order.
+    const bool tells = latestStamp_ - stamp <= maxGap_;
+    const double dt = tells                  ? stepBetween(stamp, latestStamp_)
+                      : std::isfinite(stamp) ? MotionModel::kLongestStep
+                                             : MotionModel::kUsualStep;
     const PoseGaussian way = motion_.predict(dt).pose();
     const Vector6d mean = se3Log(way.mean);
     PoseGaussian increment;

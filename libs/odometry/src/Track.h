@@ -66,6 +66,9 @@ class Track
 
     [[nodiscard]] bool needsKeyframe(const Eigen::Isometry3d& T_prev_cur, double overlap) const;
 
+    /** ReferenceWindow::numPoints(). */
+    [[nodiscard]] std::size_t numPoints() const { return window_.numPoints(); }
+
     /** Pose in the world of the latest frame, measured or not. */
     [[nodiscard]] PoseGaussian pose() const { return history_.pose(); }
 
@@ -74,9 +77,6 @@ class Track
 
     /** Whether the latest frames are those of this camera. */
     [[nodiscard]] bool isOf(const PinholeCamera& camera) const;
-
-    /** Why a frame cannot be compared with the past, or empty. */
-    [[nodiscard]] std::string interruption(double stamp, const PinholeCamera& camera) const;
 
     /** Whether a frame's stamp is not after the latest one. One frame may be late. If a second one
      * follows it in order, the clock has been set, or the stamps before were wrong: it is not late.
@@ -100,6 +100,10 @@ class Track
     [[nodiscard]] const Vector6d& acceleration2() const { return motion_.acceleration2(); }
 
     // Transitions
+
+    /** Where isLate() found that the clock was set, the time since the frames so far is unknown:
+     * they count as kLongestStep old. \return whether it was set */
+    bool followClock(double stamp);
 
     /** From here on, frames are those of this camera. The next one is one for restart().
      * \param cov of its errors (ErrorModel::changeCamera()) */

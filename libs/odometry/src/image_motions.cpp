@@ -49,16 +49,9 @@ std::optional<Eigen::Isometry3d> motionOfPlanes(
     return out;
 }
 
-std::optional<int> recognise(const FrontEnd& frontEnd, const Features& current, const Track& track)
+bool recognises(const FrontEnd& frontEnd, const Features& current, const Reference& place)
 {
-    for (auto place = track.places().rbegin(); place != track.places().rend(); ++place)
-    {
-        const auto motion = frontEnd.alignImages(*place, current);
-        if (motion && Judge::areConvincing(frontEnd.compare(*place, current, motion->T_cur_ref, 0)))
-        {
-            return place->id;
-        }
-    }
-    return {};
+    const auto motion = frontEnd.alignImages(place, current);
+    return motion && Judge::areConvincing(frontEnd.compare(place, current, motion->T_cur_ref, 0));
 }
 }  // namespace pointplane

@@ -31,8 +31,8 @@ namespace pointplane
     const Reference& reference,
     const PoseGaussian& predicted);
 
-/** The older key frame (Track::places()) that the camera sees again, or nothing: by points that
- * look alike, and surfaces that lie where these put them. */
-[[nodiscard]] std::optional<int> recognise(
-    const FrontEnd& frontEnd, const Features& current, const Track& track);
+/** Whether the camera seems to see an older key frame again: by points that look alike, and
+ * surfaces that lie where these put them. */
+[[nodiscard]] bool recognises(
+    const FrontEnd& frontEnd, const Features& current, const Reference& place);
 }  // namespace pointplane
