@@ -15,6 +15,9 @@ install(
         ${CMAKE_CURRENT_BINARY_DIR}/pointplane-config-version.cmake
   DESTINATION ${package_dir} COMPONENT dev)
 
+if(NOT PROJECT_IS_TOP_LEVEL)
+  return()
+endif()
 install(FILES config.ini config-fast.ini config-paper.ini
         DESTINATION ${CMAKE_INSTALL_DATADIR}/pointplane COMPONENT tools)
 # With all that they link to.

@@ -8,15 +8,13 @@ set(CPACK_PACKAGE_CONTACT "the pointplane authors <pointplane@localhost.localdom
     CACHE STRING "Maintainer of the packages")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
-set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
-    OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_RELEASE "")
 set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS OFF)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS OFF)
-# Each component's own files for dpkg: copyright, changelog, stripped libraries, compressed pages.
+# Each component's own files for dpkg: copyright, changelog, stripped libraries, compressed pages, permissions.
 set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/finish_debian_tree.cmake)
 set(CPACK_POINTPLANE_SOURCE_DIR ${PROJECT_SOURCE_DIR})
 set(CPACK_POINTPLANE_STRIP ${CMAKE_STRIP})

@@ -3,7 +3,7 @@ include(GNUInstallDirs)
 
 # All that is installed: programs, libraries and, where they can be made, manual pages and the Python
 # module. ./demo builds it, so that `cmake --install` works after it.
-add_custom_target(products ALL)
+add_custom_target(pointplane_products ALL)
 
 set(POINTPLANE_TEST_TIMEOUT 300 CACHE STRING "Seconds that one test may take")
 
@@ -40,7 +40,7 @@ function(pointplane_add_library name)
   install(TARGETS ${target} EXPORT pointplaneTargets
           ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT dev)
   install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT dev)
-  add_dependencies(products ${target})
+  add_dependencies(pointplane_products ${target})
 endfunction()
 
 # pointplane_add_manual(NAME): the manual pages of pointplane-NAME and its subcommands out of their --help,
@@ -50,7 +50,8 @@ function(pointplane_add_manual name)
   set(program pointplane-${name})
   install(FILES ${PROJECT_SOURCE_DIR}/packaging/completion.bash COMPONENT tools
           DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME ${program})
-  if(NOT POINTPLANE_HELP2MAN OR POINTPLANE_SANITIZE)
+  # help2man runs the program.
+  if(NOT POINTPLANE_HELP2MAN OR POINTPLANE_SANITIZE OR CMAKE_CROSSCOMPILING)
     return()
   endif()
   set(page ${CMAKE_CURRENT_BINARY_DIR}/${program}.1)
@@ -62,7 +63,7 @@ function(pointplane_add_manual name)
     DEPENDS ${program} ${PROJECT_SOURCE_DIR}/packaging/manual_page.sh
     VERBATIM)
   add_custom_target(${program}-manual DEPENDS ${page})
-  add_dependencies(products ${program}-manual)
+  add_dependencies(pointplane_products ${program}-manual)
   install(FILES ${page} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT tools)
   install(DIRECTORY ${pages_of_commands}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT tools)
 endfunction()
@@ -79,7 +80,7 @@ function(pointplane_add_app name)
   pointplane_target_defaults(${target})
   pointplane_bind_now(${target})
   install(TARGETS ${target} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT tools)
-  add_dependencies(products ${target})
+  add_dependencies(pointplane_products ${target})
   pointplane_add_manual(${name})
 endfunction()
 

@@ -44,9 +44,13 @@ foreach(tree IN LISTS components)
     execute_process(COMMAND ${CPACK_POINTPLANE_STRIP} --remove-section=.comment --remove-section=.note ${programs}
                     COMMAND_ERROR_IS_FATAL ANY)
   endif()
-  file(GLOB_RECURSE files LIST_DIRECTORIES false ${tree}/usr/*)
+  # Not those of the umask under which packages are made.
+  file(GLOB_RECURSE files LIST_DIRECTORIES true ${tree}/*)
   foreach(file IN LISTS files)
-    if(NOT file MATCHES "/usr/bin/")
+    if(IS_DIRECTORY ${file})
+      file(CHMOD ${file} DIRECTORY_PERMISSIONS
+           OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+    elseif(NOT file MATCHES "/usr/bin/")
       file(CHMOD ${file} FILE_PERMISSIONS OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ)
     endif()
   endforeach()

@@ -67,7 +67,7 @@ add_mrpt_archive() {
     apt update
 }
 
-# install_packages NAME...: those that are missing; NAME? where it is offered.
+# install_packages NAME...: those that are missing; NAME? if it is offered and can be installed.
 install_packages() {
     command -v apt-get >/dev/null ||
         die "no apt-get: on another system install the equivalents of $* and run cmake by hand"
@@ -84,15 +84,16 @@ install_packages() {
         # Another source of the machine may be unreachable; what matters is whether install succeeds.
         apt update || echo "apt-get update failed; trying with the lists that are there" >&2
         add_mrpt_archive
-    fi
-    for package in "${optional[@]}"; do
-        is_offered "$package" && missing+=("$package")
-    done
-    if ((${#missing[@]})); then
         say "installing ${missing[*]}"
         apt install --yes --no-install-recommends "${missing[@]}" ||
             die "apt-get could not install ${missing[*]} (its own message is above)"
     fi
+    for package in "${optional[@]}"; do
+        is_offered "$package" || continue
+        say "installing $package"
+        (apt install --yes --no-install-recommends "$package") ||
+            echo "left out: $package (why is above)" >&2
+    done
 }
 
 # As many as there are cores, but no more than memory allows: the largest sources take 1.1 GB,

@@ -6,6 +6,10 @@ die() {
     printf 'error: %s\n' "$*" >&2
     exit 1
 }
+# has PACKAGE: it is among the packages.
+has() {
+    compgen -G "/packages/$1_*.deb" >/dev/null || { echo "not tried: there is no $1"; return 1; }
+}
 export DEBIAN_FRONTEND=noninteractive
 if ! compgen -G "/packages/*.deb" >/dev/null || [[ ! -e /clone ]]; then
     die "only on a clean machine with /packages: see tools/clean_machine.sh"
@@ -31,8 +35,7 @@ if [[ -d /data/tum_fr1_xyz_part ]]; then
         bash -c "$command" </dev/null
     done
 fi
-if [[ -e /usr/lib/python3/dist-packages/pointplane.$(python3 -c 'import sysconfig
-print(sysconfig.get_config_var("SOABI"))' 2>/dev/null).so ]]; then
+if has python3-pointplane; then
     python3 -c '
 import pointplane
 vo = pointplane.VisualOdometry("/usr/share/pointplane/config.ini")
@@ -42,7 +45,7 @@ assert result.status == "tracked", result
 print("python:", result, result.covariance.shape)'
 fi
 # A program of somebody else, against libpointplane-dev alone.
-if [[ -e /usr/lib/$(gcc -print-multiarch 2>/dev/null)/cmake/pointplane ]]; then
+if has libpointplane-dev; then
     apt-get -q install --yes --no-install-recommends g++ cmake make pkgconf
     cmake -S /clone/tests/consumer -B consumer -DCMAKE_BUILD_TYPE=Release
     cmake --build consumer

@@ -12,6 +12,25 @@ endfunction()
 file(REMOVE_RECURSE ${WORK_DIR})
 file(MAKE_DIRECTORY ${WORK_DIR})
 run(${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${WORK_DIR}/installed)
+
+# expect_find(REGEX COMPONENT [NAME=VALUE...]): what find_package() finds, with these variables in the environment.
+file(WRITE ${WORK_DIR}/find/CMakeLists.txt [[
+cmake_minimum_required(VERSION 3.22)
+project(find LANGUAGES CXX)
+find_package(pointplane QUIET COMPONENTS ${COMPONENT})
+message("found ${pointplane_FOUND}: ${pointplane_NOT_FOUND_MESSAGE}")
+]])
+function(expect_find regex component)
+  run(${CMAKE_COMMAND} -E env ${ARGN} ${CMAKE_COMMAND} -S ${WORK_DIR}/find -B ${WORK_DIR}/find/build
+      -G ${GENERATOR} -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_PREFIX_PATH=${WORK_DIR}/installed -DCOMPONENT=${component})
+  if(NOT output MATCHES "${regex}")
+    message(FATAL_ERROR "find_package() of component ${component}, not \"${regex}\":\n${output}")
+  endif()
+endfunction()
+expect_find("found 0: .*libdeflate" mrpt_io PKG_CONFIG_PATH= PKG_CONFIG_LIBDIR=${WORK_DIR}/find)
+expect_find("found 0" nothing)
+expect_find("found 1" mrpt_io)
+
 run(${CMAKE_COMMAND} -S ${SOURCE_DIR} -B ${WORK_DIR}/build -G ${GENERATOR} -DCMAKE_BUILD_TYPE=Release
     -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_PREFIX_PATH=${WORK_DIR}/installed)
 run(${CMAKE_COMMAND} --build ${WORK_DIR}/build)

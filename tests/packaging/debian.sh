@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Makes the Debian packages and looks into them: debian.sh BUILD WORK VERSION
 set -euo pipefail
+umask 077  # what is packed can be read all the same
 build=$1 work=$2 version=$3
 if ! command -v dpkg-shlibdeps >/dev/null; then
     echo "skipped: no dpkg-dev"
@@ -23,7 +24,10 @@ arch=$(dpkg --print-architecture)
 expect() {
     local deb=$work/$1_${version}_$2.deb pattern
     [[ -e $deb ]] || { problem "no $(basename "$deb")"; return; }
-    contents=$(dpkg-deb --contents "$deb" | awk '{print $6}')
+    contents=$(dpkg-deb --contents "$deb")
+    ! grep -E '^(d|-rwx)' <<<"$contents" | grep -vE '^.rwxr-xr-x' || problem "$1 is not for everyone"
+    ! grep -E '^-rw-' <<<"$contents" | grep -v '^-rw-r--r--' || problem "$1 is not for everyone"
+    contents=$(awk '{print $6}' <<<"$contents")
     for pattern in "${@:3}" "./usr/share/doc/$1/copyright" "./usr/share/doc/$1/changelog.gz"; do
         grep -qE "^$pattern( |$)" <<<"$contents" || problem "$1 lacks $pattern"
     done

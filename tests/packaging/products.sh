@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Everything that `cmake --install` takes from the build folder is made by the target `products`,
+# Everything that `cmake --install` takes from the build folder is made by the target `pointplane_products`,
 # which ./demo builds. products.sh BUILD
 set -euo pipefail
 build=$(realpath "$1")
-made=$(cd "$build" && ninja -t commands products)
+made=$(cd "$build" && ninja -t commands pointplane_products)
 installed=$(find "$build" -name cmake_install.cmake -not -path '*/_deps/*' -not -path '*/packaging/*/*' -exec cat {} + |
     grep -oE "\"$build/[^\"]+\"" | tr -d '"' | sort -u)
 failed=0
