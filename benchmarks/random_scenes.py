@@ -94,7 +94,7 @@ def measure(drawn, programs, config, folder):
         "-o", poses, "--diagnostics", table)
     run(programs / "pointplane-eval", "nees", truth, poses, "--interval", ",".join(INTERVALS), "--json",
         folder / "nees.json", "--save", steps)
-    run(programs / "pointplane-eval", "rpe", truth, poses, "--json", folder / "rpe.json")
+    run(programs / "pointplane-eval", "rpe", truth, poses, "--fixed-delta", "--delta", 1, "--json", folder / "rpe.json")
     with open(table, encoding="utf-8") as file:
         statuses = {round(float(row["stamp"]), 3): row["status"] for row in csv.DictReader(file)}
     with open(steps, encoding="utf-8") as file:
