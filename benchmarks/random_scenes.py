@@ -73,11 +73,12 @@ def run(*command):
 
 
 def is_beyond(step):
+    """Along one of the robot's axes. docs/envelope.md has principal axes, of covariances that --save does not write."""
     for axes, unit, least in (("x y z", "m", LEAST_ERROR[0]), ("rx ry rz", "rad", LEAST_ERROR[1])):
-        errors = [abs(float(step[f"error_{axis}_{unit}"])) for axis in axes.split()]
-        sigmas = [float(step[f"sigma_{axis}_{unit}"]) for axis in axes.split()]
-        if max(errors) > least and any(e > BEYOND_SIGMAS * s for e, s in zip(errors, sigmas)):
-            return True
+        for axis in axes.split():
+            error, sigma = abs(float(step[f"error_{axis}_{unit}"])), float(step[f"sigma_{axis}_{unit}"])
+            if error > least and error > BEYOND_SIGMAS * sigma:
+                return True
     return False
 
 
