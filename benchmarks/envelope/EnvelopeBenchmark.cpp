@@ -166,7 +166,7 @@ EnvelopeBenchmark::EnvelopeBenchmark(CLI::App& app)
     app.add_option(
         "--add",
         addedFile_,
-        "show the methods of an earlier run's --csv, too: peers do not change");
+        "show what an earlier run's --csv has of other methods, too: peers do not change");
     app.add_option("--failures", failuresFile_, "write the tracked steps that are wrong (CSV)");
     app.add_option("--markdown", markdownFile_, "replace a section of this page");
     app.add_option("--section", section_, "which one")->capture_default_str();

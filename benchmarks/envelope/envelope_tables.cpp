@@ -270,6 +270,14 @@ std::vector<EnvelopeScore> withMethodsOf(
 {
     const auto isSameCell = [](const EnvelopeScore& a, const EnvelopeScore& b)
     { return a.sequence == b.sequence && a.condition == b.condition; };
+    const auto isKnown = [&](const EnvelopeScore& other)
+    {
+        return std::any_of(
+            scores.begin(),
+            scores.end(),
+            [&](const EnvelopeScore& s)
+            { return isSameCell(s, other) && s.method == other.method; });
+    };
     std::vector<EnvelopeScore> out;
     for (std::size_t k = 0; k < scores.size(); ++k)
     {
@@ -280,7 +288,7 @@ std::vector<EnvelopeScore> withMethodsOf(
         }
         for (const EnvelopeScore& other : others)
         {
-            if (isSameCell(other, scores[k]))
+            if (isSameCell(other, scores[k]) && !isKnown(other))
             {
                 out.push_back(other);
                 out.back().truth = scores[k].truth;

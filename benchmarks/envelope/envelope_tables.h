@@ -22,7 +22,8 @@ namespace pointplane
 /** What envelopeCsv() has written, without the single steps. \throws InputError naming the line */
 [[nodiscard]] std::vector<EnvelopeScore> scoresFromCsv(const std::string& path);
 
-/** The scores with those that others have of the same cells, in the order of the first. */
+/** The scores with those that others have of other methods in the same cells, in the order of the
+ * first. */
 [[nodiscard]] std::vector<EnvelopeScore> withMethodsOf(
     const std::vector<EnvelopeScore>& scores, const std::vector<EnvelopeScore>& others);
 

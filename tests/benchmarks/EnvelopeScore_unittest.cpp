@@ -191,10 +191,13 @@ TEST(EnvelopeTables, ScoresOfAnEarlierRunComeBesideTheSameCells)
     EXPECT_NEAR(read[0].rpeTranslation, peer.rpeTranslation, 1e-6);
     EXPECT_NEAR(read[0].worstTranslation, 0.06, 1e-6);
 
-    const auto both = withMethodsOf({scoreOf(sequence, perfect(sequence))}, read);
+    const EnvelopeScore own = scoreOf(sequence, perfect(sequence));
+    const auto both = withMethodsOf({own}, read);
     ASSERT_EQ(both.size(), 2U);
     EXPECT_EQ(both[1].method, "peer");
     EXPECT_EQ(both[1].condition, "10 Hz");
+    // What was run again is not taken from the earlier run: it would count twice.
+    EXPECT_EQ(withMethodsOf({own}, {own, peer}).size(), 2U);
 
     std::ofstream(dir / "b.csv") << "header\none,two\n";
     EXPECT_THROW((void)scoresFromCsv(dir / "b.csv"), std::runtime_error);
