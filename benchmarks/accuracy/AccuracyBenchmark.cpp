@@ -89,5 +89,6 @@ void AccuracyBenchmark::run(std::ostream& out, std::ostream& err) const
         const std::string text = "\n" + markdownSummary(all) + markdownOverview(all);
         replaceMarkdownSection(markdownFile_, "accuracy", text + "\n");
     }
+    requireNoFailures(all);
 }
 }  // namespace pointplane

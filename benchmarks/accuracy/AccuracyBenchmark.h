@@ -20,7 +20,7 @@ class AccuracyBenchmark
     explicit AccuracyBenchmark(CLI::App& app);
 
     /** Tables to `out`, progress to `err`, files as asked for.
-     * \throws InputError, EnvironmentError */
+     * \throws InputError, EnvironmentError; after all is written, IncompleteError */
     void run(std::ostream& out, std::ostream& err) const;
 
  private:

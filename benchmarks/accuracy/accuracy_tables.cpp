@@ -53,7 +53,7 @@ template <class Value>
 {
     for (const MethodScore& m : scores.methods)
     {
-        if (!m.isPeer && m.failure.empty())
+        if (!m.isPeer)
         {
             return &m;
         }
@@ -63,7 +63,9 @@ template <class Value>
 
 [[nodiscard]] std::string errors(const MethodScore& m)
 {
-    return number(mm(m.rpeTranslation), 1) + " / " + number(degrees(m.rpeRotation), 2);
+    return m.failure.empty()
+               ? number(mm(m.rpeTranslation), 1) + " / " + number(degrees(m.rpeRotation), 2)
+               : "failed";
 }
 
 /** The least translation and rotation, and whose they are. */
@@ -120,7 +122,7 @@ std::string markdownOverview(const std::vector<SequenceScores>& all)
     {
         for (const MethodScore& m : scores.methods)
         {
-            grid.add(m.method, scores.sequence, m.failure.empty() ? errors(m) : "failed");
+            grid.add(m.method, scores.sequence, errors(m));
         }
     }
     return "\nAll methods, RPE over a second, mm / deg:\n\n" + grid.markdown("method");
@@ -142,8 +144,8 @@ std::string markdownSummary(const std::vector<SequenceScores>& all)
             continue;
         }
         name = own->method;
-        const bool isAhead =
-            own->rpeTranslation < t->rpeTranslation && own->rpeRotation < r->rpeRotation;
+        const bool isAhead = own->failure.empty() && own->rpeTranslation < t->rpeTranslation &&
+                             own->rpeRotation < r->rpeRotation;
         rows << "| " << scores.sequence << " | " << chosenOn(scores.sequence) << " | "
              << (isAhead ? errors(*own) : "**" + errors(*own) + "**") << " | "
              << leastErrors(*t, *r) << " | " << neesText(*own) << " |\n";
@@ -152,6 +154,21 @@ std::string markdownSummary(const std::vector<SequenceScores>& all)
            " [mm / deg] | least of a peer [mm / deg] | NEES over 1 frame / 10 frames / 1 s |\n"
            "|---|---|---|---|---|\n" +
            rows.str();
+}
+
+void requireNoFailures(const std::vector<SequenceScores>& all)
+{
+    for (const SequenceScores& scores : all)
+    {
+        for (const MethodScore& m : scores.methods)
+        {
+            if (!m.isPeer && !m.failure.empty())
+            {
+                throw IncompleteError(
+                    m.method + " failed on " + scores.sequence + ": " + m.failure);
+            }
+        }
+    }
 }
 
 nlohmann::ordered_json toJson(const std::vector<SequenceScores>& all)

@@ -26,5 +26,8 @@ struct SequenceScores
 /** Relative pose errors: a line a method, a column a sequence, Markdown. */
 [[nodiscard]] std::string markdownOverview(const std::vector<SequenceScores>& all);
 
+/** \throws IncompleteError naming the first sequence on which one of our methods failed */
+void requireNoFailures(const std::vector<SequenceScores>& all);
+
 [[nodiscard]] nlohmann::ordered_json toJson(const std::vector<SequenceScores>& all);
 }  // namespace pointplane

@@ -371,5 +371,6 @@ void EnvelopeBenchmark::run(std::ostream& out, std::ostream& err) const
     {
         replaceMarkdownSection(markdownFile_, section_, page);
     }
+    requireNoFailures(all);
 }
 }  // namespace pointplane

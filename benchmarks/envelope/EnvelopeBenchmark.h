@@ -20,7 +20,7 @@ class EnvelopeBenchmark
     explicit EnvelopeBenchmark(CLI::App& app);
 
     /** Tables to `out`, progress to `err`, files as asked for.
-     * \throws InputError, EnvironmentError */
+     * \throws InputError, EnvironmentError; after all is written, IncompleteError */
     void run(std::ostream& out, std::ostream& err) const;
 
  private:

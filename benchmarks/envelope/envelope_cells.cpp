@@ -30,11 +30,14 @@ std::string errorText(double metres, double radians)
 
 std::string rpeText(const EnvelopeScore& s)
 {
-    if (!s.failure.empty())
-    {
-        return "gave up";
-    }
-    return s.numPairs > 0 ? errorText(s.rpeTranslation, s.rpeRotation) : "-";
+    return !s.failure.empty() ? "gave up"
+           : s.numPairs > 0   ? errorText(s.rpeTranslation, s.rpeRotation)
+                              : "-";
+}
+
+std::string worstStepText(const EnvelopeScore& s)
+{
+    return s.failure.empty() ? errorText(s.worstTranslation, s.worstRotation) : "gave up";
 }
 
 std::string shareText(const EnvelopeScore& s)

@@ -37,6 +37,9 @@ struct Cell
 /** RPE over a second, or why there is none. */
 [[nodiscard]] std::string rpeText(const EnvelopeScore& s);
 
+/** Error of the worst tracked step, or why it is not known. */
+[[nodiscard]] std::string worstStepText(const EnvelopeScore& s);
+
 /** Tracked frames [%]. */
 [[nodiscard]] std::string shareText(const EnvelopeScore& s);
 }  // namespace pointplane

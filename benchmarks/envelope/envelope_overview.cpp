@@ -19,7 +19,8 @@ namespace
 std::string besideBestPeer(const Cell& cell)
 {
     const EnvelopeScore& own = *cell.own;
-    std::string out = own.numPairs > 0 ? lengthText(own.rpeTranslation) : "-";
+    std::string out =
+        own.failure.empty() && own.numPairs > 0 ? lengthText(own.rpeTranslation) : rpeText(own);
     out = own.beyond.empty() ? out : "**" + out + "**";
     const EnvelopeScore* peer = bestPeer(cell, &EnvelopeScore::rpeTranslation);
     return peer == nullptr ? out : out + " (" + lengthText(peer->rpeTranslation) + ")";
@@ -32,7 +33,7 @@ void addAlone(MarkdownGrid& grid, const Cell& cell, bool withPeers)
 {
     const EnvelopeScore& own = *cell.own;
     grid.add(own.sequence, withPeers ? "mm (best peer)" : "mm", besideBestPeer(cell));
-    grid.add(own.sequence, "worst step", errorText(own.worstTranslation, own.worstRotation));
+    grid.add(own.sequence, "worst step", worstStepText(own));
     grid.add(
         own.sequence,
         "NEES median / 99 %",
@@ -42,7 +43,7 @@ void addAlone(MarkdownGrid& grid, const Cell& cell, bool withPeers)
 /** What is told of a sequence under several conditions. */
 struct Summary
 {
-    std::size_t numCells{0}, numBeyond{0};
+    std::size_t numCells{0}, numBeyond{0}, numFailures{0};
     std::vector<double> translation, rotation, peerTranslation, peerRotation;
     std::vector<int> shares;  //!< of tracked frames [%]
     double largestStep{0};    //!< [m]
@@ -52,9 +53,10 @@ struct Summary
         const EnvelopeScore& own = *cell.own;
         ++numCells;
         numBeyond += own.beyond.empty() ? 0 : 1;
+        numFailures += own.failure.empty() ? 0 : 1;
         shares.push_back(std::stoi(shareText(own)));
         largestStep = std::max(largestStep, own.worstTranslation);
-        if (own.numPairs > 0)
+        if (own.failure.empty() && own.numPairs > 0)
         {
             translation.push_back(own.rpeTranslation);
             rotation.push_back(own.rpeRotation);
@@ -69,6 +71,12 @@ struct Summary
     }
 };
 
+std::string cellsText(const Summary& s)
+{
+    return std::to_string(s.numCells) +
+           (s.numFailures > 0 ? text(", gave up in %zu", s.numFailures) : "");
+}
+
 std::string medians(const std::vector<double>& translation, const std::vector<double>& rotation)
 {
     return translation.empty() ? "-" : errorText(median(translation), median(rotation));
@@ -76,7 +84,7 @@ std::string medians(const std::vector<double>& translation, const std::vector<do
 
 void addSummary(MarkdownGrid& grid, const std::string& sequence, const Summary& s)
 {
-    grid.add(sequence, "cells", std::to_string(s.numCells));
+    grid.add(sequence, "cells", cellsText(s));
     grid.add(sequence, "RPE", medians(s.translation, s.rotation));
     if (!s.peerTranslation.empty())
     {
@@ -87,7 +95,7 @@ void addSummary(MarkdownGrid& grid, const std::string& sequence, const Summary& 
 
 void addSteps(MarkdownGrid& grid, const std::string& sequence, const Summary& s)
 {
-    grid.add(sequence, "cells", std::to_string(s.numCells));
+    grid.add(sequence, "cells", cellsText(s));
     grid.add(sequence, "tracked %, median", std::to_string(median(s.shares)));
     grid.add(
         sequence, "least", std::to_string(*std::min_element(s.shares.begin(), s.shares.end())));

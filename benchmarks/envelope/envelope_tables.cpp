@@ -44,7 +44,7 @@ namespace
     std::string out =
         "| " + s.condition + " | " + text("%zu", s.numSteps) + " | " + shareText(s) + " |";
     out += hasTruth ? " " + rpeText(s) + " |" : "";
-    out += " " + errorText(s.worstTranslation, s.worstRotation) + " |";
+    out += " " + worstStepText(s) + " |";
     if (s.truth == Truth::Exact)
     {
         out += s.beyond.empty() ? " 0 |" : text(" **%zu** |", s.beyond.size());
@@ -56,10 +56,7 @@ namespace
     }
     for (const EnvelopeScore* other : cell.others)
     {
-        out += " " +
-               (hasTruth ? rpeText(*other)
-                         : errorText(other->worstTranslation, other->worstRotation)) +
-               " |";
+        out += " " + (hasTruth ? rpeText(*other) : worstStepText(*other)) + " |";
     }
     if (!cell.peers.empty() && hasTruth)
     {
@@ -77,7 +74,7 @@ namespace
 struct Sum
 {
     std::string name;
-    std::size_t steps{0}, tracked{0}, beyond{0};
+    std::size_t steps{0}, tracked{0}, beyond{0}, failures{0};
     double worstTranslation{0}, worstRotation{0};
 
     void add(const EnvelopeScore& s)
@@ -85,6 +82,7 @@ struct Sum
         steps += s.numSteps;
         tracked += s.numTracked;
         beyond += s.beyond.size();
+        failures += s.failure.empty() ? 0 : 1;
         worstTranslation = std::max(worstTranslation, s.worstTranslation);
         worstRotation = std::max(worstRotation, s.worstRotation);
     }
@@ -99,7 +97,7 @@ struct Sum
     std::vector<Sum> sums;
     for (const EnvelopeScore& s : scores)
     {
-        const std::string name = s.truth == Truth::Exact && s.failure.empty() ? key(s) : "";
+        const std::string name = s.truth == Truth::Exact ? key(s) : "";
         if (name.empty())
         {
             continue;
@@ -118,7 +116,8 @@ struct Sum
         << " | steps | tracked % | beyond 5σ | largest error, mm / deg |\n|---|---|---|---|---|\n";
     for (const Sum& s : sums)
     {
-        out << "| " << s.name << " | " << s.steps << " | "
+        out << "| " << s.name << " | " << s.steps
+            << (s.failures > 0 ? text(", gave up in %zu cells", s.failures) : "") << " | "
             << (100 * s.tracked) / std::max<std::size_t>(s.steps, 1) << " | " << s.beyond << " | "
             << errorText(s.worstTranslation, s.worstRotation) << " |\n";
     }
@@ -134,16 +133,18 @@ struct Sum
     {
         const EnvelopeScore* t = bestPeer(cell, &EnvelopeScore::rpeTranslation);
         const EnvelopeScore* r = bestPeer(cell, &EnvelopeScore::rpeRotation);
-        if (t == nullptr || r == nullptr || cell.own->numPairs == 0)
+        const bool gaveUp = !cell.own->failure.empty();
+        if (t == nullptr || r == nullptr || (cell.own->numPairs == 0 && !gaveUp))
         {
             continue;
         }
         ++compared;
-        if (cell.own->rpeTranslation > t->rpeTranslation || cell.own->rpeRotation > r->rpeRotation)
+        if (gaveUp || cell.own->rpeTranslation > t->rpeTranslation ||
+            cell.own->rpeRotation > r->rpeRotation)
         {
             ++behind;
             lines += cell.own->sequence == sequence ? ", " : "\n- " + cell.own->sequence + ": ";
-            lines += cell.own->condition;
+            lines += cell.own->condition + (gaveUp ? " (gave up)" : "");
             sequence = cell.own->sequence;
         }
     }
@@ -193,6 +194,18 @@ std::string envelopeTables(const std::vector<EnvelopeScore>& scores)
         out += row(cell);
     }
     return out;
+}
+
+void requireNoFailures(const std::vector<EnvelopeScore>& scores)
+{
+    for (const EnvelopeScore& s : scores)
+    {
+        if (!s.isPeer && !s.failure.empty())
+        {
+            throw IncompleteError(
+                s.method + " gave up in " + s.sequence + ", " + s.condition + ": " + s.failure);
+        }
+    }
 }
 
 std::string envelopeCsv(const std::vector<EnvelopeScore>& scores)

@@ -16,6 +16,9 @@ namespace pointplane
  * \param scores method by method within a condition, condition by condition within a sequence */
 [[nodiscard]] std::string envelopeTables(const std::vector<EnvelopeScore>& scores);
 
+/** \throws IncompleteError naming the first cell in which one of our methods gave up */
+void requireNoFailures(const std::vector<EnvelopeScore>& scores);
+
 /** A line per sequence, condition and method. */
 [[nodiscard]] std::string envelopeCsv(const std::vector<EnvelopeScore>& scores);
 

@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,13 @@ struct NamedMethod
     std::string name;
     bool isPeer{false};
     std::function<std::unique_ptr<Method>()> create;
+};
+
+/** One of our methods gave up; all else is done. */
+class IncompleteError : public std::runtime_error
+{
+ public:
+    using std::runtime_error::runtime_error;
 };
 
 /** One of ours: a configuration file with settings as "Section.key=value".

@@ -6,6 +6,7 @@
 #include <iostream>
 #include <string>
 
+#include "methods.h"
 #include <CLI/CLI.hpp>
 
 namespace pointplane
@@ -30,6 +31,10 @@ int runBenchmark(int argc, char** argv, const std::string& name, const std::stri
     catch (const CLI::ParseError& e)
     {
         return app.exit(e) == 0 ? kExitOk : kExitBadInput;
+    }
+    catch (const IncompleteError& e)
+    {
+        return failed(e, kExitIncomplete);
     }
     catch (const EnvironmentError& e)
     {

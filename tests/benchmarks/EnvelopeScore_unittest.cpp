@@ -223,6 +223,36 @@ TEST(EnvelopeTables, CellsBehindAPeerAreNamed)
     EXPECT_THAT(envelopeSummary({own, peer}), HasSubstr("Behind the best peer in 0 of 1 cells."));
 }
 
+/** Without a score, a cell looked as if it had never been run. */
+TEST(EnvelopeTables, CellsInWhichWeGaveUpAreSeenAndCountAsBehind)
+{
+    const BenchmarkSequence sequence = straight(31);
+    EnvelopeScore peer = scoreOf(sequence, perfect(sequence));
+    peer.method = "peer";
+    peer.isPeer = true;
+    EXPECT_NO_THROW(requireNoFailures({peer}));
+    EnvelopeScore own;
+    own.sequence = peer.sequence;
+    own.condition = peer.condition;
+    own.method = "config.ini";
+    own.failure = "no frame";
+    EXPECT_THAT(envelopeOverview({own, peer}), HasSubstr("| straight | gave up (0.0) | gave up |"));
+    EXPECT_THAT(envelopeTables({own, peer}), HasSubstr("| gave up | gave up |"));
+    EXPECT_THAT(
+        envelopeSummary({own, peer}),
+        testing::AllOf(
+            HasSubstr("| config.ini | 0, gave up in 1 cells |"),
+            HasSubstr("Behind the best peer in 1 of 1 cells:\n\n- straight: 10 Hz (gave up)\n")));
+    EnvelopeScore good = scoreOf(sequence, perfect(sequence));
+    good.condition = "3 Hz";
+    EXPECT_THAT(
+        envelopeOverview({own, peer, good}),
+        HasSubstr("| straight | 2, gave up in 1 | 0.0 / 0.00"));
+    EXPECT_THROW(requireNoFailures({good, own}), IncompleteError);
+    peer.failure = "singular";
+    EXPECT_NO_THROW(requireNoFailures({good, peer}));
+}
+
 TEST(EnvelopeTables, OverviewHasALinePerSequence)
 {
     const BenchmarkSequence sequence = straight(31);
