@@ -120,6 +120,21 @@ TEST(DepthSensor, noiseIsConstantInInverseDepthAndCorrelatedOverTheWindow)
     }
 }
 
+/** Interpolation takes of the noise, and how much depends on the grid. */
+TEST(DepthSensor, noiseOfAnEnlargedImageIsAsStated)
+{
+    SimulationParams params = only();
+    params.sigmaDepth = 0.002;
+    const Scene scene = sceneOf(1);
+    for (const int pixels : {1, 2, 3, 4})
+    {
+        params.upsampling = pixels;
+        const cv::Mat depth = DepthSensor(params, scene).sense(wall(2), 1);
+        const double norm = cv::norm(depth, cv::Mat(depth.size(), CV_32FC1, cv::Scalar(2)));
+        EXPECT_NEAR(norm / std::sqrt(kWidth * kHeight), 0.002, 0.02 * 0.002) << pixels;
+    }
+}
+
 TEST(DepthSensor, quantisationIsPartOfTheTotalNoise)
 {
     SimulationParams params = only();

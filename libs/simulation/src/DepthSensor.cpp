@@ -50,9 +50,7 @@ DepthSensor::FrameNoise DepthSensor::frameNoise(std::uint64_t frameKey) const
     }
     if (params_.sigmaDepth > 0)
     {
-        out.depth = params_.upsampling == 1
-                        ? whiteNoise(size, params_.sigmaDepth, {frameKey, 6})
-                        : gridNoise(size, params_.upsampling, params_.sigmaDepth, {frameKey, 6});
+        out.depth = upsampledNoise(size, params_.upsampling, params_.sigmaDepth, {frameKey, 6});
     }
     if (params_.sigmaRelative > 0)
     {

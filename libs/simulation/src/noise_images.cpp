@@ -9,6 +9,33 @@
 
 namespace pointplane
 {
+namespace
+{
+/** \param sigma of the points of the grid, with which those between them are interpolated */
+cv::Mat betweenPoints(
+    cv::Size size, double grid, double sigma, const NoiseKey& key, cv::InterpolationFlags flag)
+{
+    const int rows = static_cast<int>(std::ceil(size.height / grid)) + 1;
+    const int cols = static_cast<int>(std::ceil(size.width / grid)) + 1;
+    cv::Mat fine;
+    cv::resize(whiteNoise({cols, rows}, sigma, key), fine, {}, grid, grid, flag);
+    return fine(cv::Rect(cv::Point(0, 0), size));
+}
+
+/** What linear interpolation leaves of the variance along one axis, on average. */
+double varianceLeft(int pixels)
+{
+    double sum = 0;
+    for (int k = 0; k < pixels; ++k)
+    {
+        const double x = (k + 0.5) / pixels - 0.5;  // of a pixel's centre in the coarse image
+        const double f = x - std::floor(x);
+        sum += f * f + (1 - f) * (1 - f);
+    }
+    return sum / pixels;
+}
+}  // namespace
+
 cv::Mat whiteNoise(cv::Size size, double sigma, const NoiseKey& key)
 {
     cv::Mat out(size, CV_32FC1);
@@ -40,14 +67,15 @@ cv::Mat windowNoise(cv::Size size, int window, double sigma, const NoiseKey& key
 cv::Mat gridNoise(
     cv::Size size, double grid, double sigma, const NoiseKey& key, Interpolation interpolation)
 {
-    const int rows = static_cast<int>(std::ceil(size.height / grid)) + 1;
-    const int cols = static_cast<int>(std::ceil(size.width / grid)) + 1;
     // Linear interpolation leaves 4/9 of the variance on average in two dimensions, cubic 0.73.
     const bool isCubic = interpolation == Interpolation::Cubic;
-    const double factor = isCubic ? 1.17 : 1.5;
-    const cv::Mat coarse = whiteNoise({cols, rows}, factor * sigma, key);
-    cv::Mat fine;
-    cv::resize(coarse, fine, {}, grid, grid, isCubic ? cv::INTER_CUBIC : cv::INTER_LINEAR);
-    return fine(cv::Rect(cv::Point(0, 0), size));
+    return isCubic ? betweenPoints(size, grid, 1.17 * sigma, key, cv::INTER_CUBIC)
+                   : betweenPoints(size, grid, 1.5 * sigma, key, cv::INTER_LINEAR);
+}
+
+cv::Mat upsampledNoise(cv::Size size, int pixels, double sigma, const NoiseKey& key)
+{
+    // The variance that is left is the product of both axes' shares, which are equal.
+    return betweenPoints(size, pixels, sigma / varianceLeft(pixels), key, cv::INTER_LINEAR);
 }
 }  // namespace pointplane

@@ -14,7 +14,7 @@ struct NoiseKey
     std::uint64_t purpose;  //!< of one of the images that it needs
 };
 
-/** @name Images of Gaussian noise, CV_32FC1, with standard deviation sigma
+/** @name Images of Gaussian noise, CV_32FC1, with standard deviation sigma over the image
  * @{ */
 [[nodiscard]] cv::Mat whiteNoise(cv::Size size, double sigma, const NoiseKey& key);
 
@@ -34,5 +34,9 @@ enum class Interpolation
     double sigma,
     const NoiseKey& key,
     Interpolation interpolation = Interpolation::Linear);
+
+/** Of a sensor whose pixels are so many pixels wide, interpolated linearly between their centres.
+ */
+[[nodiscard]] cv::Mat upsampledNoise(cv::Size size, int pixels, double sigma, const NoiseKey& key);
 /** @} */
 }  // namespace pointplane
