@@ -135,6 +135,24 @@ TEST(DepthSensor, noiseOfAnEnlargedImageIsAsStated)
     }
 }
 
+/** At a half of the width, a sensor has as many pixels as before, and not a half of them. */
+TEST(DepthSensor, measuredPixelsScaleWithTheImage)
+{
+    SimulationParams params = only();
+    params.sigmaDepth = 0.002;
+    params.upsampling = 2;
+    params.width = kWidth / 2;
+    params.height = kHeight / 2;
+    const cv::Rect part(0, 0, params.width, params.height);
+    const CastImage whole = wall(2),
+                    cast{whole.inverseDepth(part).clone(), whole.ids(part).clone()};
+    const Scene scene = sceneOf(1);
+    const cv::Mat depth = DepthSensor(params, scene).sense(cast, 1);
+    const cv::Mat step = depth.colRange(1, params.width) - depth.colRange(0, params.width - 1);
+    const double rms = cv::norm(step) / std::sqrt(static_cast<double>(step.total()));
+    EXPECT_NEAR(rms, std::sqrt(2) * 0.002, 0.03 * 0.002);  // neighbours are independent
+}
+
 TEST(DepthSensor, quantisationIsPartOfTheTotalNoise)
 {
     SimulationParams params = only();

@@ -42,15 +42,17 @@ DepthSensor::FrameNoise DepthSensor::frameNoise(std::uint64_t frameKey) const
 {
     const cv::Size size(camera_.width, camera_.height);
     FrameNoise out;
+    const auto wholePixels = [this](double length)
+    { return std::max(1, static_cast<int>(std::lround(length * params_.pixelScale()))); };
     if (matchingSigma_ > 0)
     {
-        const int window = std::max(
-            1, static_cast<int>(std::lround(params_.noiseWindowPx * params_.pixelScale())));
+        const int window = wholePixels(params_.noiseWindowPx);
         out.matching = windowNoise(size, window, matchingSigma_, {frameKey, 1});
     }
     if (params_.sigmaDepth > 0)
     {
-        out.depth = upsampledNoise(size, params_.upsampling, params_.sigmaDepth, {frameKey, 6});
+        const int pixels = wholePixels(params_.upsampling);
+        out.depth = upsampledNoise(size, pixels, params_.sigmaDepth, {frameKey, 6});
     }
     if (params_.sigmaRelative > 0)
     {

@@ -28,8 +28,9 @@ namespace
 /** Streams of random numbers. */
 constexpr std::uint64_t kCalibrationPurpose = 0xca11b, kDepthScalePurpose = 0x5ca1e;
 
-/** Active stereo, 848x480, f = 424 px at that width, b = 50 mm; 0.08 px rms of disparity in 1/32 px
- * (Keselman et al. 2017; Intel's data sheet 337029). The infrared cameras have a global shutter. */
+/** Active stereo, 848x480, f = 424 px at that width (not decimated: disparities are of it), b = 50
+ * mm; 0.08 px rms of disparity in 1/32 px (Keselman et al. 2017; Intel's data sheet 337029). The
+ * infrared cameras have a global shutter. */
 void makeD435(SimulationParams& p)
 {
     p.width = 848;

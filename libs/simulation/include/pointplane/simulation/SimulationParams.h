@@ -11,7 +11,8 @@
 namespace pointplane
 {
 /** The simulated camera; each effect has its own switch. The defaults are those of a first
- * generation Kinect. Lengths in pixels are those of a 640 pixel wide image and scale with it. */
+ * generation Kinect. Lengths in pixels are those of a 640 pixel wide image and scale with it;
+ * disparities are the sensor's own and do not. */
 struct SimulationParams
 {
     int width{640};
@@ -147,9 +148,8 @@ struct SimulationParams
         v("bendGridPx", bendGridPx, "px", "distance over which surfaces are bent");
         v("upsampling",
           upsampling,
-          "-",
-          "pixels per measured pixel, along each side; sigmaDepth is interpolated between "
-          "measured ones");
+          "px",
+          "side of a measured pixel; sigmaDepth is interpolated between measured ones");
         v("lateralSigmaPx",
           lateralSigmaPx,
           "px",
