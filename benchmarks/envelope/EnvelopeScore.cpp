@@ -77,8 +77,10 @@ void EnvelopeScorer::addStep(
         scored.sigmaRotation = largestSigma(cov.bottomRightCorner<3, 3>());
         if (sequence_.kind == Truth::Exact)
         {
-            scored.nees = error.dot(cov.ldlt().solve(error)) / 6;
-            scored.isBeyond = isBeyondFiveSigma(error, cov);
+            // What is no covariance cannot allow for any error.
+            const bool isCov = isPositiveDefinite(cov);
+            scored.nees = isCov ? error.dot(cov.ldlt().solve(error)) / 6 : 0;
+            scored.isBeyond = !isCov || isBeyondFiveSigma(error, cov);
         }
     }
     tracked_.push_back(scored);

@@ -20,7 +20,7 @@ struct ScoredStep
     double sigmaTranslation{0};    //!< largest claimed, truth included [m]; 0 = none claimed
     double sigmaRotation{0};       //!< [rad]
     double nees{0};                //!< per degree of freedom; 0 = no covariance
-    bool isBeyond{false};          //!< see isBeyondFiveSigma()
+    bool isBeyond{false};          //!< see isBeyondFiveSigma(); or not positive definite
 };
 
 /** How one method did under one condition, all runs together. */

@@ -129,6 +129,19 @@ TEST(EnvelopeScore, AWrongStepIsFoundWithItsPlace)
     EXPECT_THAT(failuresCsv({score}), HasSubstr("straight,10 Hz,config.ini,0,12,101.200000,60.0"));
 }
 
+TEST(EnvelopeScore, ACovarianceThatIsNoneCountsAsBeyond)
+{
+    const BenchmarkSequence sequence = straight(31);
+    std::vector<MethodStep> steps = perfect(sequence);
+    (*steps[7].incrementCov)(2, 2) = -1e-6;
+    (*steps[9].incrementCov)(4, 4) = NAN;
+    const EnvelopeScore score = scoreOf(sequence, steps);
+    ASSERT_EQ(score.beyond.size(), 2U);
+    EXPECT_EQ(score.beyond[0].frame, 7U);
+    EXPECT_EQ(score.beyond[1].frame, 9U);
+    EXPECT_TRUE(std::isfinite(*score.nees99));
+}
+
 TEST(EnvelopeScore, OnlyTrackedStepsAreJudgedAlone)
 {
     const BenchmarkSequence sequence = straight(31);
