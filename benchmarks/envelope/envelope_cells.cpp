@@ -67,7 +67,8 @@ const EnvelopeScore* bestPeer(const Cell& cell, double EnvelopeScore::*value)
     const EnvelopeScore* best = nullptr;
     for (const EnvelopeScore* s : cell.peers)
     {
-        if (s->failure.empty() && s->numPairs > 0 && (best == nullptr || s->*value < best->*value))
+        if (s->failure.empty() && s->numPairs > 0 && std::isfinite(s->*value) &&
+            (best == nullptr || s->*value < best->*value))
         {
             best = s;
         }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "envelope_overview.h"
 
-#include <pointplane/core/quantile.h>
+#include <pointplane/evaluation/Statistics.h>
 
 #include <algorithm>
 #include <map>
@@ -45,8 +45,8 @@ struct Summary
 {
     std::size_t numCells{0}, numBeyond{0}, numFailures{0};
     std::vector<double> translation, rotation, peerTranslation, peerRotation;
-    std::vector<int> shares;  //!< of tracked frames [%]
-    double largestStep{0};    //!< [m]
+    std::vector<double> shares;  //!< of tracked frames [%]
+    double largestStep{0};       //!< [m]
 
     void add(const Cell& cell)
     {
@@ -54,7 +54,7 @@ struct Summary
         ++numCells;
         numBeyond += own.beyond.empty() ? 0 : 1;
         numFailures += own.failure.empty() ? 0 : 1;
-        shares.push_back(std::stoi(shareText(own)));
+        shares.push_back(std::stod(shareText(own)));
         largestStep = std::max(largestStep, own.worstTranslation);
         if (own.failure.empty() && own.numPairs > 0)
         {
@@ -79,7 +79,9 @@ std::string cellsText(const Summary& s)
 
 std::string medians(const std::vector<double>& translation, const std::vector<double>& rotation)
 {
-    return translation.empty() ? "-" : errorText(median(translation), median(rotation));
+    return translation.empty()
+               ? "-"
+               : errorText(statisticsOf(translation).median, statisticsOf(rotation).median);
 }
 
 void addSummary(MarkdownGrid& grid, const std::string& sequence, const Summary& s)
@@ -96,9 +98,9 @@ void addSummary(MarkdownGrid& grid, const std::string& sequence, const Summary& 
 void addSteps(MarkdownGrid& grid, const std::string& sequence, const Summary& s)
 {
     grid.add(sequence, "cells", cellsText(s));
-    grid.add(sequence, "tracked %, median", std::to_string(median(s.shares)));
-    grid.add(
-        sequence, "least", std::to_string(*std::min_element(s.shares.begin(), s.shares.end())));
+    const Statistics shares = statisticsOf(s.shares);
+    grid.add(sequence, "tracked %, median", text("%.4g", shares.median));
+    grid.add(sequence, "least", text("%.0f", shares.min));
     grid.add(sequence, "largest tracked step, mm", lengthText(s.largestStep));
 }
 

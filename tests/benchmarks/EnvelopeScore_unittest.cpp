@@ -294,10 +294,11 @@ TEST(EnvelopeTables, OverviewHasALinePerSequence)
     const std::string all = envelopeOverview({own, peer, slow, slower});
     EXPECT_THAT(all, HasSubstr("| straight | 3 | 4.5 / 0.00 | 12 / 0.00 | 2 |"));
     EXPECT_THAT(all, Not(HasSubstr("worst step")));
+    slow.rpeTranslation = 0.005;
     EXPECT_THAT(envelopeOverview({own, slow}), HasSubstr("| straight | 2 | 4.5 / 0.00 | 1 |"));
 
     slow.truth = Truth::None;
     slower.truth = Truth::None;
     slower.numTracked = slower.numSteps / 2;
-    EXPECT_THAT(envelopeOverview({slow, slower}), HasSubstr("| straight | 2 | 100 | 50 | 60 |"));
+    EXPECT_THAT(envelopeOverview({slow, slower}), HasSubstr("| straight | 2 | 75 | 50 | 60 |"));
 }
