@@ -1,27 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MethodRun.h"
 
+#include <pointplane/core/quantile.h>
 #include <pointplane/evaluation/ate.h>
 #include <pointplane/evaluation/consistency.h>
 #include <pointplane/evaluation/nees.h>
 #include <pointplane/evaluation/rpe.h>
 #include <pointplane/mrpt_io/errors.h>
 
-#include <algorithm>
 #include <chrono>
 
 namespace pointplane
 {
 namespace
 {
-[[nodiscard]] double quantile(std::vector<double> values, double q)
-{
-    const auto at = values.begin() +
-                    static_cast<std::ptrdiff_t>(q * static_cast<double>(values.size() - 1) + 0.5);
-    std::nth_element(values.begin(), at, values.end());
-    return *at;
-}
-
 [[nodiscard]] std::optional<double> neesPerDof(
     const BenchmarkSequence& sequence, const Trajectory& estimate, const char* name)
 {
@@ -98,7 +90,7 @@ MethodScore MethodRun::score(const BenchmarkSequence& sequence) const
     out.rpeTranslation = rpe.translation.rmse;
     out.rpeRotation = rpe.rotation.rmse;
     out.ate = absoluteTrajectoryError(sequence.truth, estimate_, {}).translation.rmse;
-    out.msMedian = quantile(ms_, 0.5);
+    out.msMedian = median(ms_);
     out.msP99 = quantile(ms_, 0.99);
     if (sequence.kind == Truth::Exact)  // another odometry's truth cannot judge covariances
     {

@@ -2,8 +2,10 @@
 #include "EnvelopeScore.h"
 
 #include <pointplane/core/covariance.h>
+#include <pointplane/core/quantile.h>
 #include <pointplane/core/se3.h>
 #include <pointplane/evaluation/association.h>
+#include <pointplane/evaluation/stamp_intervals.h>
 
 #include <algorithm>
 #include <cmath>
@@ -40,22 +42,6 @@ constexpr double kLargeTranslation = 0.050, kLargeRotation = 5.0 * M_PI / 180;
     return N + propagate(adjoint(motion), N);
 }
 
-[[nodiscard]] double quantile(std::vector<double> values, double q)
-{
-    const auto at = values.begin() + std::lround(q * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), at, values.end());
-    return *at;
-}
-
-[[nodiscard]] double medianStep(const std::vector<double>& stamps)
-{
-    std::vector<double> steps;
-    for (std::size_t k = 1; k < stamps.size(); ++k)
-    {
-        steps.push_back(stamps[k] - stamps[k - 1]);
-    }
-    return steps.empty() ? 0 : quantile(steps, 0.5);
-}
 }  // namespace
 
 bool isBeyondFiveSigma(const Vector6d& error, const Matrix6d& cov)
@@ -92,7 +78,7 @@ void EnvelopeScorer::addPairs(
     const SampledTruth& truth)
 {
     constexpr double kDelta = 1.0, kMaxTolerance = 0.2;  // [s]
-    const double tolerance = std::min(kMaxTolerance, 0.5 * medianStep(stamps) + 1e-6);
+    const double tolerance = std::min(kMaxTolerance, 0.5 * medianInterval(stamps) + 1e-6);
     for (std::size_t i = 0; i < stamps.size(); ++i)
     {
         const std::size_t j = nearestIndex(stamps, stamps[i] + kDelta);
@@ -180,7 +166,7 @@ EnvelopeScore EnvelopeScorer::score(EnvelopeScore score) const
     }
     if (!nees.empty())
     {
-        score.neesMedian = quantile(nees, 0.5);
+        score.neesMedian = median(nees);
         score.nees99 = quantile(nees, 0.99);
     }
     return score;

@@ -62,6 +62,14 @@ std::vector<Cell> cellsOf(const std::vector<EnvelopeScore>& scores)
     return out;
 }
 
+bool hasOneCondition(const std::vector<EnvelopeScore>& scores)
+{
+    return std::all_of(
+        scores.begin(),
+        scores.end(),
+        [&](const EnvelopeScore& s) { return s.condition == scores.front().condition; });
+}
+
 const EnvelopeScore* bestPeer(const Cell& cell, double EnvelopeScore::*value)
 {
     const EnvelopeScore* best = nullptr;

@@ -19,6 +19,8 @@ struct Cell
 
 [[nodiscard]] std::vector<Cell> cellsOf(const std::vector<EnvelopeScore>& scores);
 
+[[nodiscard]] bool hasOneCondition(const std::vector<EnvelopeScore>& scores);
+
 /** The peer with the smallest RPE, or nullptr. */
 [[nodiscard]] const EnvelopeScore* bestPeer(const Cell& cell, double EnvelopeScore::*value);
 

@@ -118,10 +118,7 @@ std::string envelopeOverview(const std::vector<EnvelopeScore>& scores)
     {
         sums[cell.own->sequence].add(cell);
     }
-    const bool isOneCondition = std::all_of(
-        cells.begin(),
-        cells.end(),
-        [&](const Cell& cell) { return cell.own->condition == cells.front().own->condition; });
+    const bool isAlone = hasOneCondition(scores);
     const bool withPeers = std::any_of(cells.begin(), cells.end(), hasPeer);
     MarkdownGrid sequences, steps, alone;
     for (const Cell& cell : cells)
@@ -131,7 +128,7 @@ std::string envelopeOverview(const std::vector<EnvelopeScore>& scores)
         {
             addSteps(steps, cell.own->sequence, sum);
         }
-        else if (isOneCondition)
+        else if (isAlone)
         {
             addAlone(alone, cell, withPeers);
         }

@@ -155,14 +155,6 @@ struct Sum
     return text("\nBehind the best peer in %zu of %zu cells", behind, compared) +
            (behind == 0 ? ".\n" : ":\n" + lines + "\n");
 }
-
-[[nodiscard]] bool hasOneCondition(const std::vector<EnvelopeScore>& scores)
-{
-    return std::all_of(
-        scores.begin(),
-        scores.end(),
-        [&](const EnvelopeScore& s) { return s.condition == scores.front().condition; });
-}
 }  // namespace
 
 std::string envelopeSummary(const std::vector<EnvelopeScore>& scores)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FrameTimes.h"
 
-#include <algorithm>
-#include <cmath>
+#include <pointplane/core/quantile.h>
+
 #include <ctime>
 #include <numeric>
 
@@ -38,11 +38,7 @@ double FrameTimes::mean() const
     return std::accumulate(ms_.begin(), ms_.end(), 0.0) / static_cast<double>(ms_.size());
 }
 
-double FrameTimes::quantile(double q) const
-{
-    std::vector<double> sorted = ms_;
-    const auto at = sorted.begin() + std::lround(q * static_cast<double>(sorted.size() - 1));
-    std::nth_element(sorted.begin(), at, sorted.end());
-    return *at;
-}
+double FrameTimes::median() const { return pointplane::median(ms_); }
+
+double FrameTimes::p99() const { return quantile(ms_, 0.99); }
 }  // namespace pointplane

@@ -23,14 +23,12 @@ class FrameTimes
 
     [[nodiscard]] bool empty() const { return ms_.empty(); }
 
-    /** \param q in [0, 1] \pre not empty */
-    [[nodiscard]] double quantile(double q) const;
-
-    /** \pre not empty */
+    /** @name \pre not empty
+     * @{ */
     [[nodiscard]] double mean() const;
-
-    [[nodiscard]] double median() const { return quantile(0.5); }
-    [[nodiscard]] double p99() const { return quantile(0.99); }
+    [[nodiscard]] double median() const;
+    [[nodiscard]] double p99() const;
+    /** @} */
 
  private:
     std::vector<double> ms_;

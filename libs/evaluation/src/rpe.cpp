@@ -118,11 +118,11 @@ void evaluateFixedDelta(
     const SampledTruth& truth,
     const PairError& error,
     const RpeOptions& options,
+    std::size_t maxPairs,
     RpeResult& result)
 {
     const std::vector<double> index = indexAlong(estimate, options.unit);
     IndexPairs pairs = fixedDeltaPairs(estimate, index, options);
-    const auto maxPairs = static_cast<std::size_t>(std::max<std::int64_t>(0, options.maxPairs));
     result.randomPairs = maxPairs > 0 && pairs.size() > maxPairs;
     if (result.randomPairs)
     {
@@ -164,7 +164,7 @@ RpeResult relativePoseError(
     const auto maxPairs = static_cast<std::size_t>(std::max<std::int64_t>(0, options.maxPairs));
     if (options.fixedDelta)
     {
-        evaluateFixedDelta(estimate, truth, error, options, result);
+        evaluateFixedDelta(estimate, truth, error, options, maxPairs, result);
     }
     else if (maxPairs == 0 || static_cast<double>(estimate.size()) < std::sqrt(maxPairs))
     {

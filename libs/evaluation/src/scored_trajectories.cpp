@@ -44,10 +44,7 @@ std::string whyApart(const Trajectory& groundTruth, const Trajectory& estimate)
     }
     return "; are these files of the same sequence? (--offset shifts the estimate)";
 }
-}  // namespace
 
-namespace
-{
 /** Of a program that did not ask makeTrajectory(). */
 void checkWhole(const Trajectory& t)
 {
