@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/evaluation/coverage.h>
+#include <pointplane/evaluation/stamp_intervals.h>
 #include <pointplane/evaluation/trajectory_text.h>
 
 #include "test_trajectories.h"
@@ -138,6 +140,26 @@ TEST(TrajectoryText, leavesOutNanZeroQuaternionsAndRepeatsButSaysSo)
             HasSubstr("1 pose with a repeated stamp"),
             HasSubstr("2 lines with NaN or infinity left out, the first is line 2"),
             HasSubstr("zero quaternion left out, the first is line 3")));
+}
+
+/** Left out without a trace, they would be bridged, and three lost frames of four not count. */
+TEST(TrajectoryText, linesWithoutAPoseAreLostFrames)
+{
+    test::TempDir files;
+    const Trajectory t = readTrajectoryText(writeFile(
+        files,
+        "t.txt",
+        "# pointplane-status\n"
+        "1 0 0 0 0 0 0 1\n"
+        "2 nan 0 0 0 0 0 1\n"
+        "3 0 0 0 0 0 0 0\n"
+        "# pointplane-status 3.5 lost\n"
+        "inf 0 0 0 0 0 0 1\n"
+        "4 0 0 inf 0 0 0 1\n"
+        "5 0 0 0 0 0 0 1\n"));
+    EXPECT_THAT(t.lostStamps, testing::ElementsAre(2, 3, 3.5, 4));
+    EXPECT_THAT(holesBefore(t), testing::ElementsAre(false, true));
+    EXPECT_EQ(coverageOf(t, t, 0).share, 0);
 }
 
 /** Two recordings in one file, or frames in the wrong order. */

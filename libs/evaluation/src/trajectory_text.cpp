@@ -96,13 +96,14 @@ class PoseLines
     [[nodiscard]] double latestStamp() const { return poses_.empty() ? 0 : poses_.back().stamp; }
 
     /** \param numLines of the file \throws std::runtime_error if there is no pose */
-    [[nodiscard]] Trajectory result(FrameMarks marks, std::size_t numLines);
+    [[nodiscard]] Trajectory result(const FrameMarks& marks, std::size_t numLines);
 
  private:
     void requireColumns(std::size_t columns, std::size_t line);
 
     const std::string& path_;
     std::vector<StampedPose> poses_;
+    std::vector<double> lost_;  // stamps of lines without a usable pose
     std::size_t columns_{0};
     NotedLines notFinite_, zeroQuaternion_, otherNorm_, largeAngle_;
 };
@@ -132,14 +133,16 @@ void PoseLines::add(const std::string& text, std::size_t line)
     requireColumns(v.size(), line);
     const bool isTum = columns_ == kTumColumns;
     const double norm = isTum ? Eigen::Vector4d(v[4], v[5], v[6], v[7]).norm() : 1;
-    if (!std::all_of(v.begin(), v.end(), [](double x) { return std::isfinite(x); }) ||
-        !std::isfinite(norm))  // of huge numbers it is not
+    const bool isFinite =
+        std::isfinite(norm) &&  // of huge numbers it is not
+        std::all_of(v.begin(), v.end(), [](double x) { return std::isfinite(x); });
+    if (!isFinite || norm == 0)
     {
-        notFinite_.add(line);
-    }
-    else if (norm == 0)
-    {
-        zeroQuaternion_.add(line);
+        (isFinite ? zeroQuaternion_ : notFinite_).add(line);
+        if (std::isfinite(v[0]))
+        {
+            lost_.push_back(v[0]);
+        }
     }
     else
     {
@@ -155,7 +158,7 @@ void PoseLines::add(const std::string& text, std::size_t line)
     }
 }
 
-Trajectory PoseLines::result(FrameMarks marks, std::size_t numLines)
+Trajectory PoseLines::result(const FrameMarks& marks, std::size_t numLines)
 {
     if (poses_.empty())
     {
@@ -169,7 +172,10 @@ Trajectory PoseLines::result(FrameMarks marks, std::size_t numLines)
     }
     Trajectory out = makeTrajectory(path_, std::move(poses_));
     out.marksFrames = marks.any;
-    out.lostStamps = std::move(marks.lost);
+    std::vector<double>& lost = out.lostStamps;
+    lost.insert(lost.end(), marks.lost.begin(), marks.lost.end());
+    lost.insert(lost.end(), lost_.begin(), lost_.end());
+    std::sort(lost.begin(), lost.end());
     out.lostWithoutTime += marks.lostWithoutTime;
     notFinite_.warn(out, "NaN or infinity left out");
     zeroQuaternion_.warn(out, "a zero quaternion left out");
@@ -207,7 +213,7 @@ Trajectory readTrajectoryText(const std::string& path)
         }
     }
     requireRead(file, path);
-    Trajectory out = poses.result(std::move(marks), line);
+    Trajectory out = poses.result(marks, line);
     out.body = body;
     return out;
 }

@@ -13,10 +13,11 @@ namespace pointplane
  *
  * As the TUM scripts read it: commas and tabs count as spaces, lines that start with '#' (or MRPT's
  * '%') and empty lines are skipped, lines with NaN or a zero quaternion are left out (each kind
- * counted in the warnings, with its first line), quaternions are normalised (those whose norm is
- * off by more than 1 % are counted, too), the last of equal stamps wins. But more columns, which
- * the scripts ignore, are refused: they are of other formats. Comments that name the axes tell the
- * body: "x right, y down" the camera, "x forward, y left" the robot. Two others count:
+ * counted in the warnings, with its first line) and their frames are lost, quaternions are
+ * normalised (those whose norm is off by more than 1 % are counted, too), the last of equal stamps
+ * wins. But more columns, which the scripts ignore, are refused: they are of other formats.
+ * Comments that name the axes tell the body: "x right, y down" the camera, "x forward, y left" the
+ * robot. Two others count:
  * `# pointplane-status STAMP lost: ...` is a frame without a pose, and `... predicted: ...` one
  * whose pose nobody measured.
  * \throws std::runtime_error naming the file and, if one is malformed, the line */
