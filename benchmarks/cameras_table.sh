@@ -52,7 +52,7 @@ row() {
 
 mapfile -t calibration < <(calibration_errors)
 {
-    echo "| camera | scene | RPE, 1 s [mm / deg] | NEES, 1 frame / 10 frames / 1 s | depth noise as learnt, last seed |"
+    echo "| camera | scene | RPE, 1 s [mm / deg] | NEES, 1 frame / 10 frames / 1 s | depth noise learnt, last seed |"
     echo "|---|---|---|---|---|"
     for camera in kinect d435 azure phone; do
         row "$camera" corner 1
