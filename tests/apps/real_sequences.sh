@@ -83,7 +83,9 @@ if ((untracked > 2)); then
     echo "rpy: $untracked frames of three starts not tracked, more than 2"
     failures=$((failures + 1))
 fi
-check rpy_10Hz tum_fr1_rpy_part 'n % 3 == 1' 0.026 2.0 0
+for first in 0 1 2; do
+    check "rpy_10Hz_$first" tum_fr1_rpy_part "n % 3 == $first" 0.020 2.2 1
+done
 check notexture tum_fr3_structure_notexture_far_part 1 0.004 0.5 0
 check notexture_3Hz tum_fr3_structure_notexture_far_part 'n % 10 == 1' 0.010 0.7 0
 check icl icl_living_room_kt0_part 1 0.002 0.06 0

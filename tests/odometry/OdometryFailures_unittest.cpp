@@ -495,6 +495,19 @@ TEST(OdometryFailures, aPathThatBeginsInTheDarkHasPointsAsSoonAsThereIsLight)
     }
 }
 
+TEST(OdometryFailures, allPointsAreBackWithTheFirstColourImage)
+{
+    CheckedOdometry odometry;
+    const int before = odometry.run(0, 3).diagnostics.numPointInliers;
+    for (int i = 4; i < 9; ++i)
+    {
+        RgbdFrame frame = good(i);
+        frame.gray = cv::Mat();
+        EXPECT_EQ(odometry.process(frame).diagnostics.numPointInliers, 0);
+    }
+    EXPECT_GT(odometry.run(9, 9).diagnostics.numPointInliers, 0.6 * before);
+}
+
 TEST(OdometryFailures, noIntensityImageLeavesThePlanes)
 {
     RgbdFrame frame = good(kBad);

@@ -342,7 +342,7 @@ JointCovariance::Measurement Odometry::Impl::learnErrors(
 std::optional<PointReference> Odometry::Impl::keyframePoints(
     const Features& current, const Alignment& alignment, const PoseAnalysis& analysis) const
 {
-    constexpr std::size_t kPointsOfPose = 3;
+    constexpr int kPointsOfPose = 3;
     if (!current.hasDepth)
     {
         return {};  // it shows nothing that others could be compared with
@@ -351,17 +351,17 @@ std::optional<PointReference> Odometry::Impl::keyframePoints(
                            alignment.estimate.motion.mean.T_prev_cur,
                            track.overlap(alignment.associations, current)) ||
                        Judge::needsNewView(alignment, shown.moving);
-    // The newest one may have been dark, blurred or without colour.
-    const std::size_t known = track.numPoints();
-    const bool mayHaveMore = !current.frame.gray.empty() &&
-                             known < static_cast<std::size_t>(params.pointTracker.minPoints);
+    // Those before may have been dark, blurred or without colour.
+    const bool mayHaveMore =
+        !current.frame.gray.empty() && alignment.numSought < params.pointTracker.minPoints;
     if (!isNew && !mayHaveMore)
     {
         return {};
     }
     PointReference out =
         frontEnd.pointReference(current, stillPart(current, shown.moving, analysis.surfaces));
-    const bool hasMore = out.points.size() >= 2 * std::max(kPointsOfPose, known);
+    const auto known = static_cast<std::size_t>(std::max(kPointsOfPose, alignment.numSought));
+    const bool hasMore = out.points.size() >= 2 * known;
     return isNew || hasMore ? std::optional(std::move(out)) : std::nullopt;
 }
 

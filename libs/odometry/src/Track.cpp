@@ -159,15 +159,28 @@ void Track::measure(Measured measured)
             measured.errors.previousVelocity ? measured.errors.previousVelocity->velocity
                                              : motion_.velocity());
     }
-    for (const Association& association : measured.associations)
-    {
-        window_.notePoints(association);
-    }
+    noteWhichPointsAreFound(measured.associations);
     history_.measure(
         previous().T_world_cam, measured.motion.mean.T_prev_cur, decayed, measured.errors);
     unmatched_.reset();
     latestStamp_ = measured.frame.stamp;
     add(std::move(measured.frame), measured.isKeyframe);
+}
+
+/** A frame that shows none, as in the dark or without colour, tells nothing of single ones. */
+void Track::noteWhichPointsAreFound(const std::vector<Association>& associations)
+{
+    const bool isAnyFound = std::any_of(
+        associations.begin(),
+        associations.end(),
+        [](const Association& association) { return association.numPointsFound() > 0; });
+    for (const Association& association : associations)
+    {
+        if (isAnyFound)
+        {
+            window_.notePoints(association);
+        }
+    }
 }
 
 std::optional<MotionModel::Smoothed> Track::follow(const MotionGaussian& motion, double dt)

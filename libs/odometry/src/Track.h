@@ -66,9 +66,6 @@ class Track
 
     [[nodiscard]] bool needsKeyframe(const Eigen::Isometry3d& T_prev_cur, double overlap) const;
 
-    /** ReferenceWindow::numPoints(). */
-    [[nodiscard]] std::size_t numPoints() const { return window_.numPoints(); }
-
     /** Pose in the world of the latest frame, measured or not. */
     [[nodiscard]] PoseGaussian pose() const { return history_.pose(); }
 
@@ -151,6 +148,7 @@ class Track
     PoseGaussian stay(double stamp);
     [[nodiscard]] MotionPrior priorFrom(
         const MotionGaussian& motion, const PoseGaussian& pose) const;
+    void noteWhichPointsAreFound(const std::vector<Association>& associations);
     /** \return velocity of the previous frame */
     std::optional<MotionModel::Smoothed> follow(const MotionGaussian& motion, double dt);
     void add(Reference frame, bool isKeyframe);

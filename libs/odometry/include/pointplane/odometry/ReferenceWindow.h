@@ -4,7 +4,6 @@
 #include <pointplane/core/Parameters.h>
 #include <pointplane/odometry/Reference.h>
 
-#include <cstddef>
 #include <deque>
 #include <string>
 #include <vector>
@@ -82,12 +81,6 @@ class ReferenceWindow
 
     /** \param overlap of the frame with the newest key frame, in [0, 1] */
     [[nodiscard]] bool needsKeyframe(const Eigen::Isometry3d& T_world_cam, double overlap) const;
-
-    /** Of the newest key frame. */
-    [[nodiscard]] std::size_t numPoints() const
-    {
-        return keyframes_.empty() ? 0 : keyframes_.back().points.points.size();
-    }
 
     /** Corrects the velocity of the previous frame, now that the next one is known. */
     void refinePreviousVelocity(const Vector6d& velocity);
