@@ -65,15 +65,16 @@ class Samples
         }
     }
 
-    /** The end against the end of the first quarter, when every buffer has been filled once. The
-     * last samples are left out: a program that ends writes what it has collected. */
+    /** The end against the second quarter, when every buffer has been filled once, and the queues
+     * of a busy computer, too. The last samples are left out: a program that ends writes what it
+     * has collected. */
     void expectNoGrowth(const char* program, double megabytes) const
     {
         ASSERT_GT(samples_.size(), 20U) << "too short to tell";
-        const Usage early = largest(samples_.size() / 8, samples_.size() / 4);
+        const Usage early = largest(samples_.size() / 4, samples_.size() / 2);
         const Usage late = largest(samples_.size() * 7 / 8, samples_.size() - 2);
         std::cout << program << ": " << numFrames() << " frames, " << early.megabytes << " MB and "
-                  << early.files << " files after a quarter, " << late.megabytes << " MB and "
+                  << early.files << " files in the second quarter, " << late.megabytes << " MB and "
                   << late.files << " files at the end\n";
         EXPECT_LT(late.megabytes - early.megabytes, megabytes) << program;
         EXPECT_LE(late.files, early.files + 1) << program;
@@ -127,8 +128,9 @@ TEST(Soak, memoryAndFilesDoNotGrow)
         {recording, "-o", dir / "poses.rawlog", "--trajectory", dir / "poses.txt", "--quiet"},
         {});
     Samples odometrySamples;
-    // So small images show too little of a camera as fast as this: most frames are predicted.
-    ASSERT_EQ(odometrySamples.follow(odometry), 1) << odometry.err();
+    // So small images show little of a camera as fast as this: about half of the frames are
+    // predicted, and if it is more than half, the code is 1.
+    ASSERT_LE(odometrySamples.follow(odometry), 1) << odometry.err();
     odometrySamples.expectNoGrowth("pointplane-odometry", 8);
 }
 }  // namespace

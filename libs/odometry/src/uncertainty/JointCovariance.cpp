@@ -80,9 +80,9 @@ void JointCovariance::dropCoasting(int kept)
     errors_.keepIf([&](const Block& block) { return block.kind != Kind::Coasting || kept-- > 0; });
 }
 
-void JointCovariance::restart(int frame, const std::vector<int>& places)
+void JointCovariance::restart(int frame, const std::vector<int>& poses)
 {
-    std::vector<int> kept = places;
+    std::vector<int> kept = poses;
     kept.push_back(frame);
     errors_.rename(Kind::Velocity, previous_, frame);
     previous_ = frame;
@@ -222,7 +222,7 @@ void JointCovariance::addViews(
     }
 }
 
-void JointCovariance::keep(const std::vector<int>& references, const std::vector<int>& places)
+void JointCovariance::keep(const std::vector<int>& references, const std::vector<int>& poses)
 {
     const auto contains = [](const std::vector<int>& frames, int frame)
     { return std::count(frames.begin(), frames.end(), frame) > 0; };
@@ -231,14 +231,13 @@ void JointCovariance::keep(const std::vector<int>& references, const std::vector
         [&](const Block& block)
         {
             const bool isReference = contains(references, block.frame);
-            const bool isPlace = contains(places, block.frame);
             switch (block.kind)
             {
                 case Kind::Pose:
                     return numPoses++ <= params_.history || block.frame == previous_ ||
-                           isReference || isPlace;
+                           isReference || contains(poses, block.frame);
                 case Kind::Velocity:
-                    return isReference || isPlace || block.frame == previous_;
+                    return isReference || block.frame == previous_;
                 case Kind::View:
                 case Kind::PlaneView:
                 case Kind::Bend:

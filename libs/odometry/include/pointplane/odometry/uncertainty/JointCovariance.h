@@ -147,8 +147,8 @@ class JointCovariance
     void endCoasting() { dropCoasting(); }
 
     /** Makes a known frame the previous one and the only reference.
-     * \param places frames whose poses and velocities stay known, too */
-    void restart(int frame, const std::vector<int>& places = {});
+     * \param poses frames whose poses stay known, too */
+    void restart(int frame, const std::vector<int>& poses = {});
 
     /** Adds a measured frame, which becomes the previous one and a reference.
      * \param T_world_prev pose of the previous measured frame
@@ -160,8 +160,8 @@ class JointCovariance
         const Measurement& measurement);
 
     /** Forgets errors of other references than these, and poses older than the history. Kept are
-     * poses and velocities of the references, of the previous frame, and of `places`. */
-    void keep(const std::vector<int>& references, const std::vector<int>& places = {});
+     * the poses of the references, of the previous frame, and of `poses`. */
+    void keep(const std::vector<int>& references, const std::vector<int>& poses = {});
 
     /** Covariance of the latest pose (left, world); positive semidefinite. */
     [[nodiscard]] Matrix6d latest() const;
