@@ -352,8 +352,8 @@ std::optional<PointReference> Odometry::Impl::keyframePoints(
                            track.overlap(alignment.associations, current)) ||
                        Judge::needsNewView(alignment, shown.moving);
     // Those before may have been dark, blurred or without colour.
-    const bool mayHaveMore =
-        !current.frame.gray.empty() && alignment.numSought < params.pointTracker.minPoints;
+    const bool mayHaveMore = params.pipeline.usePoints && !current.frame.gray.empty() &&
+                             alignment.numSought < params.pointTracker.minPoints;
     if (!isNew && !mayHaveMore)
     {
         return {};
