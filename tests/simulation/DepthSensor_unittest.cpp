@@ -153,6 +153,58 @@ TEST(DepthSensor, measuredPixelsScaleWithTheImage)
     EXPECT_NEAR(rms, std::sqrt(2) * 0.002, 0.03 * 0.002);  // neighbours are independent
 }
 
+/** Depths between box and wall, over two measured pixels; none elsewhere. */
+TEST(DepthSensor, measuredPixelsMixBothSidesOfAnEdge)
+{
+    SimulationParams params = only();
+    params.upsampling = 3;
+    params.mixedPixels = true;
+    const Scene scene = sceneOf(2);
+    const cv::Mat depth = DepthSensor(params, scene).sense(boxBeforeWall(), 1);
+    int between = 0;
+    for (int u = 0; u < kWidth; ++u)
+    {
+        const float z = depth.at<float>(100, u);
+        const bool nearEdge = std::abs(u - 299.5) < 5 || std::abs(u - 339.5) < 5;
+        const bool isBetween = z > 1.01F && z < 1.99F;
+        EXPECT_TRUE(nearEdge || !isBetween) << z << " at " << u;
+        between += isBetween ? 1 : 0;
+    }
+    EXPECT_GE(between, 4);
+    EXPECT_LE(between, 12);
+}
+
+/** The mean over a pixel of a slanted wall is the depth of its middle. */
+TEST(DepthSensor, measuredPixelsLeaveSurfacesWhereTheyAre)
+{
+    SimulationParams params = only();
+    params.upsampling = 3;
+    params.mixedPixels = true;
+    const Scene scene = sceneOf(1);
+    const CastImage cast = slantedWall(params.camera(), 2, 0.5);
+    const cv::Mat depth = DepthSensor(params, scene).sense(cast, 1);
+    for (int u = 3; u + 3 < kWidth; ++u)
+    {
+        EXPECT_NEAR(depth.at<float>(100, u) * cast.inverseDepth.at<float>(100, u), 1, 1e-4) << u;
+    }
+}
+
+/** What is too far gives no reading, nor a part of one. */
+TEST(DepthSensor, measuredPixelsMixOnlyReadings)
+{
+    SimulationParams params = only();
+    params.upsampling = 3;
+    params.mixedPixels = true;
+    params.maxDepth = 1.5;
+    const Scene scene = sceneOf(2);
+    const cv::Mat depth = DepthSensor(params, scene).sense(boxBeforeWall(), 1);
+    for (int u = 0; u < kWidth; ++u)
+    {
+        EXPECT_EQ(isMissing(depth, u), u < 300 || u >= 340) << u;
+        EXPECT_TRUE(isMissing(depth, u) || std::abs(depth.at<float>(100, u) - 1) < 1e-5F) << u;
+    }
+}
+
 TEST(DepthSensor, quantisationIsPartOfTheTotalNoise)
 {
     SimulationParams params = only();

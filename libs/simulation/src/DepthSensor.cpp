@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/simulation/DepthSensor.h>
 
+#include <opencv2/imgproc.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -38,12 +40,47 @@ DepthSensor::DepthSensor(
     }
 }
 
+/** \param length_px in an image 640 px wide \return pixels of this image, at least one */
+int DepthSensor::wholePixels(double length_px) const
+{
+    return std::max(1, static_cast<int>(std::lround(length_px * params_.pixelScale())));
+}
+
+/** \return the inverse depth whose depth is the mean over each measured pixel, interpolated between
+ * their centres; only pixels with a reading count */
+cv::Mat DepthSensor::mixed(const cv::Mat& inverseDepth, const cv::Mat& readable) const
+{
+    const int side = wholePixels(params_.upsampling);
+    const cv::Size measured((camera_.width + side - 1) / side, (camera_.height + side - 1) / side);
+    const cv::Size whole = measured * side;
+    const auto overMeasuredPixels = [&](const cv::Mat& image)
+    {
+        cv::Mat out;
+        cv::copyMakeBorder(
+            image,
+            out,
+            0,
+            whole.height - image.rows,
+            0,
+            whole.width - image.cols,
+            cv::BORDER_REPLICATE);
+        cv::resize(out, out, measured, 0, 0, cv::INTER_AREA);
+        cv::resize(out, out, whole, 0, 0, cv::INTER_LINEAR);
+        return cv::Mat(out, cv::Rect(0, 0, camera_.width, camera_.height));
+    };
+    cv::Mat share, depth;
+    readable.convertTo(share, CV_32F);
+    cv::divide(share, inverseDepth, depth);
+    depth.setTo(0, readable == 0);  // the sky's is infinite
+    cv::Mat out;
+    cv::divide(overMeasuredPixels(share), overMeasuredPixels(depth), out);
+    return out;
+}
+
 DepthSensor::FrameNoise DepthSensor::frameNoise(std::uint64_t frameKey) const
 {
     const cv::Size size(camera_.width, camera_.height);
     FrameNoise out;
-    const auto wholePixels = [this](double length)
-    { return std::max(1, static_cast<int>(std::lround(length * params_.pixelScale()))); };
     if (matchingSigma_ > 0)
     {
         const int window = wholePixels(params_.noiseWindowPx);
@@ -75,9 +112,13 @@ DepthSensor::FrameNoise DepthSensor::frameNoise(std::uint64_t frameKey) const
 }
 
 void DepthSensor::matchRow(
-    const CastImage& cast, const cv::Mat& readable, const FrameNoise& noise, int v, float* q) const
+    const cv::Mat& inverseDepth,
+    const cv::Mat& readable,
+    const FrameNoise& noise,
+    int v,
+    float* q) const
 {
-    const float* truth = cast.inverseDepth.ptr<float>(v);
+    const float* truth = inverseDepth.ptr<float>(v);
     const uchar* ok = readable.ptr<uchar>(v);
     if (noise.dx.empty())
     {
@@ -113,6 +154,7 @@ void DepthSensor::addLengths(const FrameNoise& noise, int v, float* depth) const
 cv::Mat DepthSensor::sense(const CastImage& cast, std::uint64_t frameKey) const
 {
     const cv::Mat ok = dropouts_.readable(cast);
+    const cv::Mat truth = params_.mixedPixels ? mixed(cast.inverseDepth, ok) : cast.inverseDepth;
     const FrameNoise noise = frameNoise(frameKey);
     const auto step = static_cast<float>(step_);
     const float perStep = 1.0F / step;
@@ -120,7 +162,7 @@ cv::Mat DepthSensor::sense(const CastImage& cast, std::uint64_t frameKey) const
     cv::Mat depth(camera_.height, camera_.width, CV_32FC1);
     for (int v = 0; v < camera_.height; ++v)
     {
-        matchRow(cast, ok, noise, v, q.data());
+        matchRow(truth, ok, noise, v, q.data());
         if (!noise.matching.empty())
         {
             const auto* error = noise.matching.ptr<float>(v);

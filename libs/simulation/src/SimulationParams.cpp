@@ -16,6 +16,7 @@ SimulationParams SimulationParams::ideal(const std::string& camera)
     p.focalLengthError = p.principalPointError = p.depthScaleError = 0;
     p.sigmaDepth = p.sigmaRelative = 0;
     p.upsampling = 1;
+    p.mixedPixels = false;
     p.edgeLossPx = p.shadowBaseline = 0;
     p.maxIncidenceDeg = 90;
     p.minDepth = 0.05;
@@ -53,6 +54,7 @@ void makeTimeOfFlight(SimulationParams& p)
 {
     p.sigmaInverseDepth = p.disparityStepPx = p.shadowBaseline = 0;
     p.readoutDepth = p.depthDelay = 0;
+    p.mixedPixels = true;
 }
 
 /** Time of flight, 320x288 (narrow, binned) enlarged to 640x576, 75 deg; 1.5 mm of noise and 0.3 %
@@ -82,6 +84,7 @@ void makePhone(SimulationParams& p)
     p.sigmaRelative = 0.005;
     p.upsampling = 3;
     p.lateralSigmaPx = 1;
+    p.edgeLossPx = 0;
     p.readoutColour = 0.020;
     p.exposure = 0.008;
     p.minDepth = 0.15;

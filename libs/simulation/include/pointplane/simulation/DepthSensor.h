@@ -16,7 +16,8 @@ namespace pointplane
  *   (Khoshelham & Elberink 2012; Konolige & Mihelich 2010). Edges are ragged, because a window may
  *   match either side (lateral noise, Nguyen, Izadi & Lovell 2012).
  * - Time of flight has constant noise in depth, interpolated where the image was enlarged, and a
- *   smooth error in proportion to the depth.
+ *   smooth error in proportion to the depth. A measured pixel at an edge mixes both sides, so its
+ *   depth lies between them, where nothing is.
  * - There is no reading at DepthDropouts. */
 class DepthSensor
 {
@@ -37,8 +38,10 @@ class DepthSensor
         cv::Mat dx, dy;    //!< CV_16SC1, which neighbour a pixel shows [px]
     };
     [[nodiscard]] FrameNoise frameNoise(std::uint64_t frameKey) const;
+    [[nodiscard]] int wholePixels(double length_px) const;
+    [[nodiscard]] cv::Mat mixed(const cv::Mat& inverseDepth, const cv::Mat& readable) const;
     void matchRow(
-        const CastImage& cast,
+        const cv::Mat& inverseDepth,
         const cv::Mat& readable,
         const FrameNoise& noise,
         int v,

@@ -52,6 +52,7 @@ struct SimulationParams
     double sigmaRelative{0};
     double bendGridPx{100};
     int upsampling{1};
+    bool mixedPixels{false};
     double lateralSigmaPx{0.6};
     double edgeLossPx{1};
     double shadowBaseline{0.075};
@@ -150,6 +151,10 @@ struct SimulationParams
           upsampling,
           "px",
           "side of a measured pixel; sigmaDepth is interpolated between measured ones");
+        v("mixedPixels",
+          mixedPixels,
+          "-",
+          "true: a measured pixel has the mean depth of what it sees, also at edges");
         v("lateralSigmaPx",
           lateralSigmaPx,
           "px",
