@@ -2,6 +2,7 @@
 #include "RobotMask.h"
 
 #include <pointplane/mrpt_io/image_file.h>
+#include <pointplane/odometry/robot_mask.h>
 
 #include <opencv2/core.hpp>
 
@@ -29,7 +30,7 @@ std::string RobotMask::effectOn(RgbdFrame frame) const
         return "";
     }
     frame.depth = frame.depth.clone();
-    frame.depth.setTo(0, image_ == 0);
+    frame.depth.setTo(0, maskOfDepth(image_, frame.camera) == 0);
     return hasDepth(frame) ? ""
                            : " (" + path_ + " leaves depth at " +
                                  std::to_string(cv::countNonZero(frame.depth > 0)) + " of " +

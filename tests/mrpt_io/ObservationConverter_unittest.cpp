@@ -406,6 +406,31 @@ TEST(ObservationConverter, nearSurfaceHidesTheFarOne)
     EXPECT_NEAR(converted.frame.depth.at<float>(v, u), 0.8, 1e-3);
 }
 
+/** A book on a wall: the depths of both, and none between. */
+TEST(ObservationConverter, anEdgeIsNoSlope)
+{
+    PlaneScene scene;
+    scene.n = Eigen::Vector3d::UnitZ();
+    const auto scan = unregisteredScan(scene, Eigen::Isometry3d::Identity(), 480);
+    for (int v = 40; v < 80; ++v)
+    {
+        for (int u = 60; u < 100; ++u)
+        {
+            scan->rangeImage(v, u) = 19000;  // 1.9 m, before 2 m
+        }
+    }
+    const cv::Mat depth = ObservationConverter().convert(*scan).frame.depth;
+    for (int v = 0; v < depth.rows; ++v)
+    {
+        for (int u = 0; u < depth.cols; ++u)
+        {
+            const float z = depth.at<float>(v, u);
+            EXPECT_TRUE(std::isnan(z) || std::abs(z - 1.9F) < 1e-4F || std::abs(z - 2.0F) < 1e-4F)
+                << z << " at " << u << " " << v;
+        }
+    }
+}
+
 TEST(ObservationConverter, mrptsOwnUnregisteredFrame)
 {
     const std::string path = "/usr/share/mrpt/datasets/tests_rgbd.rawlog";

@@ -24,7 +24,7 @@ struct StandingPoint
         seen.add(
             standing::pointAt({160, 120}, standing::kDepth),
             standing::pointAt({160, 120}, standing::kDepth));
-        marks.split(seen.association);
+        marks.split(seen.association, standing::camera());
         EXPECT_EQ(seen.association.doubtedPoints.size(), 1);
     }
 
@@ -104,7 +104,7 @@ TEST(ImageMarksMotion, aPointThatMovesAsItShouldOrNotIsNone)
         standing::pointAt(onMark_px - Eigen::Vector2d(9, 3), standing::kDepth),
         standing::pointAt(onMark_px, standing::kDepth));
     moving.association.points.front().cur.uv_px += Eigen::Vector2d(3, 0);
-    known.marks.split(moving.association);
+    known.marks.split(moving.association, standing::camera());
     ASSERT_EQ(moving.association.doubtedPoints.size(), 1);
     const int before = cv::countNonZero(known.marks.mask());
     known.marks.learn({moving.association}, standing::camera(), {aside(0.5), Matrix6d::Zero()});

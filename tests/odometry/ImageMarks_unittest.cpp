@@ -41,7 +41,7 @@ struct Pair
     /** \return number of marks */
     size_t split(const ImageMarks& marks)
     {
-        marks.split(association);
+        marks.split(association, camera());
         return association.fixedPoints.size();
     }
 
@@ -213,6 +213,25 @@ TEST(ImageMarks, knownMarksAreCovered)
     marks.forget();
     EXPECT_FALSE(marks.areKnown());
     EXPECT_TRUE(marks.mask().empty());
+}
+
+/** Depth images have no lens distortion. */
+TEST(ImageMarks, marksAreCoveredWhereTheDepthImageShowsThem)
+{
+    ImageMarks marks(kWindowPx);
+    PinholeCamera camera = standing::camera();
+    camera.distortion[0] = -0.3;
+    for (int times = 0; times < 2; ++times)
+    {
+        Pair pair(mark);
+        (void)pair.split(marks);
+        marks.learn({pair.association}, marksIn({pair.association}), camera);
+    }
+    const Eigen::Vector2d onDepth = camera.depthPixel({60, 60});
+    const cv::Point pixel(cvRound(onDepth.x()), cvRound(onDepth.y()));
+    ASSERT_GT(cv::norm(pixel - cv::Point(60, 60)), kWindowPx / 2);
+    EXPECT_NE(marks.mask().at<std::uint8_t>(pixel), 0);
+    EXPECT_EQ(marks.mask().at<std::uint8_t>(60, 60), 0);
 }
 
 /** Before a wall that the camera moves along, depth does not tell it. */

@@ -82,7 +82,7 @@ TEST(LatestImages, theRobotIsNoReading)
     RgbdFrame frame = frameOf(2, 100);
     (void)images.renew(frame);
     EXPECT_TRUE(std::isnan(frame.depth.at<float>(1, 2)));
-    EXPECT_EQ(images.maskSize(), cv::Size(4, 3));
+    EXPECT_EQ(images.mask().size(), cv::Size(4, 3));
     images.setMask({});
     frame = frameOf(3, 100);
     (void)images.renew(frame);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /** A camera that sees a part of the robot that carries it. */
 #include <pointplane/odometry/Odometry.h>
+#include <pointplane/odometry/robot_mask.h>
 #include <pointplane/simulation/SimulatedSequence.h>
 
 #include <opencv2/imgproc.hpp>
@@ -158,6 +159,40 @@ TEST(Mask, aFrozenImageIsStillToldFromANewOne)
     (void)odometry.process(frame);
     frame.stamp += 1.0 / 30;
     EXPECT_THAT(odometry.process(frame).reason, testing::HasSubstr("byte for byte"));
+}
+
+/** The mask is of the colour image; depth images have no lens distortion. */
+TEST(Mask, theDepthOfWhatItCoversIsLeftOut)
+{
+    PinholeCamera camera = maskedDesk().frame(0).camera;
+    camera.distortion = {-0.3, 0.1, 0, 0, 0};
+    const cv::Mat mask = maskOfDepth(robotMask(), camera);
+    int differs = 0;
+    for (int u = 0; u < kWidth; ++u)
+    {
+        for (int v = 0; v < kHeight; ++v)
+        {
+            const Eigen::Vector2d onDepth = camera.depthPixel({u, v});
+            const cv::Point pixel(cvRound(onDepth.x()), cvRound(onDepth.y()));
+            if (!cv::Rect({}, mask.size()).contains(pixel) || std::abs(v - 2 * kHeight / 3) <= 1)
+            {
+                continue;
+            }
+            EXPECT_EQ(mask.at<uchar>(pixel), robotMask().at<uchar>(v, u)) << u << " " << v;
+            differs += robotMask().at<uchar>(pixel) != robotMask().at<uchar>(v, u) ? 1 : 0;
+        }
+    }
+    EXPECT_GT(differs, 10);
+
+    Odometry odometry{OdometryParams()};
+    odometry.setMask(robotMask());
+    RgbdFrame frame = recording()[0];
+    frame.camera = camera;
+    (void)odometry.process(frame);
+    for (const FrameFeatures::Point& point : odometry.features().points)
+    {
+        EXPECT_LT(point.uv_px.y(), 2 * kHeight / 3);
+    }
 }
 
 TEST(Mask, framesOfAnotherSizeAreLost)

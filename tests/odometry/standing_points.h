@@ -43,7 +43,7 @@ struct Seen
     /** \return number of marks that they show */
     size_t marks()
     {
-        ImageMarks(kWindowPx).split(association);
+        ImageMarks(kWindowPx).split(association, camera());
         return association.fixedPoints.size();
     }
 
@@ -93,7 +93,7 @@ struct Circle
 /** The frame shows what was seen, and what it shows is learnt. */
 inline bool teach(ImageMarks& marks, Seen& seen)
 {
-    marks.split(seen.association);
+    marks.split(seen.association, camera());
     return marks.learn({seen.association}, marksIn({seen.association}), camera());
 }
 

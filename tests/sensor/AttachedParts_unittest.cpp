@@ -145,6 +145,17 @@ TEST(AttachedParts, theWallBehindALargePersonIsNone)
 }
 
 /** A floor keeps its depth, too, in front of a camera that drives along. */
+TEST(AttachedParts, theRoomInWhichAFarScreenShowsAFilmIsNone)
+{
+    const auto withFilm = [](int moved)
+    {
+        RgbdFrame out = wall(0, 1);
+        put({0, 0, kWidth * 4 / 10, kHeight}, pattern(3 + moved), 5, out);
+        return out;
+    };
+    EXPECT_EQ(shareOf(withFilm), 0);
+}
+
 TEST(AttachedParts, aSurfaceThatMovesAlongItselfIsNone)
 {
     const auto withFloor = [](int moved)

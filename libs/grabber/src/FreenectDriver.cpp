@@ -17,7 +17,7 @@ namespace
 constexpr std::string_view kUriPrefix = "freenect://";
 
 /** 2 of "freenect://2". */
-std::optional<int> indexIn(const std::string& uri)
+std::optional<int> indexOfCamera(const std::string& uri)
 {
     int index = -1;
     if (uri.rfind(kUriPrefix, 0) == 0)
@@ -65,7 +65,7 @@ class FreenectDriver : public CameraDriver
     [[nodiscard]] std::unique_ptr<Camera> open(
         const DeviceInfo& device, const CameraSettings& settings) override
     {
-        const auto index = indexIn(device.uri);
+        const auto index = indexOfCamera(device.uri);
         if (!index)
         {
             throw EnvironmentError("'" + device.uri + "' is no Kinect");

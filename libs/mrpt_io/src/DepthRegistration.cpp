@@ -11,18 +11,18 @@ namespace pointplane
 namespace
 {
 constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
-/** Neighbours whose inverse depth differs by more lie on another surface: some 20 standard
- * deviations of a Kinect [1/m]. */
-constexpr float kMaxGradient = 0.03F;
 /** A reading that would cover more pixels of the target is next to its lens, or the intrinsics are
  * nonsense. */
 constexpr double kMaxSplat_px = 50;
 
-/** Change of inverse depth per pixel between two neighbours, or 0 across an edge or a hole. */
-[[nodiscard]] float gradient(float before, float after)
+/** Change of inverse depth per pixel at a reading between two neighbours: the smaller of both
+ * sides', so that an edge on one side does not count; 0 if they differ in sign, or beside a hole.
+ */
+[[nodiscard]] float gradient(float before, float at, float after)
 {
-    const float difference = 0.5F * (1 / after - 1 / before);
-    return std::abs(difference) <= kMaxGradient ? difference : 0.0F;  // false for NaN
+    const float first = 1 / at - 1 / before, second = 1 / after - 1 / at;
+    const float smaller = std::abs(first) < std::abs(second) ? first : second;
+    return first * second > 0 ? smaller : 0.0F;  // false for NaN
 }
 
 /** Slopes per target pixel of what has these per source pixel: by the transposed inverse of the
@@ -122,9 +122,9 @@ void DepthRegistration::splat(const cv::Mat& depth, int u, int v, cv::Mat& out) 
     }
     const bool inside = u > 0 && v > 0 && u + 1 < depth.cols && v + 1 < depth.rows;
     const float slopeU =
-        inside ? gradient(depth.at<float>(v, u - 1), depth.at<float>(v, u + 1)) : 0.0F;
+        inside ? gradient(depth.at<float>(v, u - 1), z, depth.at<float>(v, u + 1)) : 0.0F;
     const float slopeV =
-        inside ? gradient(depth.at<float>(v - 1, u), depth.at<float>(v + 1, u)) : 0.0F;
+        inside ? gradient(depth.at<float>(v - 1, u), z, depth.at<float>(v + 1, u)) : 0.0F;
     const Eigen::Vector2d slopes = slopesInTarget(steps, slopeU, slopeV);
     const double perU = slopes.x(), perV = slopes.y();
     for (int row = firstV; row <= lastV; ++row)

@@ -247,7 +247,7 @@ Association FrontEnd::associate(
             reference.points, current.frame, current.points, T_cur_ref, radiusFactor);
         if (findsMarks_)
         {
-            marks_.split(out);
+            marks_.split(out, current.frame.camera);
         }
     }
     return out;

@@ -34,6 +34,8 @@ const PointFeature& pointOf(const Association& association, const PointTrack& tr
     return association.reference->points.points[static_cast<size_t>(track.ref)];
 }
 
+cv::Point pixelAt(const Eigen::Vector2d& uv_px) { return {cvRound(uv_px.x()), cvRound(uv_px.y())}; }
+
 bool stands(const PointFeature& ref, const PointFeature& cur)
 {
     return (cur.uv_px - ref.uv_px).norm() < kStill_px;
@@ -164,7 +166,7 @@ std::vector<Mark> marksIn(const std::vector<Association>& associations)
     return out;
 }
 
-void ImageMarks::split(Association& association) const
+void ImageMarks::split(Association& association, const PinholeCamera& camera) const
 {
     const bool areShown = still(association) == Still::Marks;
     if (!areShown && !areKnown_)
@@ -176,7 +178,7 @@ void ImageMarks::split(Association& association) const
     {
         const bool isStill = stands(pointOf(association, track), track.cur);
         std::vector<PointTrack>& kind = isStill && areShown ? association.fixedPoints
-                                        : isStill || seesMark(track.cur.uv_px)
+                                        : isStill || seesMark(camera.depthPixel(track.cur.uv_px))
                                             ? association.doubtedPoints
                                             : others;
         kind.push_back(track);
@@ -261,9 +263,9 @@ void ImageMarks::forget()
     mask_.release();
 }
 
-bool ImageMarks::seesMark(const Eigen::Vector2d& uv_px) const
+bool ImageMarks::seesMark(const Eigen::Vector2d& depthUv_px) const
 {
-    const cv::Point place(cvRound(uv_px.x()), cvRound(uv_px.y()));
+    const cv::Point place = pixelAt(depthUv_px);
     return cv::Rect({}, mask_.size()).contains(place) && mask_.at<std::uint8_t>(place) > 0;
 }
 
@@ -273,6 +275,6 @@ void ImageMarks::add(const Eigen::Vector2d& uv_px, const PinholeCamera& camera)
     {
         mask_ = cv::Mat::zeros(camera.height, camera.width, CV_8UC1);
     }
-    cv::circle(mask_, cv::Point2d(uv_px.x(), uv_px.y()), radius_px_, 255, cv::FILLED);
+    cv::circle(mask_, pixelAt(camera.depthPixel(uv_px)), radius_px_, 255, cv::FILLED);
 }
 }  // namespace pointplane

@@ -40,7 +40,7 @@ class ImageMarks
     /** Takes points that stand in the image out of an association: to fixedPoints if the depth
      * behind many of them has changed, else to doubtedPoints once marks are known, as points that
      * are found where a mark is. If these are most of the points, no point counts. */
-    void split(Association& association) const;
+    void split(Association& association, const PinholeCamera& camera) const;
 
     [[nodiscard]] bool areKnown() const { return areKnown_; }
 
@@ -66,11 +66,12 @@ class ImageMarks
     /** For another camera. */
     void forget();
 
-    /** Not 0 (CV_8UC1, of the image's size) near marks that were found; empty if there are none. */
+    /** Not 0 (CV_8UC1, of the depth image's size) near marks that were found; empty if there are
+     * none. */
     [[nodiscard]] const cv::Mat& mask() const { return mask_; }
 
  private:
-    [[nodiscard]] bool seesMark(const Eigen::Vector2d& uv_px) const;
+    [[nodiscard]] bool seesMark(const Eigen::Vector2d& depthUv_px) const;
     void add(const Eigen::Vector2d& uv_px, const PinholeCamera& camera);
 
     static constexpr int kNone = -1;

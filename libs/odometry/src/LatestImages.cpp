@@ -8,6 +8,8 @@
 #include <limits>
 #include <utility>
 
+#include "frame_checks.h"
+
 namespace pointplane
 {
 namespace
@@ -64,10 +66,19 @@ LatestImages::LatestImages(double minDepth, double maxDepth)
 
 void LatestImages::setMask(const cv::Mat& mask)
 {
-    leftOut_ = mask.empty() ? cv::Mat() : cv::Mat(withoutRobot(mask) == 0);
+    mask_ = mask.empty() ? cv::Mat() : withoutRobot(mask);
+    leftOutOf_.reset();
 }
 
-cv::Mat LatestImages::mask() const { return leftOut_.empty() ? cv::Mat() : cv::Mat(leftOut_ == 0); }
+const cv::Mat& LatestImages::leftOut(const PinholeCamera& camera)
+{
+    if (!leftOutOf_ || !sameCamera(*leftOutOf_, camera))
+    {
+        leftOut_ = maskOfDepth(mask_, camera) == 0;
+        leftOutOf_ = camera;
+    }
+    return leftOut_;
+}
 
 void LatestImages::forget()
 {
@@ -79,9 +90,9 @@ std::string LatestImages::renew(RgbdFrame& frame)
 {
     makeOwn(readings_);
     keepReadings(frame.depth, minDepth_, maxDepth_, readings_);
-    if (!leftOut_.empty())
+    if (!mask_.empty())
     {
-        readings_.setTo(kNoReading, leftOut_);
+        readings_.setTo(kNoReading, leftOut(frame.camera));
     }
     // Noise makes any two others differ.
     const bool repeatsDepth = isSame(depth_, readings_);

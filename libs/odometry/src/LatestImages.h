@@ -3,6 +3,7 @@
 
 #include <pointplane/sensor/RgbdFrame.h>
 
+#include <optional>
 #include <string>
 
 namespace pointplane
@@ -18,8 +19,7 @@ class LatestImages
     /** Depth where the mask has the robot is no reading. \param mask withoutRobot()'s; empty: none
      */
     void setMask(const cv::Mat& mask);
-    [[nodiscard]] cv::Mat mask() const;
-    [[nodiscard]] cv::Size maskSize() const { return leftOut_.size(); }
+    [[nodiscard]] const cv::Mat& mask() const { return mask_; }
 
     /** Puts copies in the place of the frame's images. Depth that is no reading becomes NaN. An
      * image that is that of the frame before, byte for byte, is left out: a stream that hangs shows
@@ -31,9 +31,14 @@ class LatestImages
     void forget();
 
  private:
+    /** Not 0 where the mask is 0, in this camera's depth images. */
+    [[nodiscard]] const cv::Mat& leftOut(const PinholeCamera& camera);
+
     float minDepth_, maxDepth_;
     cv::Mat depth_, gray_;
-    cv::Mat leftOut_;   //!< not 0 where the mask is 0
     cv::Mat readings_;  //!< memory of the next depth image
+    cv::Mat mask_;
+    std::optional<PinholeCamera> leftOutOf_;
+    cv::Mat leftOut_;
 };
 }  // namespace pointplane

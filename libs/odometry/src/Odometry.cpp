@@ -181,7 +181,7 @@ void Odometry::Impl::follow(const RgbdFrame& frame, const Features& current, Odo
 
 std::string Odometry::Impl::whyUnusable(const RgbdFrame& frame)
 {
-    const std::string problem = problemOf(frame, images.maskSize());
+    const std::string problem = problemOf(frame, images.mask().size());
     return !problem.empty() ? problem
            : !track.isEmpty() && track.isLate(frame.stamp)
                ? "its time stamp is not after the previous frame's"
@@ -408,7 +408,7 @@ Odometry& Odometry::operator=(Odometry&&) noexcept = default;
 OdometryResult Odometry::process(const RgbdFrame& frame) { return impl_->process(frame); }
 const FrameFeatures& Odometry::features() const { return impl_->shown; }
 const OdometryParams& Odometry::params() const { return impl_->params; }
-cv::Mat Odometry::mask() const { return impl_->images.mask(); }
+cv::Mat Odometry::mask() const { return impl_->images.mask().clone(); }
 
 void Odometry::setMask(const cv::Mat& mask) { impl_->images.setMask(mask); }
 

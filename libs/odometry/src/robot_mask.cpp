@@ -23,4 +23,27 @@ cv::Mat withoutRobot(const cv::Mat& mask)
                           "and white elsewhere");
     return mask >= middle;
 }
+
+cv::Mat maskOfDepth(const cv::Mat& mask, const PinholeCamera& camera)
+{
+    if (!camera.isDistorted())
+    {
+        return mask;
+    }
+    cv::Mat out(mask.size(), CV_8UC1, cv::Scalar(255));
+    const cv::Rect inside({}, mask.size());
+    for (int v = 0; v < out.rows; ++v)
+    {
+        for (int u = 0; u < out.cols; ++u)
+        {
+            const Eigen::Vector2d seen =
+                camera.project(camera.normalisedOfDepth({u, v}).homogeneous());
+            const cv::Point pixel = seen.allFinite()
+                                        ? cv::Point(cvRound(seen.x()), cvRound(seen.y()))
+                                        : cv::Point(-1, -1);
+            out.at<uchar>(v, u) = inside.contains(pixel) ? mask.at<uchar>(pixel) : 255;
+        }
+    }
+    return out;
+}
 }  // namespace pointplane

@@ -35,15 +35,19 @@ double area(const CellChange& cell)
     return z * z;
 }
 
-/** Whether most of the surface has changed. */
+/** Whether most of the surface has changed, and most of the view. A far screen with a film is a
+ * large surface; a near person fills the view. */
 bool isElsewhere(const CellChanges& cells)
 {
     double changed = 0, rest = 0;
+    int numChanged = 0, numOthers = 0;
     for (const CellChange& cell : cells.all())
     {
-        (cell.change == Change::Changed ? changed : rest) += area(cell);
+        const bool hasChanged = cell.change == Change::Changed;
+        (hasChanged ? changed : rest) += area(cell);
+        (hasChanged ? numChanged : numOthers) += cell.farthest > 0 ? 1 : 0;
     }
-    return changed > kClearlyLarger * rest;
+    return changed > kClearlyLarger * rest && numChanged > numOthers;
 }
 
 /** Of the cells that have changed. */

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pointplane/sensor/PinholeCamera.h>
+
 #include <opencv2/core/mat.hpp>
 
 namespace pointplane
@@ -11,4 +13,9 @@ namespace pointplane
  * \throws std::invalid_argument if it is of another type or shape, or leaves everything or nothing
  */
 [[nodiscard]] cv::Mat withoutRobot(const cv::Mat& mask);
+
+/** A mask of the colour image, as the depth image shows it: that one has no lens distortion.
+ * \param mask CV_8UC1, of the camera's size \return of the same size, 0 where the mask is 0; what
+ * the colour image does not show is 255 */
+[[nodiscard]] cv::Mat maskOfDepth(const cv::Mat& mask, const PinholeCamera& camera);
 }  // namespace pointplane
