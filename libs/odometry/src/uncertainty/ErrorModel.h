@@ -19,14 +19,14 @@ namespace pointplane
  *
  * The solver's estimate is linearised in all that it was made from. The error of the new pose and
  * velocity is then linear in errors that last from frame to frame, which JointCovariance holds as
- * one Gaussian state (stochastic cloning), and in noise that is new. To first order, with names as
- * in docs/theory.md, section Window,
+ * one Gaussian state (stochastic cloning), and in noise that is new. To first order (docs/theory.md,
+ * section Window; K_r is H^-1 H_r there, P_r is H^-1 H_P,r, and K_0 is H^-1 H_0),
  *
- *     (xi, nu) = sum_r (K_r (xi_r, nu_r) + K_r (zeta - zeta_r) + P_r (eta - eta_r) + C_r s_r)
- *                + C s + K_0 (xi, nu)_prev + B k + e + p
+ *     (xi, nu) = sum_r (K_r (xi_r + zeta - zeta_r) + D_r nu_r + P_r (eta - eta_r) + C_r s_r)
+ *                + C s + K_0 (xi + m nu, kappa nu)_prev + B k + e + p
  *
- * The factors K_r, P_r (by points), C_r, C, K_0 and B are the Jacobians of the solution: members of
- * Sensitivity. xi, nu, eta, zeta, s and k are states; e and p are white. The terms:
+ * The factors K_r, D_r, P_r (by points), C_r, C, K_0 and B are the Jacobians of the solution, members
+ * of Sensitivity. xi, nu, eta, zeta, s and k are states; e and p are white. The terms:
  *
  * - xi_r, nu_r: errors of pose and velocity of reference r. A rolling shutter has moved its
  *   features by the velocity.
@@ -39,7 +39,7 @@ namespace pointplane
  * - s, s_r: smooth error of the depth images, by which neighbouring points err together: a scale of
  *   depth in each patch. A part of it is new in each image, the rest is a process like zeta:
  *   ErrorsByView. None with structured light.
- * - (xi, nu)_prev: errors of the previous pose and velocity, where the predicted motion begins.
+ * - (..)_prev: errors of the previous pose and its decayed velocity, where the prediction begins.
  * - p: what white acceleration adds to the predicted motion: MotionModel, which Track owns.
  * - k: errors of the camera that all frames share: vignetting, principal point, focal length,
  *   radial distortion, scale of depth, and the shutter. All are consider states (Schmidt):

@@ -17,7 +17,8 @@ namespace pointplane
  * A camera that moves past things sees the near ones move most, and one that turns sees all move
  * alike. So what is nearer than most of what changes in the view, and stays the same, moves with
  * the camera. A grid of cells is compared with an earlier view. When most of the surface in view,
- * and most of the view, has changed, each cell is told by whether it has, and the later view becomes the earlier one. */
+ * and most of the view, has changed, each cell is told by whether it has, and the later view
+ * becomes the earlier one. */
 class AttachedParts
 {
  public:
