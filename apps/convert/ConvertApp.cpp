@@ -41,7 +41,7 @@ void warnOfEarlierTruth(const std::string& truth, std::ostream& err)
     }
 }
 
-/** \param guard with all inputs */
+/** With the ground truth that comes with the images. \param guard with all inputs */
 int convert(
     Recording& recording,
     const RecordingOutput& output,
@@ -49,36 +49,24 @@ int convert(
     std::ostream& out,
     std::ostream& err)
 {
+    const std::string poses = recording.groundTruth(), truth = kCopiedTruth + poses;
     addOutputs(output, guard);
-    const RecordingSummary summary = convertRecording(recording, output, err);
-    if (hasPlaceBeside(output.path))
+    if (!poses.empty())
     {
-        warnOfEarlierTruth(groundTruthOf(output.path), err);
+        guard.addGroundTruth(output.path, truth);
     }
-    return report(summary, output, recording.notes(), out, err);
-}
-
-/** With the ground truth that comes with the images. */
-int convertTum(
-    TumRecording& recording, const RecordingOutput& output, std::ostream& out, std::ostream& err)
-{
-    OutputGuard guard;
-    for (const std::string& file : recording.files())
-    {
-        guard.addInput(file);
-    }
-    if (recording.groundTruth().empty())
-    {
-        return convert(recording, output, guard, out, err);
-    }
-    const std::string truth = kCopiedTruth + recording.groundTruth();
-    addOutputs(output, guard);
-    guard.addGroundTruth(output.path, truth);
     const RecordingSummary summary = convertRecording(recording, output, err);
     std::vector<std::string> notes = recording.notes();
     if (!hasPlaceBeside(output.path))
     {
-        notes.push_back(output.path + ": is not a file; the ground truth was not written");
+        if (!poses.empty())
+        {
+            notes.push_back(output.path + ": is not a file; the ground truth was not written");
+        }
+    }
+    else if (poses.empty())
+    {
+        warnOfEarlierTruth(groundTruthOf(output.path), err);
     }
     else
     {
@@ -116,7 +104,11 @@ int convertByCommand(
         return convert(*recording, options.output, guard, out, err);
     }
     TumRecording recording(options.tum);
-    return convertTum(recording, options.output, out, err);
+    for (const std::string& file : recording.files())
+    {
+        guard.addInput(file);
+    }
+    return convert(recording, options.output, guard, out, err);
 }
 }  // namespace
 

@@ -13,6 +13,7 @@
 #include "VideoFrames.h"
 #include "folder_cameras.h"
 #include "frame_images.h"
+#include "tum_line.h"
 
 namespace pointplane
 {
@@ -26,6 +27,7 @@ FolderRecording::FolderRecording(const FolderOptions& options)
 {
     chooseCamera(options);
     frames_ = FolderFrames(layout_, options);
+    readPoses();
     if (!layout_.video.empty())
     {
         video_ = std::make_unique<VideoFrames>(layout_.video);
@@ -37,6 +39,21 @@ FolderRecording::FolderRecording(const FolderOptions& options)
 }
 
 FolderRecording::~FolderRecording() = default;
+
+/** Of the camera that the frames are seen by. */
+void FolderRecording::readPoses()
+{
+    const Eigen::Isometry3d T_depth_cam =
+        frames_.areDepthAlone() ? Eigen::Isometry3d::Identity() : layout_.T_depth_colour;
+    for (const FolderFrames::Frame& frame : frames_.all())
+    {
+        if (const auto T_world_depth = layout_.poseOf ? layout_.poseOf(frame.depth) : std::nullopt)
+        {
+            groundTruth_ += tumLine(fromSeconds(frame.stamp), *T_world_depth * T_depth_cam) + "\n";
+            ++numPoses_;
+        }
+    }
+}
 
 /** By --camera, camera.txt, or what the folder tells. */
 void FolderRecording::chooseCamera(const FolderOptions& options)
@@ -131,6 +148,12 @@ std::vector<std::string> FolderRecording::notes() const
     layout << "read as " << layout_.name << ", " << (isFloat_ ? floatUnits_ : unitsPerMetre_)
            << " depth units per metre, " << frames_.whatStampsAre();
     std::vector<std::string> out{layout.str()};
+    if (layout_.poseOf)
+    {
+        out.push_back(
+            "poses: of " + std::to_string(numPoses_) + " of " +
+            std::to_string(frames_.all().size()) + " frames");
+    }
     if (frames_.areDepthAlone())
     {
         out.emplace_back(

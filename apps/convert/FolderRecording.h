@@ -23,9 +23,11 @@ class FolderRecording : public Recording
 
     [[nodiscard]] std::optional<RecordedFrame> next() override;
     [[nodiscard]] double progress() const override;
+    [[nodiscard]] std::string groundTruth() const override { return groundTruth_; }
     [[nodiscard]] std::vector<std::string> notes() const override;
 
  private:
+    void readPoses();
     void chooseCamera(const FolderOptions& options);
     [[nodiscard]] cv::Mat colourOf(const ImageRef& image);
     void readDepth(const ImageRef& image, RecordedFrame& frame);
@@ -36,6 +38,8 @@ class FolderRecording : public Recording
     double unitsPerMetre_{1000};
     double floatUnits_{1};  //!< the same, of depth in floating point
     bool isFloat_{false};   //!< depth has been
+    std::string groundTruth_;
+    std::size_t numPoses_{0};
     std::size_t next_{0};
     std::unique_ptr<VideoFrames> video_;
 };

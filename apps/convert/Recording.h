@@ -43,6 +43,9 @@ class Recording
     /** After the end: where the input stopped before its time, or empty. */
     [[nodiscard]] virtual std::string damage() const { return ""; }
 
+    /** Poses of the camera that come with the images, a text of the TUM format, or empty. */
+    [[nodiscard]] virtual std::string groundTruth() const { return ""; }
+
     /** What a user should know of how it was understood; lines without "\n". */
     [[nodiscard]] virtual std::vector<std::string> notes() const { return {}; }
 };

@@ -36,7 +36,7 @@ class TumRecording : public Recording
     /** Lists, camera, images: all that is read. */
     [[nodiscard]] std::vector<std::string> files() const;
     /** groundtruth.txt, or empty if there is none with poses. */
-    [[nodiscard]] const std::string& groundTruth() const { return groundTruth_; }
+    [[nodiscard]] std::string groundTruth() const override { return groundTruth_; }
 
  private:
     struct Frame

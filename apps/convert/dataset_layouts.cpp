@@ -37,6 +37,11 @@ std::optional<FolderLayout> scanNet(const fs::path& folder)
     out.T_depth_colour = extrinsicIn(intrinsic / "extrinsic_depth.txt").inverse() *
                          extrinsicIn(intrinsic / "extrinsic_color.txt");
     out.calibration = intrinsic.string();
+    if (fs::is_directory(folder / "pose"))
+    {
+        out.poseOf = [folder](const ImageRef& depth)
+        { return poseIn(folder / "pose" / fs::path(depth.path).stem().concat(".txt")); };
+    }
     out.fps = 30;
     return out;
 }
@@ -60,6 +65,12 @@ std::optional<FolderLayout> sevenScenes(const fs::path& folder)
     T_colour_depth.translation() << -0.02556, 0.0001, 0.00203;
     out.T_depth_colour = T_colour_depth.inverse();
     out.cameraIsNominal = true;
+    const auto poseFile = [](const ImageRef& depth)  // "frame-000000.pose.txt"
+    { return fs::path(depth.path).replace_extension().replace_extension(".pose.txt"); };
+    if (fs::exists(poseFile(out.depth.front())))
+    {
+        out.poseOf = [poseFile](const ImageRef& depth) { return poseIn(poseFile(depth)); };
+    }
     out.fps = 30;
     return out;
 }
@@ -92,6 +103,14 @@ std::optional<FolderLayout> replica(const fs::path& folder)
             out.unitsPerMetre = numberAt(c, "scale", path);
             break;
         }
+    }
+    if (fs::exists(folder / "traj.txt"))
+    {
+        out.poseOf = [poses = posesInLines(folder / "traj.txt")](const ImageRef& depth)
+        {
+            const auto line = static_cast<std::size_t>(depth.key);
+            return line < poses.size() ? poses[line] : std::nullopt;
+        };
     }
     out.fps = 30;
     return out;

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,6 +24,8 @@ struct FolderLayout
     bool cameraIsNominal{false};          //!< a data set's usual camera, not this one's calibration
     std::optional<PinholeCamera> depthCamera;                         //!< where it is another
     Eigen::Isometry3d T_depth_colour{Eigen::Isometry3d::Identity()};  //!< of depthCamera
+    /** Pose in the world of the camera that saw a depth image; empty: the folder tells none. */
+    std::function<std::optional<Eigen::Isometry3d>(const ImageRef& depth)> poseOf;
     double unitsPerMetre{1000};
     std::optional<double> fps;              //!< where the folder tells it
     std::string stampList;                  //!< a file that tells stamps by number, if there is one

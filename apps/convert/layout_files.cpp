@@ -23,6 +23,26 @@ namespace fs = std::filesystem;
 
 namespace
 {
+/** Of a 4x4 matrix, row by row, or nothing if that is no rotation and translation. */
+std::optional<Eigen::Isometry3d> poseOf(const std::vector<double>& m)
+{
+    constexpr double kRounding = 1e-3;  // of what a file holds
+    if (m.size() != 16)
+    {
+        return {};
+    }
+    Eigen::Isometry3d out;
+    out.matrix() = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(m.data());
+    const Eigen::Matrix3d R = out.linear();
+    if (!out.matrix().allFinite() || out.matrix().row(3) != Eigen::RowVector4d(0, 0, 0, 1) ||
+        !(R.transpose() * R).isIdentity(kRounding) || R.determinant() < 0)
+    {
+        return {};
+    }
+    out.linear() = Eigen::Quaterniond(R).normalized().toRotationMatrix();
+    return out;
+}
+
 /** All numbers of a text file, separated by blanks or commas. */
 std::vector<double> numbersInFile(const fs::path& path)
 {
@@ -94,23 +114,45 @@ PinholeCamera cameraOfMatrix(const fs::path& path)
 
 Eigen::Isometry3d poseOfMatrix(const fs::path& path)
 {
-    constexpr double kRounding = 1e-3;  // of what the file holds
-    const std::vector<double> m = numbersInFile(path);
-    Eigen::Isometry3d out = Eigen::Isometry3d::Identity();
-    if (m.size() == 16)
-    {
-        out.matrix() = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(m.data());
-    }
-    const Eigen::Matrix3d R = out.linear();
-    if (m.size() != 16 || out.matrix().row(3) != Eigen::RowVector4d(0, 0, 0, 1) ||
-        !(R.transpose() * R).isIdentity(kRounding) || R.determinant() < 0)
+    const auto pose = poseOf(numbersInFile(path));
+    if (!pose)
     {
         throw InputError(
             path.string() +
             ": is not a 4x4 matrix of a rotation and a translation, with a last "
             "row of 0 0 0 1");
     }
-    out.linear() = Eigen::Quaterniond(R).normalized().toRotationMatrix();
+    return *pose;
+}
+
+std::optional<Eigen::Isometry3d> poseIn(const fs::path& path)
+{
+    try
+    {
+        return poseOf(numbersInFile(path));
+    }
+    catch (const InputError&)
+    {
+        return {};
+    }
+}
+
+std::vector<std::optional<Eigen::Isometry3d>> posesInLines(const fs::path& path)
+{
+    std::vector<std::optional<Eigen::Isometry3d>> out;
+    std::ifstream file(path);
+    skipByteOrderMark(file);
+    for (std::string line; std::getline(file, line);)
+    {
+        std::istringstream words(line);
+        std::vector<double> numbers;
+        for (std::string word; words >> word;)
+        {
+            // What is no number makes no rotation.
+            numbers.push_back(parseFinite(word).value_or(std::nan("")));
+        }
+        out.push_back(poseOf(numbers));
+    }
     return out;
 }
 

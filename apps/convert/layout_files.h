@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 #include "calibration_file.h"
 #include <nlohmann/json_fwd.hpp>
@@ -23,6 +24,13 @@ void requireFolder(const std::string& path);
 
 /** A 4x4 matrix, row by row: a rotation and a translation [m]. */
 [[nodiscard]] Eigen::Isometry3d poseOfMatrix(const std::filesystem::path& path);
+
+/** The same where a file may say that there is no pose, or be lost. Does not throw. */
+[[nodiscard]] std::optional<Eigen::Isometry3d> poseIn(const std::filesystem::path& path);
+
+/** Such matrices, one a line; nothing where a line is none. Empty if there is no file. */
+[[nodiscard]] std::vector<std::optional<Eigen::Isometry3d>> posesInLines(
+    const std::filesystem::path& path);
 
 /** What a JSON file holds, or nothing if it is not there. */
 [[nodiscard]] std::optional<nlohmann::json> jsonIn(const std::filesystem::path& path);

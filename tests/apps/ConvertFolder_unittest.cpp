@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/evaluation/trajectory_text.h>
 #include <pointplane/mrpt_io/mrpt_poses.h>
 
 #include <opencv2/videoio.hpp>
@@ -159,6 +160,42 @@ TEST_F(ConvertFolder, scanNetTellsWhereItsCamerasAre)
     }
 }
 
+/** Poses are the depth camera's; frames are seen by the colour camera. Where tracking was lost,
+ * they are infinite. */
+TEST_F(ConvertFolder, posesOfADataSetAreGroundTruth)
+{
+    writeFrames("in/color/%d.jpg", "in/depth/%d.png", 32);
+    write("in/intrinsic/intrinsic_color.txt", "60 0 31.5 0\n0 60 23.5 0\n0 0 1 0\n0 0 0 1\n");
+    write("in/intrinsic/intrinsic_depth.txt", "30 0 15.5 0\n0 30 11.5 0\n0 0 1 0\n0 0 0 1\n");
+    write("in/intrinsic/extrinsic_color.txt", "1 0 0 0.03\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
+    // Turned by 90 degrees about z.
+    write("in/pose/1.txt", "0 -1 0 5\n1 0 0 6\n0 0 1 7\n0 0 0 1\n");
+    write("in/pose/2.txt", "-inf -inf -inf -inf\n0 0 0 0\n0 0 0 0\n0 0 0 1\n");
+    ASSERT_EQ(run({"folder", in_}), kExitOk) << text_;
+    EXPECT_THAT(text_, HasSubstr("poses: of 1 of "));
+    const auto truth = readTrajectoryText(dir_ / "out.groundtruth.txt");
+    ASSERT_EQ(truth.size(), 1U);
+    EXPECT_TRUE(truth.poses[0].translation().isApprox(Eigen::Vector3d(5, 6.03, 7), 1e-6));
+    EXPECT_NEAR(truth.stamps[0], frames()[1].stamp, 1e-6);
+}
+
+TEST_F(ConvertFolder, posesOfReplicaAreLines)
+{
+    writeFrames("in/results/frame%06d.jpg", "in/results/depth%06d.png");
+    write(
+        "in/cam_params.json",
+        R"({"camera": {"w": 64, "h": 48, "fx": 60, "fy": 60, "cx": 31.5, "cy": 23.5,
+            "scale": 1000}})");
+    write(
+        "in/traj.txt",
+        "1 0 0 1 0 1 0 2 0 0 1 3 0 0 0 1\nnot a pose\n1 0 0 4 0 1 0 5 0 0 1 6 0 0 0 1\n");
+    ASSERT_EQ(run({"folder", in_}), kExitOk) << text_;
+    const auto truth = readTrajectoryText(dir_ / "out.groundtruth.txt");
+    ASSERT_EQ(truth.size(), 2U);
+    EXPECT_TRUE(truth.poses[1].translation().isApprox(Eigen::Vector3d(4, 5, 6), 1e-6));
+    EXPECT_NEAR(truth.stamps[1], frames()[2].stamp, 1e-6);
+}
+
 TEST_F(ConvertFolder, sevenScenesMarksNoReadingBy65535)
 {
     for (int i = 0; i < 3; ++i)
@@ -167,7 +204,7 @@ TEST_F(ConvertFolder, sevenScenesMarksNoReadingBy65535)
         depth.at<std::uint16_t>(0, 0) = 65535;
         writeImage(numbered("in/frame-%06d.color.png", i), colourImage(i, 640, 480));
         writeImage(numbered("in/frame-%06d.depth.png", i), depth);
-        write(numbered("in/frame-%06d.pose.txt", i), "1 0 0 0\n");
+        write(numbered("in/frame-%06d.pose.txt", i), "1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
     }
     ASSERT_EQ(run({"folder", in_}), kExitOk) << text_;
     EXPECT_THAT(text_, HasSubstr("7-Scenes"));

@@ -19,14 +19,14 @@ namespace pointplane
  *
  * The solver's estimate is linearised in all that it was made from. The error of the new pose and
  * velocity is then linear in errors that last from frame to frame, which JointCovariance holds as
- * one Gaussian state (stochastic cloning), and in noise that is new. To first order (docs/theory.md,
- * section Window; K_r is H^-1 H_r there, P_r is H^-1 H_P,r, and K_0 is H^-1 H_0),
+ * one Gaussian state (stochastic cloning), and in noise that is new. To first order
+ * (docs/theory.md, section Window; K_r is H^-1 H_r there, P_r is H^-1 H_P,r, and K_0 is H^-1 H_0),
  *
  *     (xi, nu) = sum_r (K_r (xi_r + zeta - zeta_r) + D_r nu_r + P_r (eta - eta_r) + C_r s_r)
  *                + C s + K_0 (xi + m nu, kappa nu)_prev + B k + e + p
  *
- * The factors K_r, D_r, P_r (by points), C_r, C, K_0 and B are the Jacobians of the solution, members
- * of Sensitivity. xi, nu, eta, zeta, s and k are states; e and p are white. The terms:
+ * The factors K_r, D_r, P_r (by points), C_r, C, K_0 and B are the Jacobians of the solution,
+ * members of Sensitivity. xi, nu, eta, zeta, s and k are states; e and p are white. The terms:
  *
  * - xi_r, nu_r: errors of pose and velocity of reference r. A rolling shutter has moved its
  *   features by the velocity.
