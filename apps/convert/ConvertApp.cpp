@@ -41,6 +41,19 @@ void warnOfEarlierTruth(const std::string& truth, std::ostream& err)
     }
 }
 
+/** \return what became of it, for people */
+std::string writeTruth(const RecordingOutput& output, const std::string& truth)
+{
+    if (!hasPlaceBeside(output.path))
+    {
+        return output.path + ": is not a file; the ground truth was not written";
+    }
+    TextOutput file(groundTruthOf(output.path));
+    file.write(truth);
+    file.close();
+    return file.path() + ": ground truth";
+}
+
 /** With the ground truth that comes with the images. \param guard with all inputs */
 int convert(
     Recording& recording,
@@ -57,23 +70,13 @@ int convert(
     }
     const RecordingSummary summary = convertRecording(recording, output, err);
     std::vector<std::string> notes = recording.notes();
-    if (!hasPlaceBeside(output.path))
+    if (!poses.empty())
     {
-        if (!poses.empty())
-        {
-            notes.push_back(output.path + ": is not a file; the ground truth was not written");
-        }
+        notes.push_back(writeTruth(output, truth));
     }
-    else if (poses.empty())
+    else if (hasPlaceBeside(output.path))
     {
         warnOfEarlierTruth(groundTruthOf(output.path), err);
-    }
-    else
-    {
-        TextOutput file(groundTruthOf(output.path));
-        file.write(truth);
-        file.close();
-        notes.push_back(file.path() + ": ground truth");
     }
     return report(summary, output, notes, out, err);
 }

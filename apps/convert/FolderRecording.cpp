@@ -151,7 +151,7 @@ std::vector<std::string> FolderRecording::notes() const
     if (layout_.poseOf)
     {
         out.push_back(
-            "poses: of " + std::to_string(numPoses_) + " of " +
+            "poses of " + std::to_string(numPoses_) + " of " +
             std::to_string(frames_.all().size()) + " frames");
     }
     if (frames_.areDepthAlone())

@@ -153,6 +153,7 @@ std::vector<std::optional<Eigen::Isometry3d>> posesInLines(const fs::path& path)
         }
         out.push_back(poseOf(numbers));
     }
+    requireRead(file, path.string());
     return out;
 }
 

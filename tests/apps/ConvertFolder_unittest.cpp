@@ -172,7 +172,7 @@ TEST_F(ConvertFolder, posesOfADataSetAreGroundTruth)
     write("in/pose/1.txt", "0 -1 0 5\n1 0 0 6\n0 0 1 7\n0 0 0 1\n");
     write("in/pose/2.txt", "-inf -inf -inf -inf\n0 0 0 0\n0 0 0 0\n0 0 0 1\n");
     ASSERT_EQ(run({"folder", in_}), kExitOk) << text_;
-    EXPECT_THAT(text_, HasSubstr("poses: of 1 of "));
+    EXPECT_THAT(text_, HasSubstr("poses of 1 of 3 frames"));
     const auto truth = readTrajectoryText(dir_ / "out.groundtruth.txt");
     ASSERT_EQ(truth.size(), 1U);
     EXPECT_TRUE(truth.poses[0].translation().isApprox(Eigen::Vector3d(5, 6.03, 7), 1e-6));
