@@ -32,7 +32,7 @@ run() {
 row() {
     local scene=$2 seed files=() rpe nees noise
     run exact "$@"
-    noise=$(sed -n 's/; surfaces bent .*//; s/^depth noise: //p' "$work/log")
+    noise=$(sed -n 's/; surfaces count as bent .*//; s/^depth noise: //p' "$work/log")
     rpe=$(for ((seed = 1; seed <= seeds; ++seed)); do
         "$bin/pointplane-eval" rpe --fixed-delta --delta 1 --body-from-gt optical --csv - \
             "$work/exact.$seed.groundtruth.txt" "$work/exact.$seed.poses.rawlog"
