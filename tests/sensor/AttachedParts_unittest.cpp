@@ -48,6 +48,14 @@ RgbdFrame withRobot(RgbdFrame frame)
     return frame;
 }
 
+/** A camera that stands, and what changes in `share` of the view at `depth_m`, beside the wall. */
+RgbdFrame withChange(int seed, double share, double depth_m, double wall_m)
+{
+    RgbdFrame out = wall(0, wall_m);
+    put({0, 0, cvRound(share * kWidth), kHeight}, pattern(3 + seed), depth_m, out);
+    return out;
+}
+
 void addNoise(int seed, RgbdFrame& frame)
 {
     cv::RNG random(static_cast<std::uint64_t>(seed));
@@ -135,25 +143,13 @@ TEST(AttachedParts, aCameraThatStandsStillBeforeAPlainWallHasNone)
 /** A person that fills most of the view is a small surface before a wall. */
 TEST(AttachedParts, theWallBehindALargePersonIsNone)
 {
-    const auto withPerson = [](int moved)
-    {
-        RgbdFrame out = wall(0, 4);
-        put({0, 0, kWidth * 7 / 10, kHeight}, pattern(3 + moved), 1, out);
-        return out;
-    };
-    EXPECT_EQ(shareOf(withPerson), 0);
+    EXPECT_EQ(shareOf([](int moved) { return withChange(moved, 0.7, 1, 4); }), 0);
 }
 
 /** A floor keeps its depth, too, in front of a camera that drives along. */
 TEST(AttachedParts, theRoomInWhichAFarScreenShowsAFilmIsNone)
 {
-    const auto withFilm = [](int moved)
-    {
-        RgbdFrame out = wall(0, 1);
-        put({0, 0, kWidth * 4 / 10, kHeight}, pattern(3 + moved), 5, out);
-        return out;
-    };
-    EXPECT_EQ(shareOf(withFilm), 0);
+    EXPECT_EQ(shareOf([](int moved) { return withChange(moved, 0.4, 5, 1); }), 0);
 }
 
 TEST(AttachedParts, aSurfaceThatMovesAlongItselfIsNone)
