@@ -56,26 +56,6 @@ cv::Ptr<cv::Feature2D> makeExtractor(const PointDetector::TParams& params)
     }
     return params.detector == "surf" ? openCvSurf(params) : nullptr;
 }
-
-/** Points on non-zero pixels of the mask. */
-KeyPoints masked(const KeyPoints& points, const cv::Mat& mask)
-{
-    if (mask.empty())
-    {
-        return points;
-    }
-    KeyPoints out;
-    for (const cv::KeyPoint& point : points)
-    {
-        const int u = std::clamp(cvRound(point.pt.x), 0, mask.cols - 1);
-        const int v = std::clamp(cvRound(point.pt.y), 0, mask.rows - 1);
-        if (mask.at<uint8_t>(v, u) != 0)
-        {
-            out.push_back(point);
-        }
-    }
-    return out;
-}
 }  // namespace
 
 struct PointDetector::Impl
@@ -84,33 +64,29 @@ struct PointDetector::Impl
     cv::Ptr<cv::Feature2D> extractor;  // akaze, sift, OpenCV's surf
     cv::Ptr<cv::ORB> orb;              // orb, and the descriptor of fast
 
-    [[nodiscard]] KeyPoints selected(
-        const KeyPoints& points, const cv::Mat& mask, cv::Size size) const
+    [[nodiscard]] KeyPoints selected(const KeyPoints& points, cv::Size size) const
     {
-        const KeyPoints candidates = masked(points, mask);
         KeyPoints out;
-        for (const int i : selectSpread(candidates, size, params.gridCellPx, params.maxPoints))
+        for (const int i : selectSpread(points, size, params.gridCellPx, params.maxPoints))
         {
-            out.push_back(candidates[static_cast<size_t>(i)]);
+            out.push_back(points[static_cast<size_t>(i)]);
         }
         return out;
     }
 
     /** dlib's SURF [P17, section Point Extraction]. */
-    KeyPoints surf(const cv::Mat& gray, const cv::Mat& mask, cv::Mat& descriptors) const
+    KeyPoints surf(const cv::Mat& gray, cv::Mat& descriptors) const
     {
         const DlibSurf surf(gray);
-        KeyPoints points = selected(surf.detect(params.surfThreshold), mask, gray.size());
+        KeyPoints points = selected(surf.detect(params.surfThreshold), gray.size());
         descriptors = surf.describe(points, params.upright);
         return points;
     }
 
-    KeyPoints fast(const cv::Mat& gray, const cv::Mat& mask, cv::Mat& descriptors) const
+    KeyPoints fast(const cv::Mat& gray, cv::Mat& descriptors) const
     {
         KeyPoints points = selected(
-            fastCorners(gray, params.fastThreshold, params.gridCellPx, kOrbBorderPx),
-            mask,
-            gray.size());
+            fastCorners(gray, params.fastThreshold, params.gridCellPx, kOrbBorderPx), gray.size());
         refineCorners(gray, points);
         for (cv::KeyPoint& point : points)
         {
@@ -121,16 +97,16 @@ struct PointDetector::Impl
         return points;
     }
 
-    KeyPoints orbPoints(const cv::Mat& gray, const cv::Mat& mask, cv::Mat& descriptors) const
+    KeyPoints orbPoints(const cv::Mat& gray, cv::Mat& descriptors) const
     {
         KeyPoints points;
         orb->detect(gray, points);
-        points = selected(points, mask, gray.size());
+        points = selected(points, gray.size());
         orb->compute(gray, points, descriptors);
         return points;
     }
 
-    KeyPoints extract(const cv::Mat& gray, const cv::Mat& mask, cv::Mat& descriptors) const
+    KeyPoints extract(const cv::Mat& gray, cv::Mat& descriptors) const
     {
         KeyPoints all;
         cv::Mat allDescriptors;
@@ -139,7 +115,7 @@ struct PointDetector::Impl
         {
             all[i].class_id = static_cast<int>(i);  // finds the descriptor after the selection
         }
-        const KeyPoints points = selected(all, mask, gray.size());
+        const KeyPoints points = selected(all, gray.size());
         descriptors.create(
             static_cast<int>(points.size()), allDescriptors.cols, allDescriptors.type());
         for (size_t i = 0; i < points.size(); ++i)
@@ -177,9 +153,7 @@ PointDetector::~PointDetector() = default;
 PointDetector::PointDetector(PointDetector&&) noexcept = default;
 PointDetector& PointDetector::operator=(PointDetector&&) noexcept = default;
 
-const PointDetector::TParams& PointDetector::params() const { return impl_->params; }
-
-DetectedPoints PointDetector::detect(const cv::Mat& gray, const cv::Mat& mask) const
+DetectedPoints PointDetector::detect(const cv::Mat& gray) const
 {
     DetectedPoints out;
     if (std::min(gray.cols, gray.rows) < 2)
@@ -187,21 +161,16 @@ DetectedPoints PointDetector::detect(const cv::Mat& gray, const cv::Mat& mask) c
         return out;  // no image, or one that has no half: OpenCV's pyramids throw
     }
     POINTPLANE_CHECK(gray.type() == CV_8UC1, "key points need an 8-bit gray image");
-    POINTPLANE_CHECK(
-        mask.empty() || (mask.type() == CV_8UC1 && mask.size() == gray.size()),
-        "the mask is not an 8-bit image of the same size");
 
     const std::string& detector = impl_->params.detector;
-    const KeyPoints points = impl_->extractor     ? impl_->extract(gray, mask, out.descriptors)
-                             : detector == "surf" ? impl_->surf(gray, mask, out.descriptors)
-                             : detector == "orb"  ? impl_->orbPoints(gray, mask, out.descriptors)
-                                                  : impl_->fast(gray, mask, out.descriptors);
+    const KeyPoints points = impl_->extractor     ? impl_->extract(gray, out.descriptors)
+                             : detector == "surf" ? impl_->surf(gray, out.descriptors)
+                             : detector == "orb"  ? impl_->orbPoints(gray, out.descriptors)
+                                                  : impl_->fast(gray, out.descriptors);
     out.uv_px.reserve(points.size());
-    out.responses.reserve(points.size());
     for (const cv::KeyPoint& point : points)
     {
         out.uv_px.emplace_back(point.pt.x, point.pt.y);
-        out.responses.push_back(point.response);
     }
     return out;
 }

@@ -15,7 +15,6 @@ namespace pointplane
 struct DetectedPoints
 {
     std::vector<Eigen::Vector2d> uv_px;  //!< raw pixels, sub-pixel accurate
-    std::vector<float> responses;        //!< strength, in the detector's own unit
     cv::Mat descriptors;                 //!< CV_32FC1 (compare by L2) or CV_8UC1 (by Hamming)
 };
 
@@ -62,7 +61,6 @@ class PointDetector
         void check() const;
     };
 
-    PointDetector() : PointDetector(TParams{}) {}
     /** \throws std::invalid_argument naming the key */
     explicit PointDetector(const TParams& params);
     ~PointDetector();
@@ -70,13 +68,9 @@ class PointDetector
     PointDetector& operator=(PointDetector&&) noexcept;
 
     /** \param gray CV_8UC1
-     * \param mask empty, or CV_8UC1 of the same size: only points on non-zero pixels count (e.g.
-     * those with depth)
      * \return no points for an empty image
-     * \throws std::invalid_argument on another image type or mask size */
-    [[nodiscard]] DetectedPoints detect(const cv::Mat& gray, const cv::Mat& mask = {}) const;
-
-    [[nodiscard]] const TParams& params() const;
+     * \throws std::invalid_argument on another image type */
+    [[nodiscard]] DetectedPoints detect(const cv::Mat& gray) const;
 
  private:
     struct Impl;
