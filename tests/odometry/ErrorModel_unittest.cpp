@@ -104,7 +104,7 @@ TEST_F(ErrorModelTest, aFrameWhoseImageIsPulledApartErrsMore)
     };
     const JointCovariance::Measurement usual = learnt(5), bad = learnt(50);
     EXPECT_NEAR(bad.noise(0, 0), 10 * usual.noise(0, 0), 1e-9);
-    EXPECT_NEAR(bad.viewSigma[0], std::sqrt(10) * usual.viewSigma[0], 1e-9);
+    EXPECT_NEAR(bad.views.pointSigma[0], std::sqrt(10) * usual.views.pointSigma[0], 1e-9);
 }
 
 /** Of points, a part of what the residuals show, which is one where nothing is learnt. Planes are
@@ -130,7 +130,7 @@ TEST_F(ErrorModelTest, planesErrAsTheirResidualsTell)
     analysis.sensitivity.points.setZero();
     const JointCovariance::Measurement out = learnForLong(1.0 / 30);
     EXPECT_NEAR(out.noise(0, 0), 2 * 2, 0.2);
-    EXPECT_NEAR(std::pow(out.planeViewRoot(0, 0), 2), 8 * 2, 0.5);
+    EXPECT_NEAR(std::pow(out.views.planeRoot(0, 0), 2), 8 * 2, 0.5);
 }
 
 TEST_F(ErrorModelTest, aSmoothErrorOfDepthIsAsLargeAsItsResidualsTell)
@@ -142,7 +142,7 @@ TEST_F(ErrorModelTest, aSmoothErrorOfDepthIsAsLargeAsItsResidualsTell)
         of.variance *= kBend * kBend / 2;
     }
     const JointCovariance::Measurement out = learnForLong(1.0 / 30, kBend);
-    EXPECT_NEAR(std::pow(out.bendSigma, 2), 10 * kBend * kBend / 2, 0.02 * 10 * kBend * kBend / 2);
+    EXPECT_NEAR(std::pow(out.views.patchSigma, 2), 10 * kBend * kBend / 2, 0.02 * 10 * kBend * kBend / 2);
     EXPECT_NEAR(out.views.ofPatches(0, 1), 0.8 * out.views.ofPlanes(0, 1), 0.01);
     EXPECT_NEAR(out.views.ofPatches(2, 2), 1, 1e-12);
 }
@@ -151,6 +151,8 @@ TEST_F(ErrorModelTest, aSmoothErrorOfDepthIsAsLargeAsItsResidualsTell)
 TEST_F(ErrorModelTest, whatTimeAddsToThePredictedMotionIsNoise)
 {
     test::GaussianSampler sampler(7);
+    analysis.sensitivity.points.setZero();
+    analysis.sensitivity.planes.setZero();
     const Matrix12d motionNoise = sampler.covariance<12>(0.1, 1);
     analysis.sensitivity.prior = sampler.vector<12>() * sampler.vector<12>().transpose();
     analysis.sensitivity.prior += 0.5 * Matrix12d::Identity();
@@ -158,9 +160,9 @@ TEST_F(ErrorModelTest, whatTimeAddsToThePredictedMotionIsNoise)
     (void)model.changeCamera(camera);
     const JointCovariance::Measurement out =
         model.learn({{&reference}, estimate, analysis, 1e-9, motionNoise});
-    EXPECT_EQ(out.prior, analysis.sensitivity.prior);
-    const Matrix12d expected = out.prior * motionNoise * out.prior.transpose();
-    EXPECT_THAT(out.priorNoise, test::IsMatrixNear(expected, 1e-9));
+    EXPECT_EQ(out.factors.prior, analysis.sensitivity.prior);
+    const Matrix12d expected = out.factors.prior * motionNoise * out.factors.prior.transpose();
+    EXPECT_THAT(out.noise, test::IsMatrixNear(expected, 1e-9));
 }
 
 /** Points that may be wrong add what they may be wrong by, in either model. */
@@ -192,12 +194,12 @@ TEST_F(ErrorModelTest, planesErrByTheirView)
     const JointCovariance::Measurement out = learn();
     EXPECT_NEAR(out.views.ofPlanes(0, 1), std::exp(-3 * 0.6 / angle - 1), 1e-6)
         << "0.6 m of 1 m, and a third of the view";
-    EXPECT_NEAR(out.views.correlation(0, 1), std::exp(-0.6 / angle - 1.0 / 3), 1e-6) << "of points";
-    EXPECT_NEAR(out.planeViewRoot(0, 0), std::sqrt(2), 1e-9);
-    EXPECT_NEAR(out.planeViewRoot(3, 3), std::sqrt(8), 1e-9);
-    EXPECT_NEAR(out.planeViewRoot(0, 3), 0, 1e-9);
+    EXPECT_NEAR(out.views.ofPoints(0, 1), std::exp(-0.6 / angle - 1.0 / 3), 1e-6) << "of points";
+    EXPECT_NEAR(out.views.planeRoot(0, 0), std::sqrt(2), 1e-9);
+    EXPECT_NEAR(out.views.planeRoot(3, 3), std::sqrt(8), 1e-9);
+    EXPECT_NEAR(out.views.planeRoot(0, 3), 0, 1e-9);
     analysis.sensitivity.planes.setZero();
-    EXPECT_TRUE(learn().planeViewRoot.isZero(1e-12));
+    EXPECT_TRUE(learn().views.planeRoot.isZero(1e-12));
 }
 
 /** Where the camera has turned by the angle of its view, which is that of both sides' mean. */
@@ -208,7 +210,7 @@ TEST_F(ErrorModelTest, viewsAreAsWideAsTheCamera)
     camera.fy = -camera.fx;
     estimate.motion.mean.T_prev_cur = Eigen::AngleAxisd(M_PI_2, Eigen::Vector3d::UnitY());
     const double angle = 2 * std::atan(2);  // 2000 pixels in the mean, at 500 pixels
-    EXPECT_NEAR(learn().views.correlation(0, 1), std::exp(-M_PI_2 / angle), 1e-6);
+    EXPECT_NEAR(learn().views.ofPoints(0, 1), std::exp(-M_PI_2 / angle), 1e-6);
 }
 
 /** Planes tell turns as if they were far away: all features together, as if they were 2 m away. */
@@ -216,8 +218,8 @@ TEST_F(ErrorModelTest, viewsAreAsFarAwayAsPointsAndPlanes)
 {
     estimate.infoPlanes.bottomRightCorner<3, 3>() = 6 * Eigen::Matrix3d::Identity();
     const JointCovariance::Measurement out = learn();
-    EXPECT_NEAR(out.views.correlation(0, 1), std::exp(-0.6 / 2 / viewAngle()), 1e-6);
-    EXPECT_NEAR(out.viewSigma[0], 2 * out.viewSigma[3], 1e-12);
+    EXPECT_NEAR(out.views.ofPoints(0, 1), std::exp(-0.6 / 2 / viewAngle()), 1e-6);
+    EXPECT_NEAR(out.views.pointSigma[0], 2 * out.views.pointSigma[3], 1e-12);
 }
 
 /** The new frame is 0.6 m from the previous one, which is 0.2 m from another reference. */
@@ -236,7 +238,7 @@ TEST_F(ErrorModelTest, allViewsAreCompared)
     apart << 0, 0.2, 0.6, 0.2, 0, 0.8, 0.6, 0.8, 0;
     apart /= viewAngle();
     EXPECT_THAT(
-        views.correlation,
+        views.ofPoints,
         test::IsMatrixNear(Eigen::Matrix3d((-apart.array()).exp().matrix()), 1e-6));
     EXPECT_THAT(
         views.ofPlanes,
@@ -247,14 +249,14 @@ TEST_F(ErrorModelTest, aFrameErrsByItsView)
 {
     const JointCovariance::Measurement out = learn();
     EXPECT_EQ(out.views.frames, std::vector<int>{1});
-    ASSERT_EQ(out.views.correlation.rows(), 2);
-    EXPECT_EQ(out.views.correlation(0, 0), 1);
-    EXPECT_NEAR(out.views.correlation(0, 1), std::exp(-0.6 / viewAngle()), 1e-6);
-    EXPECT_EQ(out.views.correlation(1, 0), out.views.correlation(0, 1));
-    EXPECT_GT(out.viewSigma[0], 0);
-    EXPECT_NEAR(out.viewSigma[3], out.viewSigma[0], 1e-12) << "a turn errs as much, 1 m away";
+    ASSERT_EQ(out.views.ofPoints.rows(), 2);
+    EXPECT_EQ(out.views.ofPoints(0, 0), 1);
+    EXPECT_NEAR(out.views.ofPoints(0, 1), std::exp(-0.6 / viewAngle()), 1e-6);
+    EXPECT_EQ(out.views.ofPoints(1, 0), out.views.ofPoints(0, 1));
+    EXPECT_GT(out.views.pointSigma[0], 0);
+    EXPECT_NEAR(out.views.pointSigma[3], out.views.pointSigma[0], 1e-12) << "a turn errs as much, 1 m away";
     params.covariance.viewNoise *= 2;
-    EXPECT_NEAR(learn().viewSigma[0], 2 * out.viewSigma[0], 1e-15);
+    EXPECT_NEAR(learn().views.pointSigma[0], 2 * out.views.pointSigma[0], 1e-15);
 }
 
 /** Points tell a turn to 1 mrad. The references contradict each other as if all of it were noise of
@@ -262,7 +264,7 @@ TEST_F(ErrorModelTest, aFrameErrsByItsView)
 TEST_F(ErrorModelTest, errorByTheViewByHand)
 {
     params.covariance.viewNoise = 10;
-    EXPECT_NEAR(learn().viewSigma[3], 0.01 * std::sqrt(1 - params.covariance.noise), 1e-12);
+    EXPECT_NEAR(learn().views.pointSigma[3], 0.01 * std::sqrt(1 - params.covariance.noise), 1e-12);
 }
 
 /** What the references contradict each other by is what the frame's own noise explains: views do
@@ -270,7 +272,7 @@ TEST_F(ErrorModelTest, errorByTheViewByHand)
 TEST_F(ErrorModelTest, withoutContradictionsViewsDoNotErr)
 {
     params.covariance.noise = 1;
-    EXPECT_TRUE(learn().viewSigma.isZero(0));
+    EXPECT_TRUE(learn().views.pointSigma.isZero(0));
 }
 
 /** The same errors, whatever noise is beside them: with a quarter of the points, or four times the
@@ -294,7 +296,7 @@ TEST_F(ErrorModelTest, errorByTheViewDoesNotDependOnTheNoiseOfPoints)
             analysis.pointDisagreement = {needed / told, 1};
             out = model.learn({{&reference}, estimate, analysis, 1, Matrix12d::Zero()});
         }
-        return out.viewSigma[3];
+        return out.views.pointSigma[3];
     };
     const double usual = learnt(1e-6, 1);
     EXPECT_NEAR(usual, params.covariance.viewNoise * std::sqrt(3e-6), 0.02 * usual);
@@ -311,20 +313,20 @@ TEST_F(ErrorModelTest, aSmoothErrorOfDepthIsPassedOn)
     ErrorModel::Measured frame{{&reference}, estimate, analysis, 1e-9, Matrix12d::Zero()};
     frame.bend = 0.1;
     const JointCovariance::Measurement out = model.learn(frame);
-    EXPECT_NEAR(out.bendSigma, 0.1, 1e-12);
+    EXPECT_NEAR(out.views.patchSigma, 0.1, 1e-12);
     EXPECT_NEAR(out.views.ofPatches(0, 0), 1, 1e-12);
     EXPECT_NEAR(out.views.ofPatches(0, 1), out.views.ofPlanes(0, 1) / 2, 1e-12) << "half is new";
-    EXPECT_EQ(out.patches(0, 5), 2);
-    EXPECT_EQ(out.referencePatches.at(1)(0, 5), 3);
+    EXPECT_EQ(out.factors.patches(0, 5), 2);
+    EXPECT_EQ(out.factors.referencePatches.at(1)(0, 5), 3);
 }
 
 /** Points that a frame does not have say nothing of what it errs by. */
 TEST_F(ErrorModelTest, withoutPointsOnlyPlanesErrByTheView)
 {
-    EXPECT_GT(learn().viewSigma[0], 0);
+    EXPECT_GT(learn().views.pointSigma[0], 0);
     analysis.sensitivity.points.setZero();
-    EXPECT_TRUE(learn().viewSigma.isZero(0));
-    EXPECT_GT(learn().planeViewRoot(0, 0), 0);
+    EXPECT_TRUE(learn().views.pointSigma.isZero(0));
+    EXPECT_GT(learn().views.planeRoot(0, 0), 0);
 }
 
 TEST_F(ErrorModelTest, aFrameErrsByAccelerationWhileItIsExposed)
@@ -376,8 +378,8 @@ TEST_F(ErrorModelTest, whatIsLearntOfTheCameraIsPassedOn)
     analysis.camera.gradient[kDepthDelay] = -200;
     const JointCovariance::Measurement out =
         model.learn({{&reference}, estimate, analysis, 1e-9, Matrix12d::Zero()});
-    EXPECT_NEAR(out.cameraGain(kDepthDelay, kDepthDelay), 0.5, 1e-12);
-    EXPECT_NEAR(out.cameraNoise(kDepthDelay, kDepthDelay), 0.25e-4, 1e-12);
+    EXPECT_NEAR(out.camera.gain(kDepthDelay, kDepthDelay), 0.5, 1e-12);
+    EXPECT_NEAR(out.camera.noise(kDepthDelay, kDepthDelay), 0.25e-4, 1e-12);
     EXPECT_NEAR(model.camera().errors()[kDepthDelay], 0.001, 1e-12);
 }
 
@@ -395,7 +397,7 @@ TEST_F(ErrorModelTest, timesAreToldAsWellAsVelocitiesAreKnown)
         estimate.motion.cov(6, 6) = ofFrame;
         ErrorModel::Measured frame{{&reference}, estimate, analysis, 1e-9, Matrix12d::Zero()};
         frame.velocities[reference.id] = ofReference * Matrix6d::Identity();
-        return model.learn(frame).cameraGain(kDepthDelay, kDepthDelay);
+        return model.learn(frame).camera.gain(kDepthDelay, kDepthDelay);
     };
     EXPECT_NEAR(gain(1, 1), 0.5, 1e-9) << "of global shutters, velocities tell nothing";
     CameraByVelocity& change = analysis.cameraByVelocity[reference.id];
@@ -417,7 +419,7 @@ TEST_F(ErrorModelTest, independentIncrementsErrAsTheSolverSays)
     EXPECT_THAT(
         Matrix6d(out.noise.topLeftCorner<6, 6>()),
         test::IsMatrixNear(Matrix6d(3 * Matrix6d::Identity()), 1e-15));
-    EXPECT_TRUE(out.references.empty());
-    EXPECT_TRUE(out.viewSigma.isZero(0));
+    EXPECT_TRUE(out.factors.references.empty());
+    EXPECT_TRUE(out.views.pointSigma.isZero(0));
 }
 }  // namespace pointplane

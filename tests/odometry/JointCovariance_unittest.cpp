@@ -46,8 +46,8 @@ Matrix12d ofPose(const Matrix6d& cov)
 JointCovariance::Measurement against(int reference)
 {
     JointCovariance::Measurement out;
-    out.references[reference] = ofPose(Matrix6d::Identity());
-    out.referencePoints = out.references;
+    out.factors.references[reference] = ofPose(Matrix6d::Identity());
+    out.factors.referencePoints = out.factors.references;
     out.noise = ofPose(Matrix6d::Identity());
     return out;
 }
@@ -110,9 +110,9 @@ TEST(JointCovariance, errorsFromFrameToFrameAddUp)
 void setAlike(JointCovariance::Measurement& measurement, double correlation)
 {
     measurement.views.frames = {1};
-    measurement.views.correlation.resize(2, 2);
-    measurement.views.correlation << 1, correlation, correlation, 1;
-    measurement.referencePoints = measurement.references;
+    measurement.views.ofPoints.resize(2, 2);
+    measurement.views.ofPoints << 1, correlation, correlation, 1;
+    measurement.factors.referencePoints = measurement.factors.references;
 }
 
 /** Frames that see the scene alike err alike, and those of other views each for itself. */
@@ -122,7 +122,7 @@ TEST(JointCovariance, framesErrByTheirViews)
     {
         JointCovariance joint = started();
         JointCovariance::Measurement measurement = against(1);
-        measurement.viewSigma.setConstant(2);
+        measurement.views.pointSigma.setConstant(2);
         setAlike(measurement, correlation);
         joint.measure(2, kAtRest, kFrame, measurement);
         EXPECT_THAT(joint.latest(), isTimesIdentity(1 + 4 * 2 * (1 - correlation)));
@@ -136,12 +136,12 @@ TEST(JointCovariance, pointsPlanesAndPatchesAreAlikeByThemselves)
     { return (Eigen::Matrix2d() << 1, correlation, correlation, 1).finished(); };
     JointCovariance joint = started();
     JointCovariance::Measurement measurement = against(1);
-    measurement.viewSigma.setConstant(2);
-    measurement.planeViewRoot = 3 * Matrix6d::Identity();
-    measurement.bendSigma = 0.5;
-    measurement.patches(0, 3) = 2;
-    measurement.referencePatches[1] = -measurement.patches;
     measurement.views = {{1}, alike(0.75), alike(0.5), alike(0.25)};
+    measurement.views.pointSigma.setConstant(2);
+    measurement.views.planeRoot = 3 * Matrix6d::Identity();
+    measurement.views.patchSigma = 0.5;
+    measurement.factors.patches(0, 3) = 2;
+    measurement.factors.referencePatches[1] = -measurement.factors.patches;
     joint.measure(2, kAtRest, kFrame, measurement);
     Vector6d expected = Vector6d::Constant(1 + 2 * 4 * 0.25 + 2 * 9 * 0.5);
     expected[0] += 2 * 4 * 0.25 * 0.75;
@@ -153,13 +153,13 @@ TEST(JointCovariance, backAtAReferencesViewNothingIsLeftOfItsError)
 {
     JointCovariance joint = started();
     JointCovariance::Measurement measurement = against(1);
-    measurement.viewSigma.setConstant(2);
+    measurement.views.pointSigma.setConstant(2);
     setAlike(measurement, 0.5);
     joint.measure(2, kAtRest, kFrame, measurement);
     joint.keep({1});
     EXPECT_THAT(joint.latest(), isTimesIdentity(1 + 4));
-    measurement.views.correlation.setOnes();
-    measurement.referencePoints = measurement.references;
+    measurement.views.ofPoints.setOnes();
+    measurement.factors.referencePoints = measurement.factors.references;
     joint.measure(3, kAtRest, kFrame, measurement);
     EXPECT_THAT(joint.latest(), isTimesIdentity(1));
     EXPECT_THAT(joint.relative(2, kAtRest), isTimesIdentity(2 + 4));
@@ -172,13 +172,13 @@ TEST(JointCovariance, errorsByTheViewKeepTheirSizeWhenDistancesChange)
     JointCovariance joint = started();
     JointCovariance::Measurement measurement = against(1);
     measurement.noise.setZero();
-    measurement.viewSigma.setConstant(2);
+    measurement.views.pointSigma.setConstant(2);
     setAlike(measurement, 0.99);
     joint.measure(2, kAtRest, kFrame, measurement);
     joint.keep({1, 2});
     measurement.views.frames = {1, 2};
-    measurement.views.correlation.resize(3, 3);
-    measurement.views.correlation << 1, 0.3, 0.9, 0.3, 1, 0.5, 0.9, 0.5, 1;
+    measurement.views.ofPoints.resize(3, 3);
+    measurement.views.ofPoints << 1, 0.3, 0.9, 0.3, 1, 0.5, 0.9, 0.5, 1;
     joint.measure(3, kAtRest, kFrame, measurement);
     // Of frame 1's pose 1, and twice 4 if the views of frames 1 and 3 had nothing in common.
     EXPECT_LT(joint.latest()(0, 0), 1 + 2 * 4);
@@ -197,7 +197,7 @@ TEST(JointCovariance, errorsByTheViewOfACameraThatStandsStaySmall)
             places.push_back(step * sampler.normal());
             JointCovariance::Measurement measurement = against(1);
             measurement.noise.setZero();
-            measurement.viewSigma.setConstant(2);
+            measurement.views.pointSigma.setConstant(2);
             measurement.views.frames.assign({1, frame - 1, frame - 2});
             measurement.views.frames.resize(static_cast<size_t>(std::min(frame - 1, 3)));
             if (frame == 3)
@@ -207,17 +207,17 @@ TEST(JointCovariance, errorsByTheViewOfACameraThatStandsStaySmall)
             std::vector<int> all = measurement.views.frames;
             all.push_back(frame);
             const auto n = static_cast<Eigen::Index>(all.size());
-            measurement.views.correlation.resize(n, n);
+            measurement.views.ofPoints.resize(n, n);
             const double distance = 1 + 0.5 * std::sin(frame);  // of the features
             for (Eigen::Index row = 0; row < n * n; ++row)
             {
                 const double apart =
                     places[static_cast<size_t>(all[static_cast<size_t>(row / n)])] -
                     places[static_cast<size_t>(all[static_cast<size_t>(row % n)])];
-                measurement.views.correlation(row / n, row % n) =
+                measurement.views.ofPoints(row / n, row % n) =
                     std::exp(-std::abs(apart) / distance);
             }
-            measurement.referencePoints = measurement.references;
+            measurement.factors.referencePoints = measurement.factors.references;
             joint.measure(frame, kAtRest, kFrame, measurement);
             joint.keep({1, frame - 1, frame});
             ASSERT_LT(joint.latest()(0, 0), 0.1) << frame << ", " << step;
@@ -234,16 +234,16 @@ TEST(JointCovariance, aFramesOwnErrorIsNotAveragedByManyReferences)
         JointCovariance joint = started();
         JointCovariance::Measurement measurement = against(1);
         measurement.noise.setZero();
-        measurement.viewSigma.setConstant(2);
+        measurement.views.pointSigma.setConstant(2);
         setAlike(measurement, betweenReferences);
         joint.measure(2, kAtRest, kFrame, measurement);
-        measurement.references[1] = ofPose(0.5 * Matrix6d::Identity());
-        measurement.references[2] = measurement.references[1];
+        measurement.factors.references[1] = ofPose(0.5 * Matrix6d::Identity());
+        measurement.factors.references[2] = measurement.factors.references[1];
         measurement.views.frames = {1, 2};
-        measurement.views.correlation = Eigen::Matrix3d::Identity();
-        measurement.views.correlation(0, 1) = measurement.views.correlation(1, 0) =
+        measurement.views.ofPoints = Eigen::Matrix3d::Identity();
+        measurement.views.ofPoints(0, 1) = measurement.views.ofPoints(1, 0) =
             betweenReferences;
-        measurement.referencePoints = measurement.references;
+        measurement.factors.referencePoints = measurement.factors.references;
         joint.measure(3, kAtRest, kFrame, measurement);
         return joint.latest();
     };
@@ -257,13 +257,13 @@ TEST(JointCovariance, aFramesOwnErrorIsNotAveragedByManyReferences)
 JointCovariance::Measurement bentAgainst(int reference)
 {
     JointCovariance::Measurement out;
-    out.references[reference] = ofPose(Matrix6d::Identity());
+    out.factors.references[reference] = ofPose(Matrix6d::Identity());
     out.views.frames = {reference};
-    out.views.correlation = out.views.ofPlanes = out.views.ofPatches =
+    out.views.ofPoints = out.views.ofPlanes = out.views.ofPatches =
         Eigen::MatrixXd::Identity(2, 2);
-    out.bendSigma = 0.5;
-    out.patches(0, 3) = 2;
-    out.referencePatches[reference] = -out.patches;
+    out.views.patchSigma = 0.5;
+    out.factors.patches(0, 3) = 2;
+    out.factors.referencePatches[reference] = -out.factors.patches;
     return out;
 }
 
@@ -302,7 +302,7 @@ TEST(JointCovariance, anUnobservedVelocityKeepsItsError)
     joint.measure(2, kAtRest, kFrame, measurement);
     joint.keep({});
     measurement.noise.setZero();
-    measurement.prior.setIdentity();
+    measurement.factors.prior.setIdentity();
     for (int frame = 3; frame <= 32; ++frame)
     {
         joint.measure(frame, kAtRest, kFrame, measurement);
@@ -327,7 +327,7 @@ TEST(JointCovariance, errorsOfTheCameraAreTheSameInAllFrames)
     {
         JointCovariance::Measurement out = against(1);
         out.noise.setZero();
-        out.camera.topLeftCorner<4, 4>() = metres * Eigen::Matrix4d::Identity();
+        out.factors.camera.topLeftCorner<4, 4>() = metres * Eigen::Matrix4d::Identity();
         return out;
     };
     for (int frame = 2; frame <= 12; ++frame)
@@ -357,9 +357,9 @@ TEST(JointCovariance, errorsOfTheCameraChangeAsTheyAreLearnt)
     joint.changeCamera(4 * CameraMatrix::Identity());
     JointCovariance::Measurement seen = against(1);
     seen.noise.setZero();
-    seen.camera.topLeftCorner<6, 6>().setIdentity();
-    seen.cameraGain *= 0.5;
-    seen.cameraNoise = 0.25 * CameraMatrix::Identity();
+    seen.factors.camera.topLeftCorner<6, 6>().setIdentity();
+    seen.camera.gain *= 0.5;
+    seen.camera.noise = 0.25 * CameraMatrix::Identity();
     joint.measure(2, kAtRest, kFrame, seen);
     joint.keep({1});
     EXPECT_THAT(joint.latest(), isTimesIdentity(4));
@@ -377,7 +377,7 @@ TEST(JointCovariance, errorsOfAnotherCameraAreIndependent)
     joint.start(1, Matrix6d::Zero());
     JointCovariance::Measurement seen = against(1);
     seen.noise.setZero();
-    seen.camera.topLeftCorner<6, 6>().setIdentity();
+    seen.factors.camera.topLeftCorner<6, 6>().setIdentity();
     joint.changeCamera(4 * CameraMatrix::Identity());
     joint.measure(2, kAtRest, kFrame, seen);
     joint.changeCamera(9 * CameraMatrix::Identity());
@@ -528,20 +528,20 @@ TEST(JointCovariance, viewsThatAreAlmostTheSameAreNoTrouble)
 {
     JointCovariance joint = started();
     JointCovariance::Measurement measurement;
-    measurement.viewSigma.setConstant(2);
+    measurement.views.pointSigma.setConstant(2);
     for (int frame = 2; frame <= 8; ++frame)
     {
         const int n = std::min(frame - 1, 4);
-        measurement.references.clear();
+        measurement.factors.references.clear();
         measurement.views.frames.clear();
         for (int k = 1; k <= n; ++k)
         {
-            measurement.references[frame - k] << Matrix6d::Identity() / n, Matrix6d::Zero();
+            measurement.factors.references[frame - k] << Matrix6d::Identity() / n, Matrix6d::Zero();
             measurement.views.frames.push_back(frame - k);
         }
-        measurement.views.correlation = Eigen::MatrixXd::Constant(n + 1, n + 1, 1 - 1e-9);
-        measurement.views.correlation.diagonal().setOnes();
-        measurement.referencePoints = measurement.references;
+        measurement.views.ofPoints = Eigen::MatrixXd::Constant(n + 1, n + 1, 1 - 1e-9);
+        measurement.views.ofPoints.diagonal().setOnes();
+        measurement.factors.referencePoints = measurement.factors.references;
         joint.measure(frame, kAtRest, kFrame, measurement);
         EXPECT_LT(joint.latest().norm(), 1e-6) << frame;
         EXPECT_GE(joint.latest().trace(), 0) << frame;
@@ -557,16 +557,16 @@ TEST(JointCovariance, aRecalledReferenceErrsAsReferencesOfLikeViewsDo)
     {
         JointCovariance joint = started();
         JointCovariance::Measurement measurement = against(1);
-        measurement.referencePoints = measurement.references;
+        measurement.factors.referencePoints = measurement.factors.references;
         joint.measure(2, kAtRest, kFrame, measurement);
         joint.restart(2, {1});
-        measurement.viewSigma.setConstant(2);
+        measurement.views.pointSigma.setConstant(2);
         measurement.views.frames = {2, 1};
-        measurement.views.correlation = Eigen::Matrix3d::Identity();
-        measurement.views.correlation(0, 1) = measurement.views.correlation(1, 0) = withPrevious;
-        measurement.views.correlation(0, 2) = measurement.views.correlation(2, 0) = 1;
-        measurement.views.correlation(1, 2) = measurement.views.correlation(2, 1) = withPrevious;
-        measurement.referencePoints = measurement.references;
+        measurement.views.ofPoints = Eigen::Matrix3d::Identity();
+        measurement.views.ofPoints(0, 1) = measurement.views.ofPoints(1, 0) = withPrevious;
+        measurement.views.ofPoints(0, 2) = measurement.views.ofPoints(2, 0) = 1;
+        measurement.views.ofPoints(1, 2) = measurement.views.ofPoints(2, 1) = withPrevious;
+        measurement.factors.referencePoints = measurement.factors.references;
         joint.measure(3, kAtRest, kFrame, measurement);
         return joint.latest();
     };
@@ -683,6 +683,7 @@ TEST(JointCovariance, monteCarlo)
     test::GaussianSampler setup(91);
     std::vector<Eigen::Isometry3d> poses{se3Exp(setup.vector<6>())};
     std::vector<JointCovariance::Measurement> measurements;
+    std::vector<MotionModel::Smoothed> smoothings;
     std::vector<Matrix12d> noiseRoots;
     std::vector<CameraMatrix> cameraRoots;
     JointCovariance::TParams params;
@@ -698,34 +699,34 @@ TEST(JointCovariance, monteCarlo)
         JointCovariance::Measurement m;
         for (const int reference : {0, k - 1})
         {
-            Matrix12d& change = m.references.emplace(reference, Matrix12d::Zero()).first->second;
+            Matrix12d& change = m.factors.references.emplace(reference, Matrix12d::Zero()).first->second;
             change += 0.3 * Matrix12d::Identity() +
                       0.1 * setup.vector<12>() * setup.vector<12>().transpose();
-            m.referencePoints[reference] = 0.6 * change;
+            m.factors.referencePoints[reference] = 0.6 * change;
         }
-        m.prior = 0.4 * Matrix12d::Identity();
+        m.factors.prior = 0.4 * Matrix12d::Identity();
         m.noise = setup.covariance<12>(0.05, 0.3);
-        m.priorNoise = setup.covariance<12>(0.05, 0.3);
-        m.viewSigma = Vector12d::LinSpaced(0.5, 2);
-        m.previousVelocity = smoothing(setup);
+        m.noise += setup.covariance<12>(0.05, 0.3);
+        smoothings.push_back(smoothing(setup));
         m.views = viewsOf(k == 1 ? std::vector<int>{0} : std::vector<int>{0, k - 1}, k);
-        m.planeViewRoot = setup.covariance<6>(0.5, 2);
-        m.camera = setup.vector<12>() * setup.vector<kNumCameraErrors>().transpose();
-        m.camera.bottomRightCorner<6, 3>().setConstant(0.4);
-        m.cameraGain = 0.8 * CameraMatrix::Identity();
-        m.cameraNoise = setup.covariance<kNumCameraErrors>(0.01, 0.1);
-        m.bendSigma = std::sqrt(2);
-        m.patches = 0.2 * setup.vector<12>() * setup.vector<kNumPatches>().transpose();
+        m.views.pointSigma = Vector12d::LinSpaced(0.5, 2);
+        m.views.planeRoot = setup.covariance<6>(0.5, 2);
+        m.factors.camera = setup.vector<12>() * setup.vector<kNumCameraErrors>().transpose();
+        m.factors.camera.bottomRightCorner<6, 3>().setConstant(0.4);
+        m.camera.gain = 0.8 * CameraMatrix::Identity();
+        m.camera.noise = setup.covariance<kNumCameraErrors>(0.01, 0.1);
+        m.views.patchSigma = std::sqrt(2);
+        m.factors.patches = 0.2 * setup.vector<12>() * setup.vector<kNumPatches>().transpose();
         for (const int reference : {0, k - 1})
         {
-            m.referencePatches[reference] =
+            m.factors.referencePatches[reference] =
                 0.2 * setup.vector<12>() * setup.vector<kNumPatches>().transpose();
         }
-        joint.measure(k, poses.back(), decayed, m);
+        joint.measure(k, poses.back(), decayed, m, smoothings.back());
         joint.keep({0, k - 1, k});
         measurements.push_back(m);
-        noiseRoots.emplace_back(test::squareRoot(m.noise + m.priorNoise));
-        cameraRoots.emplace_back(test::squareRoot(m.cameraNoise));
+        noiseRoots.emplace_back(test::squareRoot(m.noise));
+        cameraRoots.emplace_back(test::squareRoot(m.camera.noise));
         poses.push_back(se3Exp(0.5 * setup.vector<6>()) * poses.back());
     }
 
@@ -750,32 +751,32 @@ TEST(JointCovariance, monteCarlo)
             predicted << before + decayed.reach().cwiseProduct(velocity.back()),
                 decayed.kept().cwiseProduct(velocity.back());
             Vector12d shared =
-                m.prior * predicted + noiseRoots[static_cast<size_t>(k - 1)] * sampler.vector<12>();
-            shared += m.camera * camera;
-            for (const auto& [frame, change] : m.references)
+                m.factors.prior * predicted + noiseRoots[static_cast<size_t>(k - 1)] * sampler.vector<12>();
+            shared += m.factors.camera * camera;
+            for (const auto& [frame, change] : m.factors.references)
             {
                 const auto reference = static_cast<size_t>(frame);
                 shared +=
                     change.leftCols<6>() *
                     (toBase * pose[reference] +
-                     m.planeViewRoot * (planeView[static_cast<size_t>(k)] - planeView[reference]));
+                     m.views.planeRoot * (planeView[static_cast<size_t>(k)] - planeView[reference]));
                 shared += change.rightCols<6>() * velocity[reference];
             }
-            for (const auto& [frame, change] : m.referencePoints)
+            for (const auto& [frame, change] : m.factors.referencePoints)
             {
                 const auto reference = static_cast<size_t>(frame);
                 shared += change *
-                          m.viewSigma.cwiseProduct(view[static_cast<size_t>(k)] - view[reference]);
+                          m.views.pointSigma.cwiseProduct(view[static_cast<size_t>(k)] - view[reference]);
             }
-            shared += m.bendSigma * m.patches * bends[static_cast<size_t>(k)];
-            for (const auto& [frame, change] : m.referencePatches)
+            shared += m.views.patchSigma * m.factors.patches * bends[static_cast<size_t>(k)];
+            for (const auto& [frame, change] : m.factors.referencePatches)
             {
-                shared += m.bendSigma * change * bends[static_cast<size_t>(frame)];
+                shared += m.views.patchSigma * change * bends[static_cast<size_t>(frame)];
             }
             pose.push_back(Ad * shared.head<6>());
             velocity.emplace_back(shared.tail<6>());
-            smooth(*m.previousVelocity, poses, pose, velocity);
-            camera = m.cameraGain * camera +
+            smooth(smoothings[static_cast<size_t>(k - 1)], poses, pose, velocity);
+            camera = m.camera.gain * camera +
                      cameraRoots[static_cast<size_t>(k - 1)] * sampler.vector<kNumCameraErrors>();
         }
         latest.push_back(pose.back());

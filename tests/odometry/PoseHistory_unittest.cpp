@@ -81,13 +81,13 @@ TEST(PoseHistory, covariancesStayPositiveDefiniteWhereNothingIsKnown)
     variances << 1e4, 1e-12, 1e4, 1e-14, 1e2, 1e-14;
     const Matrix6d cov = propagate(adjoint(elsewhere()), Matrix6d(variances.asDiagonal()));
     measurement.noise.topLeftCorner<6, 6>() = cov;
-    measurement.viewSigma.head<6>() = 0.03 * variances.cwiseSqrt();
+    measurement.views.pointSigma.head<6>() = 0.03 * variances.cwiseSqrt();
     for (int frame = 2; frame <= 40; ++frame)
     {
-        measurement.references.clear();
-        measurement.references[1].setZero();
-        measurement.references[1].topLeftCorner<6, 6>().setIdentity();
-        measurement.referencePoints = measurement.references;
+        measurement.factors.references.clear();
+        measurement.factors.references[1].setZero();
+        measurement.factors.references[1].topLeftCorner<6, 6>().setIdentity();
+        measurement.factors.referencePoints = measurement.factors.references;
         history.measure(history.latest(), elsewhere(), kFrame, measurement);
         history.keep({1}, {});
         expectPositiveDefinite(history.pose().cov);

@@ -32,9 +32,10 @@ void PoseHistory::measure(
     const Eigen::Isometry3d& T_world_prev,
     const Eigen::Isometry3d& T_prev_cur,
     const DecayedVelocities& decayed,
-    const JointCovariance::Measurement& errors)
+    const JointCovariance::Measurement& errors,
+    const std::optional<MotionModel::Smoothed>& previousVelocity)
 {
-    joint_.measure(++latestFrame_, T_world_prev, decayed, errors);
+    joint_.measure(++latestFrame_, T_world_prev, decayed, errors, previousVelocity);
     poses_.push_front(T_world_prev * T_prev_cur);
 }
 

@@ -5,6 +5,7 @@
 #include <pointplane/odometry/uncertainty/JointCovariance.h>
 
 #include <deque>
+#include <optional>
 #include <vector>
 
 namespace pointplane
@@ -31,12 +32,14 @@ class PoseHistory
 
     /** Adds a measured frame.
      * \param T_world_prev pose of the latest measured frame
-     * \param decayed its velocity since then */
+     * \param decayed its velocity since then
+     * \param previousVelocity correction of that, if there is one */
     void measure(
         const Eigen::Isometry3d& T_world_prev,
         const Eigen::Isometry3d& T_prev_cur,
         const DecayedVelocities& decayed,
-        const JointCovariance::Measurement& errors);
+        const JointCovariance::Measurement& errors,
+        const std::optional<MotionModel::Smoothed>& previousVelocity = {});
 
     /** From here on, frames are compared with this one and later ones.
      * \param poses frames whose poses stay known, too */

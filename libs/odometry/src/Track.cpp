@@ -145,6 +145,7 @@ PoseGaussian Track::restart(Reference frame)
 void Track::measure(Measured measured)
 {
     const DecayedVelocities decayed = motion_.after(measured.dt);
+    std::optional<MotionModel::Smoothed> previousVelocity;
     isPreviousMeasured_ = true;
     isVelocityKnown_ = !measured.isJump;
     if (measured.isJump)
@@ -153,15 +154,18 @@ void Track::measure(Measured measured)
     }
     else
     {
-        measured.errors.previousVelocity = follow(measured.motion, measured.dt);
+        previousVelocity = follow(measured.motion, measured.dt);
         measured.frame.velocity = motion_.velocity();
         window_.refinePreviousVelocity(
-            measured.errors.previousVelocity ? measured.errors.previousVelocity->velocity
-                                             : motion_.velocity());
+            previousVelocity ? previousVelocity->velocity : motion_.velocity());
     }
     noteWhichPointsAreFound(measured.associations);
     history_.measure(
-        previous().T_world_cam, measured.motion.mean.T_prev_cur, decayed, measured.errors);
+        previous().T_world_cam,
+        measured.motion.mean.T_prev_cur,
+        decayed,
+        measured.errors,
+        previousVelocity);
     unmatched_.reset();
     latestStamp_ = measured.frame.stamp;
     add(std::move(measured.frame), measured.isKeyframe);

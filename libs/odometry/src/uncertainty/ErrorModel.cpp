@@ -29,14 +29,14 @@ JointCovariance::Views viewsOf(const ErrorModel::Measured& frame, double distanc
     }
     poses.push_back(poses.front() * frame.estimate.motion.mean.T_prev_cur);
     const auto n = static_cast<Eigen::Index>(poses.size());
-    out.correlation = out.ofPlanes = Eigen::MatrixXd::Identity(n, n);
+    out.ofPoints = out.ofPlanes = Eigen::MatrixXd::Identity(n, n);
     for (size_t i = 0; i < poses.size(); ++i)
     {
         for (size_t k = 0; k < i; ++k)
         {
             const auto row = static_cast<Eigen::Index>(i), column = static_cast<Eigen::Index>(k);
             const Eigen::Isometry3d motion = poses[i].inverse() * poses[k];
-            out.correlation(row, column) = out.correlation(column, row) =
+            out.ofPoints(row, column) = out.ofPoints(column, row) =
                 viewCorrelation(motion, distance, viewAngle);
             out.ofPlanes(row, column) = out.ofPlanes(column, row) =
                 planeViewCorrelation(motion, distance, viewAngle);
@@ -119,55 +119,48 @@ JointCovariance::Measurement ErrorModel::learn(const Measured& frame)
         planes_.update(ofPlanes.references, correlation, frame.dt, ofPlanes.followed);
         patches_.update(overExpectedBend(frame), correlation, frame.dt);
     }
-    JointCovariance::Measurement out = errorsOf(frame);
     views.ofPatches = patches_.byView() * views.ofPlanes;
     views.ofPatches.diagonal().array() += patches_.own();
     views.ofPatches /= patches_.own() + patches_.byView();
-    out.views = std::move(views);
-    if (!frame.isMinimum)
+    JointCovariance::Measurement out = errorsOf(frame, std::move(views));
+    if (frame.isMinimum)
     {
-        return out;
+        out.camera = camera_.update(
+            frame.analysis, frame.bend, noise_.overCautious(), timesByVelocities(frame));
     }
-    const CameraCalibrator::Change change =
-        camera_.update(frame.analysis, frame.bend, noise_.overCautious(), timesByVelocities(frame));
-    out.cameraGain = change.gain;
-    out.cameraNoise = change.noise;
     return out;
 }
 
-JointCovariance::Measurement ErrorModel::errorsOf(const Measured& frame) const
+JointCovariance::Measurement ErrorModel::errorsOf(
+    const Measured& frame, JointCovariance::Views views) const
 {
     JointCovariance::Measurement out;
+    out.views = std::move(views);
     if (!isJoint_)
     {
         // Each increment errs by itself: its error adds to that of the previous pose.
-        out.prior.topLeftCorner<6, 6>().setIdentity();
+        out.factors.prior.topLeftCorner<6, 6>().setIdentity();
         out.noise.topLeftCorner<6, 6>() = frame.estimate.pose().cov + frame.doubt;
         return out;
     }
     const Sensitivity& of = frame.analysis.sensitivity;
     const NoiseScale::TypicalPoints points = noise_.typicalPoints();
-    out.references = of.references;
-    out.referencePoints = of.referencePoints;
-    out.camera = of.camera;
-    out.bendSigma = std::sqrt(expectedBend(frame) * (patches_.own() + patches_.byView()));
-    out.patches = of.patches;
-    out.referencePatches = of.referencePatches;
+    out.factors = of;
+    if (!fuses_)
+    {
+        out.factors.prior.rightCols<6>().setZero();  // the velocity is a new one for each frame
+    }
     out.noise = noise_.ofFrame() *
                     (params_.noise * points.residuals * of.points + planes_.own() * of.planes) +
                 accelerationWhileExposed(of, frame.shutter, frame.acceleration2);
     out.noise.topLeftCorner<6, 6>() += frame.doubt;
-    out.prior = of.prior;
-    if (!fuses_)
-    {
-        out.prior.rightCols<6>().setZero();  // the velocity is a new one for each frame
-    }
-    out.priorNoise = propagate(of.prior, frame.motionNoise);
+    out.noise += propagate(of.prior, frame.motionNoise);
     if (!of.points.isZero(0))
     {
-        out.viewSigma = viewSigma(commonAngle(), distanceOf(frame), frame.shutter);
+        out.views.pointSigma = viewSigma(commonAngle(), distanceOf(frame), frame.shutter);
     }
-    out.planeViewRoot = rootOf(planes_.byView() * Matrix6d(of.planes.topLeftCorner<6, 6>()));
+    out.views.planeRoot = rootOf(planes_.byView() * Matrix6d(of.planes.topLeftCorner<6, 6>()));
+    out.views.patchSigma = std::sqrt(expectedBend(frame) * (patches_.own() + patches_.byView()));
     return out;
 }
 

@@ -96,7 +96,8 @@ class ErrorModel
     JointCovariance::Measurement learn(const Measured& frame);
 
  private:
-    [[nodiscard]] JointCovariance::Measurement errorsOf(const Measured& frame) const;
+    [[nodiscard]] JointCovariance::Measurement errorsOf(
+        const Measured& frame, JointCovariance::Views views) const;
 
     /** Standard deviation of eta, as a turn [rad]: in proportion to how far references contradict
      * each other by more than the frame's own noise makes them. */

@@ -107,12 +107,14 @@ Eigen::MatrixXd JointCovariance::dependence(
         A.middleCols(find(kind, reference), change.cols()) -= change;
         A.middleCols(find(kind, frame), change.cols()) += change;
     };
-    const auto prior = measurement.prior.leftCols<kSize>();
+    const Sensitivity& of = measurement.factors;
+    const Views& views = measurement.views;
+    const auto prior = of.prior.leftCols<kSize>();
     A.middleCols<kSize>(find(Kind::Pose, previous_)) += prior * Ad_inverse;
     A.middleCols<kSize>(find(Kind::Velocity, previous_)) +=
         prior * decayed.reach().asDiagonal() +
-        measurement.prior.rightCols<kSize>() * decayed.kept().asDiagonal();
-    for (const auto& [reference, change] : measurement.references)
+        of.prior.rightCols<kSize>() * decayed.kept().asDiagonal();
+    for (const auto& [reference, change] : of.references)
     {
         const Matrix126d byPose = change.leftCols<6>();
         A.middleCols<kSize>(find(Kind::Pose, reference)) += byPose * Ad_inverse;
@@ -122,24 +124,24 @@ Eigen::MatrixXd JointCovariance::dependence(
         }
         if (has(Kind::PlaneView, frame))
         {
-            addView(Kind::PlaneView, reference, byPose * measurement.planeViewRoot);
+            addView(Kind::PlaneView, reference, byPose * views.planeRoot);
         }
     }
-    for (const auto& [reference, change] : measurement.referencePoints)
+    for (const auto& [reference, change] : of.referencePoints)
     {
-        addView(Kind::View, reference, change * measurement.viewSigma.asDiagonal());
+        addView(Kind::View, reference, change * views.pointSigma.asDiagonal());
     }
-    if (measurement.bendSigma > 0)
+    if (views.patchSigma > 0)
     {
-        const auto addPatches = [&](int of, const MotionByPatches& change)
-        { A.middleCols<kNumPatches>(find(Kind::Bend, of)) += measurement.bendSigma * change; };
-        addPatches(frame, measurement.patches);
-        for (const auto& [reference, change] : measurement.referencePatches)
+        const auto addPatches = [&](int image, const MotionByPatches& change)
+        { A.middleCols<kNumPatches>(find(Kind::Bend, image)) += views.patchSigma * change; };
+        addPatches(frame, of.patches);
+        for (const auto& [reference, change] : of.referencePatches)
         {
             addPatches(reference, change);
         }
     }
-    A.middleCols<kNumCameraErrors>(find(Kind::Camera, 0)) += measurement.camera;
+    A.middleCols<kNumCameraErrors>(find(Kind::Camera, 0)) += of.camera;
     A.topRows<kSize>() = (Ad * A.topRows<kSize>()).eval();
     return A;
 }
@@ -148,16 +150,17 @@ void JointCovariance::measure(
     int frame,
     const Eigen::Isometry3d& T_world_prev,
     const DecayedVelocities& decayed,
-    const Measurement& measurement)
+    const Measurement& measurement,
+    const std::optional<MotionModel::Smoothed>& previousVelocity)
 {
     const Matrix6d Ad = adjoint(T_world_prev);
     const Views& views = measurement.views;
-    addViews(frame, Kind::View, views.frames, views.correlation);
-    if (!measurement.planeViewRoot.isZero(0))
+    addViews(frame, Kind::View, views.frames, views.ofPoints);
+    if (!views.planeRoot.isZero(0))
     {
         addViews(frame, Kind::PlaneView, views.frames, views.ofPlanes);
     }
-    if (measurement.bendSigma > 0)
+    if (views.patchSigma > 0)
     {
         addViews(frame, Kind::Bend, views.frames, views.ofPatches);
     }
@@ -166,21 +169,21 @@ void JointCovariance::measure(
     Eigen::MatrixXd A = Eigen::MatrixXd::Zero(size, errors_.size());
     A.topRows<2 * kSize>() = dependence(frame, Ad, decayed, measurement);
     A.block<kNumCameraErrors, kNumCameraErrors>(camera, find(Kind::Camera, 0)) =
-        measurement.cameraGain;
+        measurement.camera.gain;
     Matrix12d toWorld = Matrix12d::Identity();
     toWorld.topLeftCorner<kSize, kSize>() = Ad;
     Eigen::MatrixXd Q = Eigen::MatrixXd::Zero(size, size);
     Q.topLeftCorner<2 * kSize, 2 * kSize>() =
-        propagate(toWorld, Matrix12d(measurement.noise + measurement.priorNoise));
-    Q.block<kNumCameraErrors, kNumCameraErrors>(camera, camera) = measurement.cameraNoise;
+        propagate(toWorld, measurement.noise);
+    Q.block<kNumCameraErrors, kNumCameraErrors>(camera, camera) = measurement.camera.noise;
     errors_.prepend({{Kind::Pose, frame}, {Kind::Velocity, frame}, {Kind::Camera, 0}}, A, Q);
     // The camera's errors after the frame take the place of those before.
     int numCameras = 0;
     errors_.keepIf([&](const Block& block)
                    { return block.kind != Kind::Camera || numCameras++ == 0; });
-    if (measurement.previousVelocity)
+    if (previousVelocity)
     {
-        smooth(frame, Ad, *measurement.previousVelocity);
+        smooth(frame, Ad, *previousVelocity);
     }
     earlier_ = {previous_, Ad};
     latest_ = previous_ = frame;

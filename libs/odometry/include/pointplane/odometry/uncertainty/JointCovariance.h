@@ -3,11 +3,11 @@
 
 #include <pointplane/core/Parameters.h>
 #include <pointplane/core/types.h>
+#include <pointplane/odometry/uncertainty/CameraCalibrator.h>
 #include <pointplane/odometry/uncertainty/JointGaussian.h>
 #include <pointplane/odometry/uncertainty/MotionModel.h>
-#include <pointplane/pose/pairs.h>
+#include <pointplane/pose/PoseAnalysis.h>
 
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -87,36 +87,28 @@ class JointCovariance
         [[nodiscard]] bool isJoint() const;  //!< model is joint, not independent
     };
 
-    /** How errors by the view correlate (view_errors.h). */
+    /** Errors by the view (view_errors.h) of points, planes and patches: eta, zeta and s. */
     struct Views
     {
         std::vector<int> frames;  //!< ids of the references
-        /** Of these frames and, as the last row and column, of the new one: eta, zeta and s. */
-        Eigen::MatrixXd correlation{Eigen::MatrixXd::Identity(1, 1)};
+        /** How errors of these frames and, as the last row and column, of the new one correlate. */
+        Eigen::MatrixXd ofPoints{Eigen::MatrixXd::Identity(1, 1)};
         Eigen::MatrixXd ofPlanes{Eigen::MatrixXd::Identity(1, 1)};
         Eigen::MatrixXd ofPatches{Eigen::MatrixXd::Identity(1, 1)};
+        Vector12d pointSigma{Vector12d::Zero()};  //!< standard deviations of eta
+        Matrix6d planeRoot{Matrix6d::Zero()};     //!< zeta is this times unit noise
+        double patchSigma{0};                     //!< standard deviation of s
     };
 
     /** Linear model of the error of a measured frame: of its pose (left perturbation in the
-     * previous measured frame) and velocity. A factor is the Jacobian with respect to an error.
-     * Letters are those of docs/theory.md, section Window. */
+     * previous frame) and velocity, in m, rad, m/s, rad/s. Letters are those of docs/theory.md,
+     * section Window. */
     struct Measurement
     {
-        std::map<int, Matrix12d> references;            //!< by id: factor of xi_r and nu_r
-        std::map<int, Matrix12d> referencePoints;       //!< the part of it by points, factor of eta
-        Matrix12d prior{Matrix12d::Zero()};             //!< factor of the predicted motion's error
-        Matrix12d noise{Matrix12d::Zero()};             //!< covariance of e
-        Matrix12d priorNoise{Matrix12d::Zero()};        //!< covariance of p
-        MotionByCamera camera{MotionByCamera::Zero()};  //!< factor of k
-        Vector12d viewSigma{Vector12d::Zero()};         //!< standard deviations of eta
-        Matrix6d planeViewRoot{Matrix6d::Zero()};       //!< zeta is this times unit noise
+        Sensitivity factors;                 //!< Jacobians with respect to the errors
+        Matrix12d noise{Matrix12d::Zero()};  //!< covariance of e + p
         Views views;
-        double bendSigma{0};                                    //!< standard deviation of s
-        MotionByPatches patches{MotionByPatches::Zero()};       //!< factor of s
-        std::map<int, MotionByPatches> referencePatches;        //!< by id: factor of s_r
-        std::optional<MotionModel::Smoothed> previousVelocity;  //!< correction of nu_prev
-        CameraMatrix cameraGain{CameraMatrix::Identity()};      //!< after the frame, k is
-        CameraMatrix cameraNoise{CameraMatrix::Zero()};         //!< gain * before + noise
+        CameraCalibrator::Change camera;  //!< of k, by this frame
     };
 
     /** \throws std::invalid_argument naming the key */
@@ -152,12 +144,14 @@ class JointCovariance
 
     /** Adds a measured frame, which becomes the previous one and a reference.
      * \param T_world_prev pose of the previous measured frame
-     * \param decayed what has become of the previous frame's velocity */
+     * \param decayed what has become of the previous frame's velocity
+     * \param previousVelocity correction of that velocity, if there is one */
     void measure(
         int frame,
         const Eigen::Isometry3d& T_world_prev,
         const DecayedVelocities& decayed,
-        const Measurement& measurement);
+        const Measurement& measurement,
+        const std::optional<MotionModel::Smoothed>& previousVelocity = {});
 
     /** Forgets errors of other references than these, and poses older than the history. Kept are
      * the poses of the references, of the previous frame, and of `poses`. */
