@@ -131,7 +131,7 @@ TEST_F(AlignerTest, withoutFeaturesThereIsOnlyThePrediction)
 TEST_F(AlignerTest, aMotionWithoutItsDoubtfulPointsIsComparedAnew)
 {
     const Alignment alignment = align(darkBut(cv::Rect(0, 140, 40, 40)));
-    EXPECT_TRUE(alignment.doubt.isZero(0));
+    EXPECT_FALSE(alignment.doubt);
     expectTrue(alignment, 1);
     const auto numDoubted = static_cast<int>(alignment.associations[0].doubtedPoints.size());
     EXPECT_GT(numDoubted, 0);
@@ -149,14 +149,14 @@ TEST_F(AlignerTest, aGuessIsAsUncertainAsItsDistanceFromTheOtherOne)
     RgbdFrame dark = darkBut(cv::Rect(0, 140, 40, 40));
     dark.stamp = frame(0).stamp + 20;
     const Alignment alignment = align(dark);
-    ASSERT_TRUE(alignment.isOfDoubtedPoints) << alignment.reason;
+    ASSERT_TRUE(alignment.doubt) << alignment.reason;
     const PoseSolver solver(params_.poseSolver);
     const Motion without =
         solver.solve(alignment.problem, alignment.predicted.motion.mean).motion.mean;
     const Vector6d apart = leftError(alignment.estimate.motion.mean.T_prev_cur, without.T_prev_cur);
     EXPECT_GT(apart.norm(), 1e-4);
     EXPECT_THAT(
-        alignment.doubt,
+        *alignment.doubt,
         test::IsMatrixNear(Matrix6d(apart * apart.transpose()), 0.05 * apart.squaredNorm()))
         << "a solution is known to a hundredth of its sigma";
 }

@@ -35,11 +35,22 @@ class ErrorModelTest : public testing::Test
         analysis.turnVariance = 1e-6;
     }
 
+    [[nodiscard]] ErrorModel::Measured measured(double dt = 1e-9) const
+    {
+        ErrorModel::Measured out;
+        out.references = {&reference};
+        out.estimate = estimate;
+        out.analysis = analysis;
+        out.dt = dt;
+        out.shutter = {0, 0, 0};
+        return out;
+    }
+
     [[nodiscard]] JointCovariance::Measurement learn() const
     {
         ErrorModel model(params);
         (void)model.changeCamera(camera);
-        return model.learn({{&reference}, estimate, analysis, 1e-9, Matrix12d::Zero()});
+        return model.learn(measured());
     }
 
     /** The last of many frames of these residuals, seen from two places. */
@@ -48,8 +59,8 @@ class ErrorModelTest : public testing::Test
         params.noiseScale.adaptive = true;
         ErrorModel model(params);
         (void)model.changeCamera(camera);
-        ErrorModel::Measured frame{
-            {&reference, &nearReference}, estimate, analysis, dt, Matrix12d::Zero()};
+        ErrorModel::Measured frame = measured(dt);
+        frame.references.push_back(&nearReference);
         frame.bend = bend;
         JointCovariance::Measurement out;
         for (int i = 0; i < 300; ++i)
@@ -98,7 +109,7 @@ TEST_F(ErrorModelTest, aFrameWhoseImageIsPulledApartErrsMore)
         for (const double next : {5.0, 5.0, scatter})
         {
             analysis.scatter = next;
-            out = model.learn({{&reference}, estimate, analysis, 1e-9, Matrix12d::Zero()});
+            out = model.learn(measured());
         }
         return out;
     };
@@ -158,8 +169,9 @@ TEST_F(ErrorModelTest, whatTimeAddsToThePredictedMotionIsNoise)
     analysis.sensitivity.prior += 0.5 * Matrix12d::Identity();
     ErrorModel model(params);
     (void)model.changeCamera(camera);
-    const JointCovariance::Measurement out =
-        model.learn({{&reference}, estimate, analysis, 1e-9, motionNoise});
+    ErrorModel::Measured frame = measured();
+    frame.motionNoise = motionNoise;
+    const JointCovariance::Measurement out = model.learn(frame);
     EXPECT_EQ(out.factors.prior, analysis.sensitivity.prior);
     const Matrix12d expected = out.factors.prior * motionNoise * out.factors.prior.transpose();
     EXPECT_THAT(out.noise, test::IsMatrixNear(expected, 1e-9));
@@ -173,12 +185,15 @@ TEST_F(ErrorModelTest, doubtIsNoise)
         params.covariance.model = model;
         ErrorModel errors(params);
         (void)errors.changeCamera(camera);
-        ErrorModel::Measured frame{{&reference}, estimate, analysis, 1e-9, Matrix12d::Zero()};
+        ErrorModel::Measured frame = measured();
+        Matrix6d doubt = Matrix6d::Zero();
+        frame.doubt = doubt;
         const Matrix12d without = errors.learn(frame).noise;
-        frame.doubt(0, 0) = 0.25;
-        frame.doubt(0, 5) = frame.doubt(5, 0) = 0.1;
+        doubt(0, 0) = 0.25;
+        doubt(0, 5) = doubt(5, 0) = 0.1;
+        frame.doubt = doubt;
         const Matrix12d added = errors.learn(frame).noise - without;
-        EXPECT_THAT(Matrix6d(added.topLeftCorner<6, 6>()), test::IsMatrixNear(frame.doubt, 1e-12));
+        EXPECT_THAT(Matrix6d(added.topLeftCorner<6, 6>()), test::IsMatrixNear(doubt, 1e-12));
         EXPECT_TRUE(added.bottomRows<6>().isZero(1e-12));
     }
 }
@@ -230,9 +245,9 @@ TEST_F(ErrorModelTest, allViewsAreCompared)
     nearReference.T_world_cam = reference.T_world_cam * Eigen::Translation3d(-0.2, 0, 0);
     ErrorModel model(params);
     (void)model.changeCamera(camera);
-    const JointCovariance::Views views =
-        model.learn({{&reference, &nearReference}, estimate, analysis, 1e-9, Matrix12d::Zero()})
-            .views;
+    ErrorModel::Measured frame = measured();
+    frame.references.push_back(&nearReference);
+    const JointCovariance::Views views = model.learn(frame).views;
     EXPECT_EQ(views.frames, (std::vector<int>{1, 2}));
     Eigen::Matrix3d apart;
     apart << 0, 0.2, 0.6, 0.2, 0, 0.8, 0.6, 0.8, 0;
@@ -294,7 +309,7 @@ TEST_F(ErrorModelTest, errorByTheViewDoesNotDependOnTheNoiseOfPoints)
             const double needed = 1 + 3e-6 / (turnVariance * pointVariance);
             const double told = model.noise().points / std::min(100.0, pointVariance);
             analysis.pointDisagreement = {needed / told, 1};
-            out = model.learn({{&reference}, estimate, analysis, 1, Matrix12d::Zero()});
+            out = model.learn(measured(1));
         }
         return out.views.pointSigma[3];
     };
@@ -310,7 +325,7 @@ TEST_F(ErrorModelTest, aSmoothErrorOfDepthIsPassedOn)
     analysis.sensitivity.patches.setConstant(2);
     analysis.sensitivity.referencePatches[1].setConstant(3);
     ErrorModel model(params);
-    ErrorModel::Measured frame{{&reference}, estimate, analysis, 1e-9, Matrix12d::Zero()};
+    ErrorModel::Measured frame = measured();
     frame.bend = 0.1;
     const JointCovariance::Measurement out = model.learn(frame);
     EXPECT_NEAR(out.views.patchSigma, 0.1, 1e-12);
@@ -335,18 +350,15 @@ TEST_F(ErrorModelTest, aFrameErrsByAccelerationWhileItIsExposed)
     const auto noise = [&](double depthDelay)
     {
         ErrorModel model(params);
-        return model
-            .learn(
-                {{&reference},
-                 estimate,
-                 analysis,
-                 1e-9,
-                 Matrix12d::Zero(),
-                 4 * Vector6d::Ones(),
-                 {0, 0, depthDelay}})
-            .noise(0, 0);
+        (void)model.changeCamera(camera);
+        ErrorModel::Measured frame = measured();
+        frame.acceleration2.setConstant(4);
+        frame.shutter.depthDelay = depthDelay;
+        return model.learn(frame).noise(0, 0);
     };
     EXPECT_NEAR(noise(0.02) - noise(0), 0.0004 * 0.0004, 1e-13);
+    EXPECT_NEAR(noise(ShutterModel::kUnknown) - noise(0), 0.0001 * 0.0001, 1e-13)
+        << "it may be 10 ms";
 }
 
 /** The larger of what a calibration may err by and what is to be learnt. */
@@ -376,8 +388,7 @@ TEST_F(ErrorModelTest, whatIsLearntOfTheCameraIsPassedOn)
     (void)model.changeCamera({});
     analysis.camera.information(kDepthDelay, kDepthDelay) = 1e5;
     analysis.camera.gradient[kDepthDelay] = -200;
-    const JointCovariance::Measurement out =
-        model.learn({{&reference}, estimate, analysis, 1e-9, Matrix12d::Zero()});
+    const JointCovariance::Measurement out = model.learn(measured());
     EXPECT_NEAR(out.camera.gain(kDepthDelay, kDepthDelay), 0.5, 1e-12);
     EXPECT_NEAR(out.camera.noise(kDepthDelay, kDepthDelay), 0.25e-4, 1e-12);
     EXPECT_NEAR(model.camera().errors()[kDepthDelay], 0.001, 1e-12);
@@ -395,7 +406,7 @@ TEST_F(ErrorModelTest, timesAreToldAsWellAsVelocitiesAreKnown)
         (void)model.changeCamera({});
         estimate.motion.cov.setZero();
         estimate.motion.cov(6, 6) = ofFrame;
-        ErrorModel::Measured frame{{&reference}, estimate, analysis, 1e-9, Matrix12d::Zero()};
+        ErrorModel::Measured frame = measured();
         frame.velocities[reference.id] = ofReference * Matrix6d::Identity();
         return model.learn(frame).camera.gain(kDepthDelay, kDepthDelay);
     };

@@ -88,7 +88,7 @@ TEST(PoseHistory, covariancesStayPositiveDefiniteWhereNothingIsKnown)
         measurement.factors.references[1].setZero();
         measurement.factors.references[1].topLeftCorner<6, 6>().setIdentity();
         measurement.factors.referencePoints = measurement.factors.references;
-        history.measure(history.latest(), elsewhere(), kFrame, measurement);
+        history.measure(history.latest(), elsewhere(), kFrame, measurement, {});
         history.keep({1}, {});
         expectPositiveDefinite(history.pose().cov);
         for (const PoseGaussian& motion : history.sinceAll())

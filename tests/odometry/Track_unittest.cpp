@@ -47,7 +47,11 @@ class TrackTest : public testing::Test
     void measure(double stamp, double x, bool isKeyframe = false, bool isJump = false)
     {
         const double dt = stamp - track_.previous().stamp;
-        Track::Measured measured{frameAt(stamp), isKeyframe, isJump, {}, dt, {}, {}};
+        Track::Measured measured;
+        measured.frame = frameAt(stamp);
+        measured.isKeyframe = isKeyframe;
+        measured.isJump = isJump;
+        measured.dt = dt;
         measured.motion.mean.T_prev_cur.translation().x() = x;
         measured.motion.mean.velocity[0] = x / dt;
         measured.motion.cov = kSigma * kSigma * Matrix12d::Identity();
@@ -55,8 +59,8 @@ class TrackTest : public testing::Test
         // Compared with the previous frame: its error goes on.
         Matrix12d ofPose = Matrix12d::Zero();
         ofPose.topLeftCorner<6, 6>().setIdentity();
-        measured.errors.references[track_.previous().id] = ofPose;
-        track_.measure(std::move(measured));
+        measured.errors.factors.references[track_.previous().id] = ofPose;
+        track_.measure(std::move(measured), {});
     }
 
     [[nodiscard]] double x() const { return track_.pose().mean.translation().x(); }

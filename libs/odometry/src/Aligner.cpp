@@ -131,7 +131,7 @@ void Aligner::settle(const Scene& scene, Alignment& alignment) const
     if (restsOnChance(alignment))
     {
         distrustPoints(scene, alignment);
-        if (!alignment.isOfDoubtedPoints)
+        if (!alignment.doubt)
         {
             verify(scene, alignment);
             judge_.contradict(alignment, usual);
@@ -238,9 +238,8 @@ void Aligner::distrustPoints(const Scene& scene, Alignment& alignment) const
     {
         const Vector6d apart =
             leftError(motion.T_prev_cur, alignment.estimate.motion.mean.T_prev_cur);
-        alignment.doubt = apart * apart.transpose();
+        alignment.doubt = Matrix6d(apart * apart.transpose());
         alignment.estimate.motion.mean = motion;
-        alignment.isOfDoubtedPoints = true;
     }
     judge_.judge(alignment);
     if (!alignment.holds)

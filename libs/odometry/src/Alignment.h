@@ -5,6 +5,7 @@
 #include <pointplane/odometry/surface_agreement.h>
 #include <pointplane/pose/PoseSolver.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,12 +25,10 @@ struct Alignment
     bool isPredictionWeak{false};  //!< the prediction does not tell which feature is which
     Agreement agreement;           //!< of the surfaces seen before with this frame's depth image
     int numSought{0};              //!< points of the references that should be in view
-    /** The motion was estimated with points that neither `problem` nor the covariance contains. So
-     * it is no minimum of `problem`. */
-    bool isOfDoubtedPoints{false};
-    /** How far they may be wrong: squared distance from the motion that is estimated without them.
-     */
-    Matrix6d doubt{Matrix6d::Zero()};
+    /** Of a motion by points that neither `problem` nor the covariance contains: how far they may be
+     * wrong, by the motion that is estimated without them; a covariance of the pose (left
+     * perturbation, m, rad). The motion is no minimum of `problem` then. */
+    std::optional<Matrix6d> doubt;
     std::vector<Mark> marks;  //!< of this and of other attempts at the frame
     std::string unsettled;    //!< why another motion may be the camera's (RivalMotions), or empty
     bool holds{false};        //!< the estimate is to be believed

@@ -281,7 +281,7 @@ void Odometry::Impl::measure(const Features& current, Alignment& alignment, Odom
 {
     result.status = TrackingStatus::Tracked;
     const MotionGaussian& motion = alignment.estimate.motion;
-    if (alignment.observableDirections == 6 && !alignment.isOfDoubtedPoints)
+    if (alignment.observableDirections == 6 && !alignment.doubt)
     {
         frontEnd.marks().learn(
             alignment.associations,
@@ -289,22 +289,19 @@ void Odometry::Impl::measure(const Features& current, Alignment& alignment, Odom
             {track.fromWorld(motion.mean.T_prev_cur), inverse(motion.pose()).cov});
     }
     const PoseAnalysis analysis = analyse(current, alignment);
-    const JointCovariance::Measurement measurement = learnErrors(current, alignment, analysis);
+    Track::Measured measured;
+    measured.motion = motion;
+    measured.dt = alignment.predicted.dt;
+    measured.isJump = Judge::isSurprising(alignment);
+    measured.errors = learnErrors(current, alignment, analysis);
     showPairs(alignment.associations, &analysis, shown);
     shown.moving = frontEnd.findMoving(
         current, earlierViews(track, current.frame, motion.mean, errors.camera()));
     std::optional<PointReference> points = keyframePoints(current, alignment, analysis);
-    shown.isKeyframe = points.has_value();
-    Reference reference = points ? newReference(current, std::move(*points)) : referenceOf(current);
-    reference.surfaces = analysis.surfaces;
-    track.measure(
-        {std::move(reference),
-         shown.isKeyframe,
-         Judge::isSurprising(alignment),
-         motion,
-         alignment.predicted.dt,
-         measurement,
-         alignment.associations});
+    measured.isKeyframe = shown.isKeyframe = points.has_value();
+    measured.frame = points ? newReference(current, std::move(*points)) : referenceOf(current);
+    measured.frame.surfaces = analysis.surfaces;
+    track.measure(std::move(measured), alignment.associations);
 }
 
 PoseAnalysis Odometry::Impl::analyse(const Features& current, Alignment& alignment) const
@@ -323,19 +320,19 @@ PoseAnalysis Odometry::Impl::analyse(const Features& current, Alignment& alignme
 JointCovariance::Measurement Odometry::Impl::learnErrors(
     const Features& current, const Alignment& alignment, const PoseAnalysis& analysis)
 {
-    const double dt = alignment.predicted.dt;
-    return errors.learn(
-        {track.references(),
-         alignment.estimate,
-         analysis,
-         dt,
-         track.motionNoise(dt, analysis.sensitivity.prior.topLeftCorner<6, 6>()),
-         track.acceleration2(),
-         errors.camera().rootMeanSquare(current.frame.shutter),
-         current.bend,
-         !alignment.isOfDoubtedPoints,
-         track.velocityCovs(),
-         alignment.doubt});
+    ErrorModel::Measured frame;
+    frame.references = track.references();
+    frame.estimate = alignment.estimate;
+    frame.analysis = analysis;
+    frame.dt = alignment.predicted.dt;
+    frame.shutter = current.frame.shutter;
+    frame.bend = current.bend;
+    frame.motionNoise =
+        track.motionNoise(frame.dt, analysis.sensitivity.prior.topLeftCorner<6, 6>());
+    frame.acceleration2 = track.acceleration2();
+    frame.velocities = track.velocityCovs();
+    frame.doubt = alignment.doubt;
+    return errors.learn(frame);
 }
 
 /** Those of a measured frame that becomes a key frame. */

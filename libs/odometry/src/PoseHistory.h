@@ -39,7 +39,7 @@ class PoseHistory
         const Eigen::Isometry3d& T_prev_cur,
         const DecayedVelocities& decayed,
         const JointCovariance::Measurement& errors,
-        const std::optional<MotionModel::Smoothed>& previousVelocity = {});
+        const std::optional<MotionModel::Smoothed>& previousVelocity);
 
     /** From here on, frames are compared with this one and later ones.
      * \param poses frames whose poses stay known, too */

@@ -142,7 +142,7 @@ PoseGaussian Track::restart(Reference frame)
     return increment;
 }
 
-void Track::measure(Measured measured)
+void Track::measure(Measured measured, const std::vector<Association>& associations)
 {
     const DecayedVelocities decayed = motion_.after(measured.dt);
     std::optional<MotionModel::Smoothed> previousVelocity;
@@ -159,7 +159,7 @@ void Track::measure(Measured measured)
         window_.refinePreviousVelocity(
             previousVelocity ? previousVelocity->velocity : motion_.velocity());
     }
-    noteWhichPointsAreFound(measured.associations);
+    noteWhichPointsAreFound(associations);
     history_.measure(
         previous().T_world_cam,
         measured.motion.mean.T_prev_cur,

@@ -123,9 +123,8 @@ class Track
         MotionGaussian motion;
         double dt{0};  //!< [s] since the previous frame
         JointCovariance::Measurement errors;
-        const std::vector<Association>& associations;
     };
-    void measure(Measured measured);
+    void measure(Measured measured, const std::vector<Association>& associations);
 
     /** Goes on by the motion model alone. The previous frame stays, so the next good frame is
      * aligned with it over the whole gap. \param unmatched the frame itself, if it has features,

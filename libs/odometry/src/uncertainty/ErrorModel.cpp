@@ -112,8 +112,9 @@ JointCovariance::Measurement ErrorModel::learn(const Measured& frame)
     {
         correlation[views.frames[k]] = views.ofPlanes.rightCols<1>()[static_cast<Eigen::Index>(k)];
     }
-    noise_.update(frame.analysis, frame.dt, frame.isMinimum);
-    if (learns_ && frame.isMinimum)
+    const bool isMinimum = !frame.doubt;  // else residuals of its pairs do not tell their noise
+    noise_.update(frame.analysis, frame.dt, isMinimum);
+    if (learns_ && isMinimum)
     {
         const PlaneResiduals& ofPlanes = frame.analysis.planeResiduals;
         planes_.update(ofPlanes.references, correlation, frame.dt, ofPlanes.followed);
@@ -123,7 +124,7 @@ JointCovariance::Measurement ErrorModel::learn(const Measured& frame)
     views.ofPatches.diagonal().array() += patches_.own();
     views.ofPatches /= patches_.own() + patches_.byView();
     JointCovariance::Measurement out = errorsOf(frame, std::move(views));
-    if (frame.isMinimum)
+    if (isMinimum)
     {
         out.camera = camera_.update(
             frame.analysis, frame.bend, noise_.overCautious(), timesByVelocities(frame));
@@ -136,15 +137,17 @@ JointCovariance::Measurement ErrorModel::errorsOf(
 {
     JointCovariance::Measurement out;
     out.views = std::move(views);
+    const Matrix6d doubt = frame.doubt.value_or(Matrix6d::Zero());
     if (!isJoint_)
     {
         // Each increment errs by itself: its error adds to that of the previous pose.
         out.factors.prior.topLeftCorner<6, 6>().setIdentity();
-        out.noise.topLeftCorner<6, 6>() = frame.estimate.pose().cov + frame.doubt;
+        out.noise.topLeftCorner<6, 6>() = frame.estimate.pose().cov + doubt;
         return out;
     }
     const Sensitivity& of = frame.analysis.sensitivity;
     const NoiseScale::TypicalPoints points = noise_.typicalPoints();
+    const ShutterModel shutter = camera_.rootMeanSquare(frame.shutter);
     out.factors = of;
     if (!fuses_)
     {
@@ -152,12 +155,12 @@ JointCovariance::Measurement ErrorModel::errorsOf(
     }
     out.noise = noise_.ofFrame() *
                     (params_.noise * points.residuals * of.points + planes_.own() * of.planes) +
-                accelerationWhileExposed(of, frame.shutter, frame.acceleration2);
-    out.noise.topLeftCorner<6, 6>() += frame.doubt;
+                accelerationWhileExposed(of, shutter, frame.acceleration2);
+    out.noise.topLeftCorner<6, 6>() += doubt;
     out.noise += propagate(of.prior, frame.motionNoise);
     if (!of.points.isZero(0))
     {
-        out.views.pointSigma = viewSigma(commonAngle(), distanceOf(frame), frame.shutter);
+        out.views.pointSigma = viewSigma(commonAngle(), distanceOf(frame), shutter);
     }
     out.views.planeRoot = rootOf(planes_.byView() * Matrix6d(of.planes.topLeftCorner<6, 6>()));
     out.views.patchSigma = std::sqrt(expectedBend(frame) * (patches_.own() + patches_.byView()));

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <vector>
 
 namespace pointplane
@@ -77,19 +78,16 @@ class ErrorModel
     /** A measured frame. */
     struct Measured
     {
-        const std::vector<const Reference*>& references;  //!< the previous frame first
-        const PoseEstimate& estimate;
-        const PoseAnalysis& analysis;
-        double dt;                                 //!< [s] since the previous one
-        Matrix12d motionNoise;                     //!< MotionModel::processNoise()
-        Vector6d acceleration2{Vector6d::Zero()};  //!< MotionModel::acceleration2()
-        ShutterModel shutter{0, 0, 0};             //!< CameraCalibrator::rootMeanSquare()
+        std::vector<const Reference*> references;  //!< the previous frame first
+        PoseEstimate estimate;
+        PoseAnalysis analysis;
+        double dt{0};                              //!< [s] since the previous one
+        ShutterModel shutter;                      //!< as far as its source knows it
         double bend{0};                            //!< DepthNoise::sigmaRelative
-        /** The estimate minimises the residuals of its pairs. Else these do not tell their noise.
-         */
-        bool isMinimum{true};
-        std::map<int, Matrix6d> velocities{};  //!< covariances, of the references
-        Matrix6d doubt{Matrix6d::Zero()};      //!< of the pose, beyond what its features tell
+        Matrix12d motionNoise{Matrix12d::Zero()};  //!< MotionModel::processNoise()
+        Vector6d acceleration2{Vector6d::Zero()};  //!< MotionModel::acceleration2()
+        std::map<int, Matrix6d> velocities;        //!< covariances, of the references
+        std::optional<Matrix6d> doubt;             //!< Alignment::doubt
     };
 
     /** Learns from the frame. \return what its estimate's errors come from */
