@@ -2,6 +2,7 @@
 #include <pointplane/core/PoseGaussian.h>
 #include <pointplane/core/covariance.h>
 #include <pointplane/core/se3.h>
+#include <pointplane/odometry/uncertainty/CovarianceParams.h>
 #include <pointplane/odometry/uncertainty/JointCovariance.h>
 
 #include <algorithm>
@@ -54,9 +55,7 @@ JointCovariance::Measurement against(int reference)
 
 JointCovariance started(int history = 30)
 {
-    JointCovariance::TParams params;
-    params.history = history;
-    JointCovariance out(params);
+    JointCovariance out(history);
     out.start(1, Matrix6d::Zero());
     return out;
 }
@@ -79,7 +78,7 @@ TEST(JointCovariance, errorsAgainstOneReferenceDoNotAddUp)
     JointCovariance joint = started();
     for (int frame = 2; frame <= 20; ++frame)
     {
-        joint.measure(frame, kAtRest, kFrame, against(1));
+        joint.measure(kAtRest, kFrame, against(1));
         joint.keep({1});
         EXPECT_THAT(joint.latest(), isTimesIdentity(1));
         EXPECT_THAT(joint.relative(1, kAtRest), isTimesIdentity(1));
@@ -97,7 +96,7 @@ TEST(JointCovariance, errorsFromFrameToFrameAddUp)
     JointCovariance joint = started();
     for (int frame = 2; frame <= 12; ++frame)
     {
-        joint.measure(frame, kAtRest, kFrame, against(frame - 1));
+        joint.measure(kAtRest, kFrame, against(frame - 1));
         joint.keep({frame});
     }
     for (int n = 1; n <= 10; ++n)
@@ -124,7 +123,7 @@ TEST(JointCovariance, framesErrByTheirViews)
         JointCovariance::Measurement measurement = against(1);
         measurement.views.pointSigma.setConstant(2);
         setAlike(measurement, correlation);
-        joint.measure(2, kAtRest, kFrame, measurement);
+        joint.measure(kAtRest, kFrame, measurement);
         EXPECT_THAT(joint.latest(), isTimesIdentity(1 + 4 * 2 * (1 - correlation)));
     }
 }
@@ -142,7 +141,7 @@ TEST(JointCovariance, pointsPlanesAndPatchesAreAlikeByThemselves)
     measurement.views.patchSigma = 0.5;
     measurement.factors.patches(0, 3) = 2;
     measurement.factors.referencePatches[1] = -measurement.factors.patches;
-    joint.measure(2, kAtRest, kFrame, measurement);
+    joint.measure(kAtRest, kFrame, measurement);
     Vector6d expected = Vector6d::Constant(1 + 2 * 4 * 0.25 + 2 * 9 * 0.5);
     expected[0] += 2 * 4 * 0.25 * 0.75;
     EXPECT_THAT(joint.latest(), test::IsMatrixNear(Matrix6d(expected.asDiagonal()), 1e-9));
@@ -155,12 +154,12 @@ TEST(JointCovariance, backAtAReferencesViewNothingIsLeftOfItsError)
     JointCovariance::Measurement measurement = against(1);
     measurement.views.pointSigma.setConstant(2);
     setAlike(measurement, 0.5);
-    joint.measure(2, kAtRest, kFrame, measurement);
+    joint.measure(kAtRest, kFrame, measurement);
     joint.keep({1});
     EXPECT_THAT(joint.latest(), isTimesIdentity(1 + 4));
     measurement.views.ofPoints.setOnes();
     measurement.factors.referencePoints = measurement.factors.references;
-    joint.measure(3, kAtRest, kFrame, measurement);
+    joint.measure(kAtRest, kFrame, measurement);
     EXPECT_THAT(joint.latest(), isTimesIdentity(1));
     EXPECT_THAT(joint.relative(2, kAtRest), isTimesIdentity(2 + 4));
 }
@@ -174,12 +173,12 @@ TEST(JointCovariance, errorsByTheViewKeepTheirSizeWhenDistancesChange)
     measurement.noise.setZero();
     measurement.views.pointSigma.setConstant(2);
     setAlike(measurement, 0.99);
-    joint.measure(2, kAtRest, kFrame, measurement);
+    joint.measure(kAtRest, kFrame, measurement);
     joint.keep({1, 2});
     measurement.views.frames = {1, 2};
     measurement.views.ofPoints.resize(3, 3);
     measurement.views.ofPoints << 1, 0.3, 0.9, 0.3, 1, 0.5, 0.9, 0.5, 1;
-    joint.measure(3, kAtRest, kFrame, measurement);
+    joint.measure(kAtRest, kFrame, measurement);
     // Of frame 1's pose 1, and twice 4 if the views of frames 1 and 3 had nothing in common.
     EXPECT_LT(joint.latest()(0, 0), 1 + 2 * 4);
 }
@@ -218,7 +217,7 @@ TEST(JointCovariance, errorsByTheViewOfACameraThatStandsStaySmall)
                     std::exp(-std::abs(apart) / distance);
             }
             measurement.factors.referencePoints = measurement.factors.references;
-            joint.measure(frame, kAtRest, kFrame, measurement);
+            joint.measure(kAtRest, kFrame, measurement);
             joint.keep({1, frame - 1, frame});
             ASSERT_LT(joint.latest()(0, 0), 0.1) << frame << ", " << step;
         }
@@ -236,15 +235,14 @@ TEST(JointCovariance, aFramesOwnErrorIsNotAveragedByManyReferences)
         measurement.noise.setZero();
         measurement.views.pointSigma.setConstant(2);
         setAlike(measurement, betweenReferences);
-        joint.measure(2, kAtRest, kFrame, measurement);
+        joint.measure(kAtRest, kFrame, measurement);
         measurement.factors.references[1] = ofPose(0.5 * Matrix6d::Identity());
         measurement.factors.references[2] = measurement.factors.references[1];
         measurement.views.frames = {1, 2};
         measurement.views.ofPoints = Eigen::Matrix3d::Identity();
-        measurement.views.ofPoints(0, 1) = measurement.views.ofPoints(1, 0) =
-            betweenReferences;
+        measurement.views.ofPoints(0, 1) = measurement.views.ofPoints(1, 0) = betweenReferences;
         measurement.factors.referencePoints = measurement.factors.references;
-        joint.measure(3, kAtRest, kFrame, measurement);
+        joint.measure(kAtRest, kFrame, measurement);
         return joint.latest();
     };
     // 4 of frame 3 and 4 of frame 1; what frame 2 errs by is in its pose, too, and cancels.
@@ -259,8 +257,7 @@ JointCovariance::Measurement bentAgainst(int reference)
     JointCovariance::Measurement out;
     out.factors.references[reference] = ofPose(Matrix6d::Identity());
     out.views.frames = {reference};
-    out.views.ofPoints = out.views.ofPlanes = out.views.ofPatches =
-        Eigen::MatrixXd::Identity(2, 2);
+    out.views.ofPoints = out.views.ofPlanes = out.views.ofPatches = Eigen::MatrixXd::Identity(2, 2);
     out.views.patchSigma = 0.5;
     out.factors.patches(0, 3) = 2;
     out.factors.referencePatches[reference] = -out.factors.patches;
@@ -273,7 +270,7 @@ TEST(JointCovariance, smoothErrorsOfAReferenceAreCommon)
     JointCovariance joint = started();
     for (int frame = 2; frame <= 6; ++frame)
     {
-        joint.measure(frame, kAtRest, kFrame, bentAgainst(1));
+        joint.measure(kAtRest, kFrame, bentAgainst(1));
         joint.keep({1});
         EXPECT_NEAR(joint.latest()(0, 0), 2 * 4 * 0.25, 1e-12) << "both images";
         EXPECT_NEAR(joint.latest()(1, 1), 0, 1e-12);
@@ -287,7 +284,7 @@ TEST(JointCovariance, smoothErrorsFromFrameToFrameDoNotAddUp)
     JointCovariance joint = started();
     for (int frame = 2; frame <= 12; ++frame)
     {
-        joint.measure(frame, kAtRest, kFrame, bentAgainst(frame - 1));
+        joint.measure(kAtRest, kFrame, bentAgainst(frame - 1));
         joint.keep({frame});
         EXPECT_NEAR(joint.latest()(0, 0), 2 * 4 * 0.25, 1e-12);
     }
@@ -299,13 +296,13 @@ TEST(JointCovariance, anUnobservedVelocityKeepsItsError)
     JointCovariance joint = started(100);
     JointCovariance::Measurement measurement;
     measurement.noise.bottomRightCorner<6, 6>() = 4 * Matrix6d::Identity();
-    joint.measure(2, kAtRest, kFrame, measurement);
+    joint.measure(kAtRest, kFrame, measurement);
     joint.keep({});
     measurement.noise.setZero();
     measurement.factors.prior.setIdentity();
     for (int frame = 3; frame <= 32; ++frame)
     {
-        joint.measure(frame, kAtRest, kFrame, measurement);
+        joint.measure(kAtRest, kFrame, measurement);
         joint.keep({});
     }
     EXPECT_THAT(joint.relative(2, kAtRest), isTimesIdentity(4));  // (30 frames)^2 of 4 (m/s)^2
@@ -316,11 +313,9 @@ TEST(JointCovariance, anUnobservedVelocityKeepsItsError)
  * grows with the way from the reference goes on growing in one direction. */
 TEST(JointCovariance, errorsOfTheCameraAreTheSameInAllFrames)
 {
-    JointCovariance::TParams params;
-    params.history = 30;
     CameraVector sigmas;
     sigmas << 0.5, 2, 2, 3, 0, 0, 0, 0, 0;
-    JointCovariance joint(params);
+    JointCovariance joint(30);
     joint.start(1, Matrix6d::Zero());
     joint.changeCamera(sigmas.cwiseAbs2().asDiagonal());
     const auto seen = [](double metres)
@@ -332,10 +327,10 @@ TEST(JointCovariance, errorsOfTheCameraAreTheSameInAllFrames)
     };
     for (int frame = 2; frame <= 12; ++frame)
     {
-        joint.measure(frame, kAtRest, kFrame, seen(0.01 * (frame - 1)));
+        joint.measure(kAtRest, kFrame, seen(0.01 * (frame - 1)));
         joint.keep({1});
     }
-    joint.measure(13, kAtRest, kFrame, seen(0.11));
+    joint.measure(kAtRest, kFrame, seen(0.11));
     const auto sigma = [&](int from, int axis)
     { return std::sqrt(joint.relative(from, kAtRest)(axis, axis)); };
     EXPECT_NEAR(sigma(1, 0), 0.5 * 0.11, 1e-12);
@@ -350,9 +345,7 @@ TEST(JointCovariance, errorsOfTheCameraAreTheSameInAllFrames)
  * been learnt. */
 TEST(JointCovariance, errorsOfTheCameraChangeAsTheyAreLearnt)
 {
-    JointCovariance::TParams params;
-    params.history = 30;
-    JointCovariance joint(params);
+    JointCovariance joint(30);
     joint.start(1, Matrix6d::Zero());
     joint.changeCamera(4 * CameraMatrix::Identity());
     JointCovariance::Measurement seen = against(1);
@@ -360,10 +353,10 @@ TEST(JointCovariance, errorsOfTheCameraChangeAsTheyAreLearnt)
     seen.factors.camera.topLeftCorner<6, 6>().setIdentity();
     seen.camera.gain *= 0.5;
     seen.camera.noise = 0.25 * CameraMatrix::Identity();
-    joint.measure(2, kAtRest, kFrame, seen);
+    joint.measure(kAtRest, kFrame, seen);
     joint.keep({1});
     EXPECT_THAT(joint.latest(), isTimesIdentity(4));
-    joint.measure(3, kAtRest, kFrame, seen);
+    joint.measure(kAtRest, kFrame, seen);
     EXPECT_THAT(joint.latest(), isTimesIdentity(0.25 * 4 + 0.25));
     EXPECT_THAT(joint.relative(2, kAtRest), isTimesIdentity(0.25 * 4 + 0.25));
 }
@@ -371,17 +364,15 @@ TEST(JointCovariance, errorsOfTheCameraChangeAsTheyAreLearnt)
 /** What the former camera's errors did to the poses stays; those of the new one are its own. */
 TEST(JointCovariance, errorsOfAnotherCameraAreIndependent)
 {
-    JointCovariance::TParams params;
-    params.history = 30;
-    JointCovariance joint(params);
+    JointCovariance joint(30);
     joint.start(1, Matrix6d::Zero());
     JointCovariance::Measurement seen = against(1);
     seen.noise.setZero();
     seen.factors.camera.topLeftCorner<6, 6>().setIdentity();
     joint.changeCamera(4 * CameraMatrix::Identity());
-    joint.measure(2, kAtRest, kFrame, seen);
+    joint.measure(kAtRest, kFrame, seen);
     joint.changeCamera(9 * CameraMatrix::Identity());
-    joint.measure(3, kAtRest, kFrame, seen);
+    joint.measure(kAtRest, kFrame, seen);
     EXPECT_THAT(joint.latest(), isTimesIdentity(9));
     EXPECT_THAT(joint.relative(2, kAtRest), isTimesIdentity(9 + 4)) << "alike, they would cancel";
 }
@@ -394,8 +385,8 @@ TEST(JointCovariance, predictedFramesFollowAVelocityThatDecays)
     step.after.translation = step.after.rotation = {0.1, 0.5, 0, 0, 0};
     step.velocity = 4 * Matrix6d::Identity();
     step.noise.topLeftCorner<6, 6>() = 0.01 * Matrix6d::Identity();
-    joint.predict(2, kAtRest, step);
-    joint.predict(3, kAtRest, step);
+    joint.predict(kAtRest, step);
+    joint.predict(kAtRest, step);
     EXPECT_THAT(joint.relative(1, kAtRest), isTimesIdentity(0.15 * 0.15 * 4 + 2 * 0.01));
     EXPECT_THAT(joint.relative(2, kAtRest), isTimesIdentity(0.05 * 0.05 * 4 + 0.01));
 }
@@ -411,25 +402,25 @@ TEST(JointCovariance, predictedFramesShareTheErrorOfTheVelocity)
     step.noise.topLeftCorner<6, 6>() = 0.01 * Matrix6d::Identity();
     for (int frame = 2; frame <= 11; ++frame)
     {
-        joint.predict(frame, kAtRest, step);
+        joint.predict(kAtRest, step);
     }
     EXPECT_THAT(joint.relative(1, kAtRest), isTimesIdentity(1 * 4 + 10 * 0.01));
     EXPECT_THAT(joint.relative(10, kAtRest), isTimesIdentity(0.01 * 4 + 0.01));
 
     // After a measured frame, or after a gap, the velocity is another one.
     JointCovariance measured = joint;
-    measured.measure(12, kAtRest, kFrame, against(1));
-    measured.predict(13, kAtRest, step);
+    measured.measure(kAtRest, kFrame, against(1));
+    measured.predict(kAtRest, step);
     EXPECT_THAT(measured.relative(12, kAtRest), isTimesIdentity(0.01 * 4 + 0.01));
     joint.endCoasting();
-    joint.predict(12, kAtRest, step);
+    joint.predict(kAtRest, step);
     EXPECT_THAT(joint.relative(1, kAtRest), isTimesIdentity(4 + 0.04 + 11 * 0.01));
 
     // What the velocity gains on the way moves later frames only.
     JointCovariance gaining = started();
     step.noise.bottomRightCorner<6, 6>().setIdentity();
-    gaining.predict(2, kAtRest, step);
-    gaining.predict(3, kAtRest, step);
+    gaining.predict(kAtRest, step);
+    gaining.predict(kAtRest, step);
     EXPECT_THAT(gaining.relative(2, kAtRest), isTimesIdentity(0.01 * (4 + 1) + 0.01));
 }
 
@@ -448,7 +439,7 @@ TEST(JointCovariance, twoPredictedFramesAreAsUncertainAsOneOfBothTimes)
         step.noise.bottomRightCorner<6, 6>().diagonal() = step.after.velocity();
         for (int frame = 0; frame < frames; ++frame)
         {
-            joint.predict(2 + frame, kAtRest, step);
+            joint.predict(kAtRest, step);
         }
         return joint.latest();
     };
@@ -470,10 +461,10 @@ TEST(JointCovariance, predictedFramesErrAlongTheCamerasAxes)
     step.after = {decayedVelocity(0.5, 1), decayedVelocity(0.5, 0.4)};
     step.velocity = sampler.covariance<6>(0.1, 10);
     step.noise = sampler.covariance<12>(0.1, 1);
-    JointCovariance joint({});
+    JointCovariance joint(1);
     joint.start(1, startCov);
-    joint.predict(2, start, step);
-    joint.predict(3, start * motion, step);
+    joint.predict(start, step);
+    joint.predict(start * motion, step);
 
     const Matrix6d startRoot = test::squareRoot(startCov),
                    velocityRoot = test::squareRoot(step.velocity);
@@ -502,25 +493,25 @@ TEST(JointCovariance, predictedFramesErrAlongTheCamerasAxes)
 TEST(JointCovariance, predictedFramesAndANewWindow)
 {
     JointCovariance joint = started();
-    joint.measure(2, kAtRest, kFrame, against(1));
-    joint.predict(3, kAtRest, independent(5));
+    joint.measure(kAtRest, kFrame, against(1));
+    joint.predict(kAtRest, independent(5));
     EXPECT_THAT(joint.latest(), isTimesIdentity(6));
     EXPECT_THAT(joint.relative(2, kAtRest), isTimesIdentity(5));
 
     // The next one is measured against the first again, whatever was predicted in between.
     JointCovariance measured = joint;
     measured.keep({1, 2});
-    measured.measure(4, kAtRest, kFrame, against(1));
+    measured.measure(kAtRest, kFrame, against(1));
     EXPECT_THAT(measured.latest(), isTimesIdentity(1));
     EXPECT_THAT(measured.relative(3, kAtRest), isTimesIdentity(1 + 6));
 
     // Or the window begins anew at the predicted frame.
     joint.restart(3);
     joint.keep({3});
-    joint.measure(4, kAtRest, kFrame, against(3));
+    joint.measure(kAtRest, kFrame, against(3));
     EXPECT_THAT(joint.latest(), isTimesIdentity(7));
     EXPECT_THAT(joint.relative(3, kAtRest), isTimesIdentity(1));
-    EXPECT_THROW(joint.measure(5, kAtRest, kFrame, against(1)), std::exception);
+    EXPECT_THROW(joint.measure(kAtRest, kFrame, against(1)), std::exception);
 }
 
 /** Frames a moment apart at one place, in any number: nothing is divided by next to nothing. */
@@ -542,7 +533,7 @@ TEST(JointCovariance, viewsThatAreAlmostTheSameAreNoTrouble)
         measurement.views.ofPoints = Eigen::MatrixXd::Constant(n + 1, n + 1, 1 - 1e-9);
         measurement.views.ofPoints.diagonal().setOnes();
         measurement.factors.referencePoints = measurement.factors.references;
-        joint.measure(frame, kAtRest, kFrame, measurement);
+        joint.measure(kAtRest, kFrame, measurement);
         EXPECT_LT(joint.latest().norm(), 1e-6) << frame;
         EXPECT_GE(joint.latest().trace(), 0) << frame;
         joint.keep(measurement.views.frames);
@@ -558,7 +549,7 @@ TEST(JointCovariance, aRecalledReferenceErrsAsReferencesOfLikeViewsDo)
         JointCovariance joint = started();
         JointCovariance::Measurement measurement = against(1);
         measurement.factors.referencePoints = measurement.factors.references;
-        joint.measure(2, kAtRest, kFrame, measurement);
+        joint.measure(kAtRest, kFrame, measurement);
         joint.restart(2, {1});
         measurement.views.pointSigma.setConstant(2);
         measurement.views.frames = {2, 1};
@@ -567,7 +558,7 @@ TEST(JointCovariance, aRecalledReferenceErrsAsReferencesOfLikeViewsDo)
         measurement.views.ofPoints(0, 2) = measurement.views.ofPoints(2, 0) = 1;
         measurement.views.ofPoints(1, 2) = measurement.views.ofPoints(2, 1) = withPrevious;
         measurement.factors.referencePoints = measurement.factors.references;
-        joint.measure(3, kAtRest, kFrame, measurement);
+        joint.measure(kAtRest, kFrame, measurement);
         return joint.latest();
     };
     EXPECT_THAT(variance(0), isTimesIdentity(1 + 4 * 2));
@@ -579,18 +570,21 @@ TEST(JointCovariance, keepsWhatIsStillNeeded)
     JointCovariance joint = started(2);
     for (int frame = 2; frame <= 6; ++frame)
     {
-        joint.measure(frame, kAtRest, kFrame, against(1));
+        joint.measure(kAtRest, kFrame, against(1));
         joint.keep({1}, {3});
     }
-    EXPECT_TRUE(joint.knows(6) && joint.knows(5) && joint.knows(4));
-    EXPECT_TRUE(joint.knows(3));
-    EXPECT_FALSE(joint.knows(2));
-    joint.predict(7, kAtRest, independent(1));
-    joint.predict(8, kAtRest, independent(1));
-    joint.predict(9, kAtRest, independent(1));
+    for (const int frame : {6, 5, 4, 3})
+    {
+        EXPECT_NO_THROW((void)joint.relative(frame, kAtRest)) << frame;
+    }
+    EXPECT_THROW((void)joint.relative(2, kAtRest), std::invalid_argument);
+    joint.predict(kAtRest, independent(1));
+    joint.predict(kAtRest, independent(1));
+    joint.predict(kAtRest, independent(1));
     joint.keep({1});
-    EXPECT_TRUE(joint.knows(6)) << "the previous one, though beyond the history";
-    EXPECT_FALSE(joint.knows(5));
+    EXPECT_NO_THROW((void)joint.relative(6, kAtRest))
+        << "the previous one, though beyond the history";
+    EXPECT_THROW((void)joint.relative(5, kAtRest), std::invalid_argument);
 }
 
 namespace
@@ -686,11 +680,9 @@ TEST(JointCovariance, monteCarlo)
     std::vector<MotionModel::Smoothed> smoothings;
     std::vector<Matrix12d> noiseRoots;
     std::vector<CameraMatrix> cameraRoots;
-    JointCovariance::TParams params;
-    params.history = kFrames;
     const DecayedVelocities decayed{decayedVelocity(0.5, 1), decayedVelocity(0.5, 0.4)};
     const CameraMatrix cameraCov = setup.covariance<kNumCameraErrors>(0.1, 0.5);
-    JointCovariance joint(params);
+    JointCovariance joint(kFrames);
     const Matrix6d startCov = setup.covariance<6>(0.1, 1);
     joint.start(0, startCov);
     joint.changeCamera(cameraCov);
@@ -699,7 +691,8 @@ TEST(JointCovariance, monteCarlo)
         JointCovariance::Measurement m;
         for (const int reference : {0, k - 1})
         {
-            Matrix12d& change = m.factors.references.emplace(reference, Matrix12d::Zero()).first->second;
+            Matrix12d& change =
+                m.factors.references.emplace(reference, Matrix12d::Zero()).first->second;
             change += 0.3 * Matrix12d::Identity() +
                       0.1 * setup.vector<12>() * setup.vector<12>().transpose();
             m.factors.referencePoints[reference] = 0.6 * change;
@@ -722,7 +715,7 @@ TEST(JointCovariance, monteCarlo)
             m.factors.referencePatches[reference] =
                 0.2 * setup.vector<12>() * setup.vector<kNumPatches>().transpose();
         }
-        joint.measure(k, poses.back(), decayed, m, smoothings.back());
+        joint.measure(poses.back(), decayed, m, smoothings.back());
         joint.keep({0, k - 1, k});
         measurements.push_back(m);
         noiseRoots.emplace_back(test::squareRoot(m.noise));
@@ -750,23 +743,23 @@ TEST(JointCovariance, monteCarlo)
             Vector12d predicted;
             predicted << before + decayed.reach().cwiseProduct(velocity.back()),
                 decayed.kept().cwiseProduct(velocity.back());
-            Vector12d shared =
-                m.factors.prior * predicted + noiseRoots[static_cast<size_t>(k - 1)] * sampler.vector<12>();
+            Vector12d shared = m.factors.prior * predicted +
+                               noiseRoots[static_cast<size_t>(k - 1)] * sampler.vector<12>();
             shared += m.factors.camera * camera;
             for (const auto& [frame, change] : m.factors.references)
             {
                 const auto reference = static_cast<size_t>(frame);
-                shared +=
-                    change.leftCols<6>() *
-                    (toBase * pose[reference] +
-                     m.views.planeRoot * (planeView[static_cast<size_t>(k)] - planeView[reference]));
+                shared += change.leftCols<6>() *
+                          (toBase * pose[reference] +
+                           m.views.planeRoot *
+                               (planeView[static_cast<size_t>(k)] - planeView[reference]));
                 shared += change.rightCols<6>() * velocity[reference];
             }
             for (const auto& [frame, change] : m.factors.referencePoints)
             {
                 const auto reference = static_cast<size_t>(frame);
-                shared += change *
-                          m.views.pointSigma.cwiseProduct(view[static_cast<size_t>(k)] - view[reference]);
+                shared += change * m.views.pointSigma.cwiseProduct(
+                                       view[static_cast<size_t>(k)] - view[reference]);
             }
             shared += m.views.patchSigma * m.factors.patches * bends[static_cast<size_t>(k)];
             for (const auto& [frame, change] : m.factors.referencePatches)
@@ -791,13 +784,13 @@ TEST(JointCovariance, monteCarlo)
     EXPECT_LT(difference(previousVelocity, joint.velocity(kFrames - 2)), 0.1) << "smoothed";
 }
 
-TEST(JointCovariance, refusesParametersNamingTheKey)
+TEST(CovarianceParams, areRefusedNamingTheKey)
 {
     const auto refused = [](auto change)
     {
-        JointCovariance::TParams params;
+        CovarianceParams params;
         change(params);
-        EXPECT_THROW(JointCovariance{params}, std::invalid_argument);
+        EXPECT_THROW(params.check(), std::invalid_argument);
     };
     refused([](auto& p) { p.model = "none"; });
     refused([](auto& p) { p.noise = 0; });

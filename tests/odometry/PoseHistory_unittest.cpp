@@ -16,13 +16,6 @@ namespace
 /** A frame later, with a velocity that stays. */
 const DecayedVelocities kFrame{{1.0 / 30, 1, 0, 0, 0}, {1.0 / 30, 1, 0, 0, 0}};
 
-JointCovariance::TParams longHistory()
-{
-    JointCovariance::TParams params;
-    params.history = 10;
-    return params;
-}
-
 /** A rotation by 20 degrees about the diagonal, 10 m from the origin. */
 Eigen::Isometry3d elsewhere()
 {
@@ -41,7 +34,7 @@ void expectPositiveDefinite(const Matrix6d& cov)
 
 TEST(PoseHistory, beginsAtTheFirstFrame)
 {
-    PoseHistory history(longHistory());
+    PoseHistory history(10);
     PoseGaussian first;
     first.cov = 1e-6 * Matrix6d::Identity();
     history.predict(first);
@@ -53,7 +46,7 @@ TEST(PoseHistory, beginsAtTheFirstFrame)
 
 TEST(PoseHistory, tellsPredictedMotionsAsComposed)
 {
-    PoseHistory history(longHistory());
+    PoseHistory history(10);
     history.predict({});
     PoseGaussian step;
     step.mean.translation().x() = 0.1;
@@ -73,7 +66,7 @@ TEST(PoseHistory, tellsPredictedMotionsAsComposed)
  * large ones must not show as negative variances of the small ones. */
 TEST(PoseHistory, covariancesStayPositiveDefiniteWhereNothingIsKnown)
 {
-    PoseHistory history(longHistory());
+    PoseHistory history(10);
     history.predict({});
     history.restart(1);
     JointCovariance::Measurement measurement;

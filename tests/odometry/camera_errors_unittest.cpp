@@ -90,7 +90,7 @@ TEST(cameraErrors, ofAPointByHand)
 
 TEST(cameraErrors, beforeTheFirstFrame)
 {
-    JointCovariance::TParams calibration;
+    CovarianceParams calibration;
     calibration.vignetting = 0.1;
     calibration.principalPoint = 2;
     calibration.focalLength = 0.003;
@@ -104,7 +104,7 @@ TEST(cameraErrors, nominalIntrinsicsAreThoseOfAModelOfCamera)
 {
     PinholeCamera nominal = camera();
     nominal.isNominal = true;
-    JointCovariance::TParams calibration;
+    CovarianceParams calibration;
     const auto sigma = [&](int k)
     { return std::sqrt(calibrationVariances(calibration, nominal)[k]); };
     EXPECT_NEAR(sigma(1), 0.02 * 640, 1e-12);

@@ -7,10 +7,9 @@
 
 namespace pointplane
 {
-PoseHistory::PoseHistory(const JointCovariance::TParams& params)
-    : history_(params.history), joint_(params), poses_{Eigen::Isometry3d::Identity()}
+PoseHistory::PoseHistory(int history) : joint_(history), poses_{Eigen::Isometry3d::Identity()}
 {
-    joint_.start(latestFrame_, Matrix6d::Zero());
+    joint_.start(0, Matrix6d::Zero());
 }
 
 void PoseHistory::predict(const PoseGaussian& increment)
@@ -24,7 +23,7 @@ void PoseHistory::predict(const PoseGaussian& increment)
 void PoseHistory::predict(
     const Eigen::Isometry3d& T_latest_cur, const JointCovariance::Prediction& errors)
 {
-    joint_.predict(++latestFrame_, poses_.front(), errors);
+    joint_.predict(poses_.front(), errors);
     poses_.push_front(poses_.front() * T_latest_cur);
 }
 
@@ -35,14 +34,14 @@ void PoseHistory::measure(
     const JointCovariance::Measurement& errors,
     const std::optional<MotionModel::Smoothed>& previousVelocity)
 {
-    joint_.measure(++latestFrame_, T_world_prev, decayed, errors, previousVelocity);
+    joint_.measure(T_world_prev, decayed, errors, previousVelocity);
     poses_.push_front(T_world_prev * T_prev_cur);
 }
 
 void PoseHistory::keep(const std::vector<int>& references, const std::vector<int>& poses)
 {
     joint_.keep(references, poses);
-    poses_.resize(std::min(poses_.size(), static_cast<size_t>(history_) + 1));
+    poses_.resize(std::min(poses_.size(), static_cast<size_t>(joint_.history()) + 1));
 }
 
 PoseGaussian PoseHistory::pose() const
@@ -53,14 +52,14 @@ PoseGaussian PoseHistory::pose() const
 PoseGaussian PoseHistory::since(int framesAgo) const
 {
     const Eigen::Isometry3d& T_world_past = poses_[static_cast<size_t>(framesAgo)];
-    const Matrix6d cov = joint_.relative(latestFrame_ - framesAgo, T_world_past);
+    const Matrix6d cov = joint_.relative(latestFrame() - framesAgo, T_world_past);
     return {T_world_past.inverse() * poses_.front(), strictlyPositive(cov)};
 }
 
 std::vector<PoseGaussian> PoseHistory::sinceAll() const
 {
     std::vector<PoseGaussian> out;
-    for (int n = 1; n <= history_ && n < latestFrame_; ++n)
+    for (int n = 1; n <= joint_.history() && n < latestFrame(); ++n)
     {
         out.push_back(since(n));
     }

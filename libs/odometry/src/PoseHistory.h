@@ -15,7 +15,7 @@ namespace pointplane
 class PoseHistory
 {
  public:
-    explicit PoseHistory(const JointCovariance::TParams& params);
+    explicit PoseHistory(int history);
 
     /** The next frames are those of another camera. \param cov of its errors; zero before the first
      * call */
@@ -51,7 +51,7 @@ class PoseHistory
     [[nodiscard]] const Eigen::Isometry3d& latest() const { return poses_.front(); }
     /** JointCovariance::velocity(). */
     [[nodiscard]] Matrix6d velocityCov(int frame) const { return joint_.velocity(frame); }
-    [[nodiscard]] int latestFrame() const { return latestFrame_; }
+    [[nodiscard]] int latestFrame() const { return joint_.latestFrame(); }
 
     /** T_world_latest. */
     [[nodiscard]] PoseGaussian pose() const;
@@ -63,9 +63,7 @@ class PoseHistory
     [[nodiscard]] std::vector<PoseGaussian> sinceAll() const;
 
  private:
-    int history_;  //!< frames
     JointCovariance joint_;
     std::deque<Eigen::Isometry3d> poses_;  //!< latest first; before the first frame, the identity
-    int latestFrame_{0};
 };
 }  // namespace pointplane

@@ -31,7 +31,7 @@ Track::Track(const OdometryParams& params)
       fuses_(params.pipeline.fuses()),
       isFrameToFrame_(params.reference.isFrameToFrame()),
       motion_(params.motionModel),
-      history_(params.covariance),
+      history_(params.covariance.history),
       window_(params.reference)
 {
 }

@@ -105,7 +105,7 @@ class ErrorModel
      * shutter: S in docs/theory.md, section Learning the camera. */
     [[nodiscard]] Eigen::Matrix3d timesByVelocities(const Measured& frame) const;
 
-    JointCovariance::TParams params_;
+    CovarianceParams params_;
     NoiseScale::TParams noiseParams_;
     bool isJoint_, fuses_, learns_;
     NoiseScale noise_;

@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pointplane/core/check.h>
-#include <pointplane/core/choice.h>
 #include <pointplane/core/covariance.h>
-#include <pointplane/core/range.h>
 #include <pointplane/core/se3.h>
 #include <pointplane/odometry/uncertainty/JointCovariance.h>
 
@@ -11,35 +8,11 @@
 
 namespace pointplane
 {
-namespace
-{
-constexpr Eigen::Index kSize = 6;  //!< of a pose's or a velocity's error
-}  // namespace
-
-bool JointCovariance::TParams::isJoint() const
-{
-    return chosen<bool>("model", model, {{"joint", true}, {"independent", false}});
-}
-
-void JointCovariance::TParams::check() const
-{
-    (void)isJoint();
-    checkRange("noise", noise, 1e-3, 1000);
-    checkRange("viewNoise", viewNoise, 0, 1000);
-    checkRange("vignetting", vignetting, 0, 1);
-    checkRange("principalPoint", principalPoint, 0, 100);
-    checkRange("focalLength", focalLength, 0, 10);
-    checkRange("depthScale", depthScale, 0, 10);
-    checkRange("history", history, 1, 300);
-}
-
-JointCovariance::JointCovariance(const TParams& params) : params_(params) { params_.check(); }
-
 void JointCovariance::start(int frame, const Matrix6d& cov)
 {
-    constexpr Eigen::Index size = 2 * kSize + kNumCameraErrors;
+    constexpr Eigen::Index size = 12 + kNumCameraErrors;
     Eigen::MatrixXd all = Eigen::MatrixXd::Zero(size, size);
-    all.topLeftCorner<kSize, kSize>() = cov;
+    all.topLeftCorner<6, 6>() = cov;
     errors_.start({{Kind::Pose, frame}, {Kind::Velocity, frame}, {Kind::Camera, 0}}, all);
     latest_ = previous_ = frame;
     restart(frame);
@@ -50,27 +23,24 @@ void JointCovariance::changeCamera(const CameraMatrix& cov)
     errors_.makeIndependent(Kind::Camera, 0, cov);
 }
 
-void JointCovariance::predict(
-    int frame, const Eigen::Isometry3d& T_world_latest, const Prediction& prediction)
+void JointCovariance::predict(const Eigen::Isometry3d& T_world_latest, const Prediction& prediction)
 {
     if (!has(Kind::Coasting, 0))
     {
         errors_.prepend(
-            {{Kind::Coasting, 0}},
-            Eigen::MatrixXd::Zero(kSize, errors_.size()),
-            prediction.velocity);
+            {{Kind::Coasting, 0}}, Eigen::MatrixXd::Zero(6, errors_.size()), prediction.velocity);
     }
     const Matrix6d Ad = adjoint(T_world_latest);
     const Eigen::Index velocity = find(Kind::Coasting, 0);
-    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * kSize, errors_.size());
-    A.block<kSize, kSize>(0, newest()).setIdentity();
-    A.block<kSize, kSize>(0, velocity) = Ad * prediction.after.reach().asDiagonal();
-    A.block<kSize, kSize>(kSize, velocity) = prediction.after.kept().asDiagonal();
+    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(12, errors_.size());
+    A.block<6, 6>(0, newest()).setIdentity();
+    A.block<6, 6>(0, velocity) = Ad * prediction.after.reach().asDiagonal();
+    A.block<6, 6>(6, velocity) = prediction.after.kept().asDiagonal();
     Matrix12d toWorld = Matrix12d::Identity();
-    toWorld.topLeftCorner<kSize, kSize>() = Ad;
+    toWorld.topLeftCorner<6, 6>() = Ad;
     errors_.prepend(
-        {{Kind::Pose, frame}, {Kind::Coasting, 0}}, A, propagate(toWorld, prediction.noise));
-    latest_ = frame;
+        {{Kind::Pose, latest_ + 1}, {Kind::Coasting, 0}}, A, propagate(toWorld, prediction.noise));
+    ++latest_;
     dropCoasting(1);
 }
 
@@ -101,7 +71,7 @@ Eigen::MatrixXd JointCovariance::dependence(
     const Measurement& measurement) const
 {
     const Matrix6d Ad_inverse = Ad.inverse();  // from the world to the previous frame
-    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * kSize, errors_.size());
+    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(12, errors_.size());
     const auto addView = [&](Kind kind, int reference, const Eigen::MatrixXd& change)
     {
         A.middleCols(find(kind, reference), change.cols()) -= change;
@@ -109,18 +79,18 @@ Eigen::MatrixXd JointCovariance::dependence(
     };
     const Sensitivity& of = measurement.factors;
     const Views& views = measurement.views;
-    const auto prior = of.prior.leftCols<kSize>();
-    A.middleCols<kSize>(find(Kind::Pose, previous_)) += prior * Ad_inverse;
-    A.middleCols<kSize>(find(Kind::Velocity, previous_)) +=
+    const auto prior = of.prior.leftCols<6>();
+    A.middleCols<6>(find(Kind::Pose, previous_)) += prior * Ad_inverse;
+    A.middleCols<6>(find(Kind::Velocity, previous_)) +=
         prior * decayed.reach().asDiagonal() +
-        of.prior.rightCols<kSize>() * decayed.kept().asDiagonal();
+        of.prior.rightCols<6>() * decayed.kept().asDiagonal();
     for (const auto& [reference, change] : of.references)
     {
         const Matrix126d byPose = change.leftCols<6>();
-        A.middleCols<kSize>(find(Kind::Pose, reference)) += byPose * Ad_inverse;
+        A.middleCols<6>(find(Kind::Pose, reference)) += byPose * Ad_inverse;
         if (has(Kind::Velocity, reference))
         {
-            A.middleCols<kSize>(find(Kind::Velocity, reference)) += change.rightCols<6>();
+            A.middleCols<6>(find(Kind::Velocity, reference)) += change.rightCols<6>();
         }
         if (has(Kind::PlaneView, frame))
         {
@@ -142,17 +112,17 @@ Eigen::MatrixXd JointCovariance::dependence(
         }
     }
     A.middleCols<kNumCameraErrors>(find(Kind::Camera, 0)) += of.camera;
-    A.topRows<kSize>() = (Ad * A.topRows<kSize>()).eval();
+    A.topRows<6>() = (Ad * A.topRows<6>()).eval();
     return A;
 }
 
 void JointCovariance::measure(
-    int frame,
     const Eigen::Isometry3d& T_world_prev,
     const DecayedVelocities& decayed,
     const Measurement& measurement,
     const std::optional<MotionModel::Smoothed>& previousVelocity)
 {
+    const int frame = latest_ + 1;
     const Matrix6d Ad = adjoint(T_world_prev);
     const Views& views = measurement.views;
     addViews(frame, Kind::View, views.frames, views.ofPoints);
@@ -165,16 +135,15 @@ void JointCovariance::measure(
         addViews(frame, Kind::Bend, views.frames, views.ofPatches);
     }
 
-    constexpr Eigen::Index camera = 2 * kSize, size = camera + kNumCameraErrors;
+    constexpr Eigen::Index camera = 12, size = camera + kNumCameraErrors;
     Eigen::MatrixXd A = Eigen::MatrixXd::Zero(size, errors_.size());
-    A.topRows<2 * kSize>() = dependence(frame, Ad, decayed, measurement);
+    A.topRows<12>() = dependence(frame, Ad, decayed, measurement);
     A.block<kNumCameraErrors, kNumCameraErrors>(camera, find(Kind::Camera, 0)) =
         measurement.camera.gain;
     Matrix12d toWorld = Matrix12d::Identity();
-    toWorld.topLeftCorner<kSize, kSize>() = Ad;
+    toWorld.topLeftCorner<6, 6>() = Ad;
     Eigen::MatrixXd Q = Eigen::MatrixXd::Zero(size, size);
-    Q.topLeftCorner<2 * kSize, 2 * kSize>() =
-        propagate(toWorld, measurement.noise);
+    Q.topLeftCorner<12, 12>() = propagate(toWorld, measurement.noise);
     Q.block<kNumCameraErrors, kNumCameraErrors>(camera, camera) = measurement.camera.noise;
     errors_.prepend({{Kind::Pose, frame}, {Kind::Velocity, frame}, {Kind::Camera, 0}}, A, Q);
     // The camera's errors after the frame take the place of those before.
@@ -194,13 +163,13 @@ void JointCovariance::measure(
  * the pose of the previous one */
 void JointCovariance::smooth(int frame, const Matrix6d& Ad, const MotionModel::Smoothed& velocity)
 {
-    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(kSize, errors_.size());
-    A.middleCols<kSize>(find(Kind::Velocity, previous_)) = velocity.byVelocity;
-    A.middleCols<kSize>(find(Kind::Velocity, frame)) = velocity.byNextVelocity;
+    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(6, errors_.size());
+    A.middleCols<6>(find(Kind::Velocity, previous_)) = velocity.byVelocity;
+    A.middleCols<6>(find(Kind::Velocity, frame)) = velocity.byNextVelocity;
     const auto addMotion = [&](int from, int to, const Matrix6d& change)
     {
-        A.middleCols<kSize>(find(Kind::Pose, from)) -= change;
-        A.middleCols<kSize>(find(Kind::Pose, to)) += change;
+        A.middleCols<6>(find(Kind::Pose, from)) -= change;
+        A.middleCols<6>(find(Kind::Pose, to)) += change;
     };
     addMotion(previous_, frame, velocity.byNextMotion * Ad.inverse());
     if (earlier_ && has(Kind::Pose, earlier_->frame))
@@ -237,8 +206,8 @@ void JointCovariance::keep(const std::vector<int>& references, const std::vector
             switch (block.kind)
             {
                 case Kind::Pose:
-                    return numPoses++ <= params_.history || block.frame == previous_ ||
-                           isReference || contains(poses, block.frame);
+                    return numPoses++ <= history_ || block.frame == previous_ || isReference ||
+                           contains(poses, block.frame);
                 case Kind::Velocity:
                     return isReference || block.frame == previous_;
                 case Kind::View:
@@ -263,8 +232,6 @@ Matrix6d JointCovariance::velocity(int frame) const
     return at(k, k);
 }
 
-bool JointCovariance::knows(int frame) const { return has(Kind::Pose, frame); }
-
 Matrix6d JointCovariance::relative(int from, const Eigen::Isometry3d& T_world_from) const
 {
     const Eigen::Index n = newest(), k = find(Kind::Pose, from);
@@ -274,6 +241,6 @@ Matrix6d JointCovariance::relative(int from, const Eigen::Isometry3d& T_world_fr
 
 Matrix6d JointCovariance::at(Eigen::Index row, Eigen::Index column) const
 {
-    return errors_.cov().block<kSize, kSize>(row, column);
+    return errors_.cov().block<6, 6>(row, column);
 }
 }  // namespace pointplane

@@ -31,8 +31,7 @@ CameraVector lensVariances(const PinholeCamera& camera, double bend)
     return sigmas.cwiseAbs2();
 }
 
-CameraVector calibrationVariances(
-    const JointCovariance::TParams& calibration, const PinholeCamera& camera)
+CameraVector calibrationVariances(const CovarianceParams& calibration, const PinholeCamera& camera)
 {
     CameraVector sigmas;
     sigmas << calibration.vignetting, calibration.principalPoint, calibration.principalPoint,

@@ -5,7 +5,7 @@
 #include <pointplane/odometry/PointStage.h>
 #include <pointplane/odometry/ReferenceWindow.h>
 #include <pointplane/odometry/uncertainty/CameraCalibrator.h>
-#include <pointplane/odometry/uncertainty/JointCovariance.h>
+#include <pointplane/odometry/uncertainty/CovarianceParams.h>
 #include <pointplane/odometry/uncertainty/MotionModel.h>
 #include <pointplane/odometry/uncertainty/NoiseScale.h>
 #include <pointplane/planes/PlaneExtractor.h>
@@ -100,7 +100,7 @@ struct OdometryParams
     NoiseScale::TParams noiseScale;
     MotionModel::TParams motionModel;
     ReferenceWindow::TParams reference;
-    JointCovariance::TParams covariance;
+    CovarianceParams covariance;
 
     /** The first section that only experts need: from here on, keys are about the insides of a
      * stage. */

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pointplane/core/Parameters.h>
 #include <pointplane/core/types.h>
 #include <pointplane/odometry/uncertainty/CameraCalibrator.h>
 #include <pointplane/odometry/uncertainty/JointGaussian.h>
@@ -9,7 +8,6 @@
 #include <pointplane/pose/PoseAnalysis.h>
 
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace pointplane
@@ -28,65 +26,6 @@ namespace pointplane
 class JointCovariance
 {
  public:
-    struct TParams
-    {
-        std::string model{"joint"};
-        double noise{0.22};
-        double viewNoise{34};
-        double vignetting{0.15};
-        double principalPoint{0.3};
-        double focalLength{0.0006};
-        double depthScale{0.005};
-        int history{1};
-
-        template <class V>
-        void visit(V&& v)
-        {
-            v("model",
-              model,
-              "-",
-              "joint (frames that are compared with the same references err together) or "
-              "independent (each increment by itself, as in the paper)");
-            v("noise",
-              noise,
-              "-",
-              "fraction of the variance of the points' residuals that is noise of this frame; the "
-              "rest is noise of the references and error that the points share");
-            v("viewNoise",
-              viewNoise,
-              "-",
-              "how large the error is that all points of a frame share, as a multiple of how far "
-              "the references contradict each other; twice the value makes standard deviations "
-              "over a second 1.1 to 1.9 times as large; 17 to 68 are sensible");
-            v("vignetting",
-              vignetting,
-              "-",
-              "how much darker the image's corners may be than its centre (standard deviation, "
-              "fraction of the brightness); the odometry can take this for motion");
-            v("principalPoint",
-              principalPoint,
-              "px",
-              "error of the calibration: standard deviation of cx and cy");
-            v("focalLength",
-              focalLength,
-              "-",
-              "error of the calibration: standard deviation of fx and fy together, as a "
-              "fraction");
-            v("depthScale",
-              depthScale,
-              "-",
-              "error of the depth camera: standard deviation of the scale of all depths, as a "
-              "fraction");
-            v("history",
-              history,
-              "frames",
-              "covariances of motions are kept for this many frames back (--since raises it)");
-        }
-        /** \throws std::invalid_argument naming the key */
-        void check() const;
-        [[nodiscard]] bool isJoint() const;  //!< model is joint, not independent
-    };
-
     /** Errors by the view (view_errors.h) of points, planes and patches: eta, zeta and s. */
     struct Views
     {
@@ -111,10 +50,11 @@ class JointCovariance
         CameraCalibrator::Change camera;  //!< of k, by this frame
     };
 
-    /** \throws std::invalid_argument naming the key */
-    explicit JointCovariance(const TParams& params);
+    /** \param history so many frames back, poses stay known */
+    explicit JointCovariance(int history) : history_(history) {}
 
-    /** Starts with the first frame, a reference. \param cov of its pose (left, world) */
+    /** Starts with the first frame, a reference. Later ones count on from its number.
+     * \param cov of its pose (left, world) */
     void start(int frame, const Matrix6d& cov);
 
     /** From here on, frames are those of another camera. \param cov of its errors; zero before the
@@ -133,7 +73,7 @@ class JointCovariance
     /** Adds a frame that was not measured. The error of the velocity stays that of the frame
      * before, if that was not measured either. \param T_world_latest pose of the frame before (the
      * motion and the velocity are left perturbations in its frame) */
-    void predict(int frame, const Eigen::Isometry3d& T_world_latest, const Prediction& prediction);
+    void predict(const Eigen::Isometry3d& T_world_latest, const Prediction& prediction);
 
     /** In the next frame that is not measured, the error of the velocity is a new one. */
     void endCoasting() { dropCoasting(); }
@@ -147,7 +87,6 @@ class JointCovariance
      * \param decayed what has become of the previous frame's velocity
      * \param previousVelocity correction of that velocity, if there is one */
     void measure(
-        int frame,
         const Eigen::Isometry3d& T_world_prev,
         const DecayedVelocities& decayed,
         const Measurement& measurement,
@@ -159,12 +98,11 @@ class JointCovariance
 
     /** Covariance of the latest pose (left, world); positive semidefinite. */
     [[nodiscard]] Matrix6d latest() const;
+    [[nodiscard]] int latestFrame() const { return latest_; }
+    [[nodiscard]] int history() const { return history_; }
 
     /** Covariance of the velocity of a frame [m/s, rad/s]; zero if it is not known. */
     [[nodiscard]] Matrix6d velocity(int frame) const;
-
-    /** Whether relative() knows the frame. */
-    [[nodiscard]] bool knows(int frame) const;
 
     /** Covariance of the motion from a frame in the history to the latest one (left perturbation in
      * frame `from`); positive semidefinite. \param T_world_from pose of that frame
@@ -192,7 +130,7 @@ class JointCovariance
         const DecayedVelocities& decayed,
         const Measurement& measurement) const;
 
-    TParams params_;
+    int history_;           //!< frames
     JointGaussian errors_;  //!< poses newest first
     int latest_{0};         //!< frame
     int previous_{0};       //!< the latest measured one

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pointplane/odometry/uncertainty/JointCovariance.h>
+#include <pointplane/odometry/uncertainty/CovarianceParams.h>
 #include <pointplane/pose/pairs.h>
 #include <pointplane/sensor/PinholeCamera.h>
 
@@ -16,7 +16,7 @@ namespace pointplane
 /** Variances of the camera's errors before the first frame, zero of the shutter. If its intrinsics
  * are nominal, they are as uncertain as cameras of one model differ. */
 [[nodiscard]] CameraVector calibrationVariances(
-    const JointCovariance::TParams& calibration, const PinholeCamera& camera);
+    const CovarianceParams& calibration, const PinholeCamera& camera);
 
 /** Jacobian of a point by errors of the calibration by which it was lifted. (If the true focal
  * length is larger, the point is nearer to the optical axis.) \param p_cam point in the camera [m]
