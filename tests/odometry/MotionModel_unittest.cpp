@@ -521,16 +521,17 @@ TEST(MotionModel, leastRandomWalkIsKept)
 }
 
 /** It lasts for 0.05 s; what it has made of the velocity stays. */
-TEST(MotionModel, jerkByHand)
+TEST(MotionModel, suddenAccelerationByHand)
 {
     MotionModel::TParams params;
     params.sigmaAcceleration = 2;
     params.sigmaAngularAcceleration = 6;
-    const Matrix6d cov = MotionModel(params).jerk(0.01);
+    const Matrix6d cov = MotionModel(params).bySuddenAcceleration(0.01);
     EXPECT_NEAR(std::sqrt(cov(1, 1)), 2 * 0.01 * 0.01, 1e-12);
     EXPECT_NEAR(std::sqrt(cov(4, 4)), 6 * 0.01 * 0.01, 1e-12);
     EXPECT_TRUE(cov.isDiagonal());
-    EXPECT_NEAR(std::sqrt(MotionModel(params).jerk(0.5)(4, 4)), 6 * 0.05 * 0.5, 1e-12);
+    EXPECT_NEAR(
+        std::sqrt(MotionModel(params).bySuddenAcceleration(0.5)(4, 4)), 6 * 0.05 * 0.5, 1e-12);
 }
 
 TEST(MotionModel, followsAnIncrementAlone)
@@ -590,7 +591,7 @@ TEST(MotionModel, anyGapIsFinite)
         MotionModel model = moving();
         EXPECT_TRUE(model.predict(dt).cov.allFinite()) << dt;
         EXPECT_TRUE(model.predict(dt).mean.T_prev_cur.matrix().allFinite()) << dt;
-        EXPECT_TRUE(model.jerk(dt).allFinite()) << dt;
+        EXPECT_TRUE(model.bySuddenAcceleration(dt).allFinite()) << dt;
         model.coast(dt);
         EXPECT_TRUE(model.predict(kFrame).cov.allFinite()) << dt;
     }

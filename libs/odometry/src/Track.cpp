@@ -86,7 +86,7 @@ Prediction Track::prediction(double stamp)
     }
     out.motion = motion_.predictFromEstimate(out.dt);
     out.pose = out.motion.pose();
-    out.pose.cov += motion_.jerk(out.dt);
+    out.pose.cov += motion_.bySuddenAcceleration(out.dt);
     out.prior = priorFrom(out.motion, out.pose);
     return out;
 }
@@ -229,8 +229,8 @@ PoseGaussian Track::stay(double stamp)
     const PoseGaussian way = motion_.predict(dt).pose();
     const Vector6d mean = se3Log(way.mean);
     PoseGaussian increment;
-    increment.cov =
-        strictlyPositive(Matrix6d(way.cov + motion_.jerk(dt) + mean * mean.transpose()));
+    increment.cov = strictlyPositive(
+        Matrix6d(way.cov + motion_.bySuddenAcceleration(dt) + mean * mean.transpose()));
     JointCovariance::Prediction errors;
     errors.noise.topLeftCorner<6, 6>() = increment.cov;
     errors.velocity = motion_.velocityCov();
@@ -251,7 +251,7 @@ PoseGaussian Track::coast(double stamp)
     PoseGaussian increment = motion_.predict(dt).pose();
     errors.noise = motion_.unforeseen(dt);
     errors.velocity = motion_.velocityCov();
-    increment.cov = strictlyPositive(Matrix6d(increment.cov + motion_.jerk(dt)));
+    increment.cov = strictlyPositive(Matrix6d(increment.cov + motion_.bySuddenAcceleration(dt)));
     errors.after = motion_.after(dt);
     motion_.coast(dt);
     if (std::isfinite(stamp))

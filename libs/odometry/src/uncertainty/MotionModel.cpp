@@ -86,7 +86,9 @@ MotionGaussian MotionModel::predictFromEstimate(double dt) const
 
 Matrix12d MotionModel::processNoise(double dt, const Matrix6d& open) const
 {
-    Matrix12d out = predictFrom(velocity_, cov_ - measuredCov_, dt).cov;
+    Matrix12d notMeasured = Matrix12d::Zero();
+    notMeasured.bottomRightCorner<6, 6>() = cov_.bottomRightCorner<6, 6>() - measuredVelocityCov_;
+    Matrix12d out = predictFrom(velocity_, notMeasured, dt).cov;
     // The pose tells a part of the velocity. White acceleration leaves the rest; one that lasts for
     // the time t_a leaves 4 dt / (15 t_a) of it in short steps.
     const Matrix6d together = out.topRightCorner<6, 6>();
@@ -94,7 +96,7 @@ Matrix12d MotionModel::processNoise(double dt, const Matrix6d& open) const
     const double share = dt / (dt + 15.0 / 4 * params_.accelerationTime);
     const Matrix6d rest = out.bottomRightCorner<6, 6>() - told;
     out.bottomRightCorner<6, 6>() = told + share * rest + (1 - share) * propagate(open, rest);
-    out.topLeftCorner<6, 6>() += propagate(open, jerk(dt));
+    out.topLeftCorner<6, 6>() += propagate(open, bySuddenAcceleration(dt));
     return out;
 }
 
@@ -122,11 +124,11 @@ MotionGaussian MotionModel::predictFrom(
 Matrix12d MotionModel::unforeseen(double dt) const
 {
     Matrix12d out = predictFrom(Vector6d::Zero(), Matrix12d::Zero(), dt).cov;
-    out.topLeftCorner<6, 6>() += jerk(dt);
+    out.topLeftCorner<6, 6>() += bySuddenAcceleration(dt);
     return out;
 }
 
-Matrix6d MotionModel::jerk(double dt) const
+Matrix6d MotionModel::bySuddenAcceleration(double dt) const
 {
     const double t = std::min(dt, kLongestStep);
     return sudden().cwiseAbs2().asDiagonal() *
@@ -138,7 +140,7 @@ void MotionModel::follow(const Eigen::Isometry3d& T_prev_cur, double dt)
     velocity_ = se3Log(T_prev_cur) / std::min(dt, kLongestStep);
     cov_.setZero();
     cov_.bottomRightCorner<6, 6>() = velocityGain(dt).asDiagonal();
-    measuredCov_.setZero();
+    measuredVelocityCov_.setZero();
     elapsed_ = 0;
 }
 
@@ -177,7 +179,8 @@ MotionModel::Smoothed MotionModel::update(const MotionGaussian& measured, double
     // What errs in the frame where the motion started errs where it ended.
     Matrix12d toEnd = Matrix12d::Identity();
     toEnd.topLeftCorner<6, 6>() = adjoint(measured.mean.T_prev_cur.inverse());
-    cov_ = measuredCov_ = propagate(toEnd, measured.cov);
+    cov_ = propagate(toEnd, measured.cov);
+    measuredVelocityCov_ = cov_.bottomRightCorner<6, 6>();
     elapsed_ = 0;
     const auto between = increments_.add(
         {se3Log(measured.mean.T_prev_cur) / t, t, measured.cov.diagonal().head<6>()});
@@ -245,14 +248,13 @@ void MotionModel::coast(double dt)
 void MotionModel::startAtReference()
 {
     const Matrix6d kept = after(elapsed_).kept().asDiagonal();
-    const Matrix6d measured = propagate(kept, Matrix6d(measuredCov_.bottomRightCorner<6, 6>()));
+    const Matrix6d measured = propagate(kept, measuredVelocityCov_);
     const Matrix6d now = velocityCov();
     velocity_ = velocity();
     elapsed_ = 0;
     cov_.setZero();
     cov_.bottomRightCorner<6, 6>() = now;
-    measuredCov_.setZero();
-    measuredCov_.bottomRightCorner<6, 6>() = measured;
+    measuredVelocityCov_ = measured;
 }
 
 void MotionModel::reset()
@@ -264,6 +266,6 @@ void MotionModel::reset()
     speed2_ = speed2_.cwiseMax((params_.accelerationTime * sudden()).cwiseAbs2());
     cov_.setZero();
     cov_.bottomRightCorner<6, 6>() = speed2_.asDiagonal();
-    measuredCov_.setZero();
+    measuredVelocityCov_.setZero();
 }
 }  // namespace pointplane

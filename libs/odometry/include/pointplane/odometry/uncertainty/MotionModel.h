@@ -108,7 +108,7 @@ class MotionModel
     [[nodiscard]] Matrix12d unforeseen(double dt) const;
 
     /** Covariance of the pose by a sudden acceleration, over `dt` [s]. */
-    [[nodiscard]] Matrix6d jerk(double dt) const;
+    [[nodiscard]] Matrix6d bySuddenAcceleration(double dt) const;
 
     /** Takes the mean velocity of a measured increment for the velocity at its end, as in the
      * paper. */
@@ -156,12 +156,14 @@ class MotionModel
     void weigh(const IncrementVelocities::Between& between, double dt, Smoothed& smoothed) const;
 
     TParams params_;
-    Vector6d velocity_;                 //!< at the latest measured frame
-    Matrix12d cov_{Matrix12d::Zero()};  //!< of [pose of the latest measured frame; velocity_]
-    Matrix12d measuredCov_{Matrix12d::Zero()};  //!< the part of it that was measured
-    Vector6d learntDensity_{Vector6d::Zero()};  //!< density() without its lower limit
-    Vector6d speed2_{Vector6d::Zero()};         //!< mean square of the velocity, per axis
-    double elapsed_{0};                         //!< since the latest measured frame [s]
+    Vector6d velocity_;  //!< at the frame where the next motion starts
+    /** Of [pose of that frame; velocity_], by what the frame itself tells. JointCovariance has that
+     * of the velocity by all that its errors come from. */
+    Matrix12d cov_{Matrix12d::Zero()};
+    Matrix6d measuredVelocityCov_{Matrix6d::Zero()};  //!< the part of it that was measured
+    Vector6d learntDensity_{Vector6d::Zero()};        //!< density() without its lower limit
+    Vector6d speed2_{Vector6d::Zero()};               //!< mean square of the velocity, per axis
+    double elapsed_{0};                               //!< since that frame [s]
     IncrementVelocities increments_;
 };
 }  // namespace pointplane
