@@ -51,6 +51,7 @@ struct Aligner::Scene
 
 Aligner::Aligner(const OdometryParams& params)
     : params_(params.pipeline),
+      fuses_(params.pipeline.fuses()),
       searchesAhead_(params.pipeline.searchesAhead()),
       minOverlap_(params.reference.keyframeMinOverlap),
       windowPx_(params.pointTracker.windowPx),
@@ -175,7 +176,7 @@ void Aligner::searchAgain(
 {
     const RgbdFrame& frame = scene.current.frame;
     const double radius_px = scene.frontEnd.searchRadius_px(frame);
-    while (params_.fuses() &&
+    while (fuses_ &&
            areNearEdge(
                alignment.associations, frame.camera, scene.track.fromWorld(T_prev_cur), radius_px))
     {
@@ -197,7 +198,7 @@ void Aligner::searchAgain(
 /** Takes another motion than the estimated one if that explains more surface. */
 void Aligner::settleRivals(const Scene& scene, Alignment& alignment) const
 {
-    if (!params_.fuses() || !alignment.holds)
+    if (!fuses_ || !alignment.holds)
     {
         return;
     }
@@ -216,7 +217,7 @@ void Aligner::settleRivals(const Scene& scene, Alignment& alignment) const
 /** Whether points that may agree by chance decide a direction. */
 bool Aligner::restsOnChance(const Alignment& alignment) const
 {
-    return params_.fuses() && alignment.holds && Judge::mayBeChance(alignment) &&
+    return fuses_ && alignment.holds && Judge::mayBeChance(alignment) &&
            solver_.pointSupport(alignment.problem, alignment.estimate) < kFewPoints;
 }
 
@@ -308,7 +309,7 @@ void Aligner::estimate(
     scene.pairs.build(alignment.associations, windowPx_, problem.points, problem.planes);
     problem.prior = scene.predicted.prior;
     problem.noise = scene.errors.noise();
-    if (params_.fuses())
+    if (fuses_)
     {
         problem.surfaces = rememberedInliers(alignment.associations, scene.current, memory_);
     }

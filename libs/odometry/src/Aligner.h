@@ -70,7 +70,7 @@ class Aligner
     static void verify(const Scene& scene, Alignment& alignment);
 
     PipelineParams params_;
-    bool searchesAhead_;
+    bool fuses_, searchesAhead_;
     double minOverlap_;
     int windowPx_;
     double memory_;

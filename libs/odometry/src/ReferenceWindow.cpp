@@ -38,14 +38,14 @@ ReferenceWindow::ReferenceWindow(const TParams& params)
 std::vector<const Reference*> ReferenceWindow::active() const
 {
     std::vector<const Reference*> out;
-    if (!hasPrevious_)
+    if (!previous_)
     {
         return out;
     }
-    out.push_back(&previous_);
+    out.push_back(&*previous_);
     for (auto it = keyframes_.rbegin(); it != keyframes_.rend(); ++it)
     {
-        if (it->id != previous_.id)
+        if (it->id != previous_->id)
         {
             out.push_back(&*it);
         }
@@ -55,7 +55,7 @@ std::vector<const Reference*> ReferenceWindow::active() const
 
 bool ReferenceWindow::isNewest(const Reference& reference) const
 {
-    return reference.id == (keyframes_.empty() ? previous_.id : keyframes_.back().id);
+    return reference.id == (keyframes_.empty() ? previous_->id : keyframes_.back().id);
 }
 
 double ReferenceWindow::overlap(
@@ -91,10 +91,10 @@ bool ReferenceWindow::needsKeyframe(const Eigen::Isometry3d& T_world_cam, double
 
 void ReferenceWindow::refinePreviousVelocity(const Vector6d& velocity)
 {
-    previous_.velocity = velocity;
+    previous_->velocity = velocity;
     for (Reference& keyframe : keyframes_)
     {
-        if (keyframe.id == previous_.id)
+        if (keyframe.id == previous_->id)
         {
             keyframe.velocity = velocity;
         }
@@ -103,7 +103,10 @@ void ReferenceWindow::refinePreviousVelocity(const Vector6d& velocity)
 
 void ReferenceWindow::changeStamps(double by)
 {
-    previous_.stamp += by;
+    if (previous_)
+    {
+        previous_->stamp += by;
+    }
     for (std::deque<Reference>* frames : {&keyframes_, &places_})
     {
         for (Reference& frame : *frames)
@@ -127,11 +130,10 @@ void ReferenceWindow::notePoints(const Association& association)
 
 void ReferenceWindow::add(Reference frame, bool isKeyframe)
 {
-    hasPrevious_ = true;
     previous_ = std::move(frame);
     if (isKeyframe && !isFrameToFrame_)
     {
-        addKeyframe(previous_);
+        addKeyframe(*previous_);
     }
 }
 
@@ -179,14 +181,12 @@ void ReferenceWindow::leave()
         addPlace(std::move(keyframe));
     }
     keyframes_.clear();
-    hasPrevious_ = false;
-    previous_ = {};
+    previous_.reset();
 }
 
 void ReferenceWindow::clear()
 {
-    hasPrevious_ = false;
-    previous_ = {};
+    previous_.reset();
     keyframes_.clear();
     places_.clear();
 }

@@ -43,7 +43,7 @@ bool Track::needsKeyframe(const Eigen::Isometry3d& T_prev_cur, double overlap) c
 
 bool Track::isOf(const PinholeCamera& camera) const
 {
-    return started_ && sameCamera(camera_, camera);
+    return !isEmpty() && sameCamera(camera_, camera);
 }
 
 bool Track::isLate(double stamp)
@@ -125,8 +125,8 @@ PoseGaussian Track::restart(Reference frame)
 {
     PoseGaussian none;
     none.cov = Matrix6d::Identity() * (kExactSigma * kExactSigma);
-    const PoseGaussian increment = started_ || wasLost_ ? coast(frame.stamp) : none;
-    if (!started_)
+    const PoseGaussian increment = !isEmpty() || wasLost_ ? coast(frame.stamp) : none;
+    if (isEmpty())
     {
         history_.predict(none);  // the world begins here
     }
@@ -134,7 +134,6 @@ PoseGaussian Track::restart(Reference frame)
     window_.clear();
     motion_.startAtReference();
     unmatched_.reset();
-    started_ = true;
     isPreviousMeasured_ = false;
     latestStamp_ = frame.stamp;
     lateStamp_.reset();
@@ -204,7 +203,7 @@ std::optional<MotionModel::Smoothed> Track::follow(const MotionGaussian& motion,
 
 PoseGaussian Track::predict(double stamp, std::optional<Reference> unmatched)
 {
-    const bool goesOn = !started_ || (std::isfinite(stamp) && stamp >= latestStamp_);
+    const bool goesOn = isEmpty() || (std::isfinite(stamp) && stamp >= latestStamp_);
     const PoseGaussian increment = goesOn ? coast(stamp) : stay(stamp);
     if (unmatched)
     {
@@ -212,7 +211,7 @@ PoseGaussian Track::predict(double stamp, std::optional<Reference> unmatched)
         unmatched_->id = history_.latestFrame();
         unmatched_->T_world_cam = history_.latest();
     }
-    if (started_)
+    if (!isEmpty())
     {
         forgetOthers();
     }
@@ -244,7 +243,7 @@ PoseGaussian Track::coast(double stamp)
     const bool known = stamp >= latestStamp_ && std::isfinite(stamp);
     const double dt = known ? stepBetween(latestStamp_, stamp) : MotionModel::kUsualStep;
     JointCovariance::Prediction errors;
-    if (dt > maxGap_ || (started_ && stepBetween(previous().stamp, stamp) > maxGap_))
+    if (dt > maxGap_ || (!isEmpty() && stepBetween(previous().stamp, stamp) > maxGap_))
     {
         forgetVelocity();
     }
@@ -258,11 +257,11 @@ PoseGaussian Track::coast(double stamp)
     {
         latestStamp_ = std::fmax(latestStamp_, stamp);
     }
-    if (started_)
+    if (!isEmpty())
     {
         history_.predict(increment.mean, errors);
     }
-    wasLost_ = wasLost_ || !started_;
+    wasLost_ = wasLost_ || isEmpty();
     return increment;
 }
 

@@ -40,7 +40,7 @@ class Track
 
     // What is known
 
-    [[nodiscard]] bool isEmpty() const { return !started_; }
+    [[nodiscard]] bool isEmpty() const { return window_.empty(); }
 
     /** \pre !isEmpty() */
     [[nodiscard]] const Reference& previous() const { return window_.previous(); }
@@ -163,8 +163,7 @@ class Track
     PinholeCamera camera_;
     double latestStamp_{std::numeric_limits<double>::quiet_NaN()};  //!< NaN: none
     std::optional<double> lateStamp_;  //!< of the latest frame, when it was not after latestStamp_
-    bool started_{false};              //!< there was a good frame
-    bool wasLost_{false};              //!< there were others before it
+    bool wasLost_{false};              //!< there were frames before the first good one
     bool isPreviousMeasured_{false};   //!< it is not the first frame, nor one that matched none
     bool isVelocityKnown_{false};      //!< measured, and not forgotten since
 };

@@ -85,7 +85,6 @@ ErrorModel::ErrorModel(const OdometryParams& params)
       noiseParams_(params.noiseScale),
       isJoint_(params.covariance.isJoint()),
       fuses_(params.pipeline.fuses()),
-      learns_(params.noiseScale.adaptive),
       noise_(params.noiseScale),
       planes_(params.noiseScale.timeConstant),
       patches_(params.noiseScale.timeConstant),
@@ -114,7 +113,7 @@ JointCovariance::Measurement ErrorModel::learn(const Measured& frame)
     }
     const bool isMinimum = !frame.doubt;  // else residuals of its pairs do not tell their noise
     noise_.update(frame.analysis, frame.dt, isMinimum);
-    if (learns_ && isMinimum)
+    if (noiseParams_.adaptive && isMinimum)
     {
         const PlaneResiduals& ofPlanes = frame.analysis.planeResiduals;
         planes_.update(ofPlanes.references, correlation, frame.dt, ofPlanes.followed);

@@ -107,7 +107,7 @@ class ErrorModel
 
     CovarianceParams params_;
     NoiseScale::TParams noiseParams_;
-    bool isJoint_, fuses_, learns_;
+    bool isJoint_, fuses_;
     NoiseScale noise_;
     ErrorsByView planes_;   //!< variance of e and zeta, by planes
     ErrorsByView patches_;  //!< variance of s, over expectedBend()

@@ -5,6 +5,7 @@
 #include <pointplane/odometry/Reference.h>
 
 #include <deque>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -58,8 +59,9 @@ class ReferenceWindow
     /** \throws std::invalid_argument naming the key */
     explicit ReferenceWindow(const TParams& params);
 
-    [[nodiscard]] bool empty() const { return !hasPrevious_; }
-    [[nodiscard]] const Reference& previous() const { return previous_; }
+    [[nodiscard]] bool empty() const { return !previous_; }
+    /** \pre !empty() */
+    [[nodiscard]] const Reference& previous() const { return *previous_; }
 
     /** The previous frame first, then the key frames, newest first. */
     [[nodiscard]] std::vector<const Reference*> active() const;
@@ -112,8 +114,7 @@ class ReferenceWindow
 
     TParams params_;
     bool isFrameToFrame_;
-    bool hasPrevious_{false};
-    Reference previous_;
+    std::optional<Reference> previous_;
     std::deque<Reference> keyframes_;  //!< oldest first
     std::deque<Reference> places_;     //!< oldest first
 };
