@@ -16,8 +16,12 @@ namespace pointplane
 {
 namespace
 {
-/** Two exposures are not sooner after each other [s], whatever their stamps say. */
+/** Limit of the input: two exposures are not sooner after each other [s], whatever their stamps
+ * say. */
 constexpr double kShortestStep = 1e-3;
+
+/** Between frames whose stamps do not tell [s]. */
+constexpr double kUsualStep = 1.0 / 30;
 
 /** From one stamp to another [s]. Those of a damaged file may be any numbers. */
 double stepBetween(double earlier, double later)
@@ -224,7 +228,7 @@ PoseGaussian Track::stay(double stamp)
     const bool tells = latestStamp_ - stamp <= maxGap_;
     const double dt = tells                  ? stepBetween(stamp, latestStamp_)
                       : std::isfinite(stamp) ? MotionModel::kLongestStep
-                                             : MotionModel::kUsualStep;
+                                             : kUsualStep;
     const PoseGaussian way = motion_.predict(dt).pose();
     const Vector6d mean = se3Log(way.mean);
     PoseGaussian increment;
@@ -241,7 +245,7 @@ PoseGaussian Track::stay(double stamp)
 PoseGaussian Track::coast(double stamp)
 {
     const bool known = stamp >= latestStamp_ && std::isfinite(stamp);
-    const double dt = known ? stepBetween(latestStamp_, stamp) : MotionModel::kUsualStep;
+    const double dt = known ? stepBetween(latestStamp_, stamp) : kUsualStep;
     JointCovariance::Prediction errors;
     if (dt > maxGap_ || (!isEmpty() && stepBetween(previous().stamp, stamp) > maxGap_))
     {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/core/check.h>
+#include <pointplane/core/patches.h>
 #include <pointplane/core/range.h>
 #include <pointplane/planes/PlaneClustering.h>
 #include <pointplane/planes/PlaneExtractor.h>
@@ -29,7 +30,7 @@ constexpr int kRansacDraws = 50;
 constexpr std::uint32_t kRansacSeed = 1;
 
 /** Part of the image over which what bends surfaces is one error. */
-constexpr double kBentPart = 1.0 / 16;
+constexpr double kBentPart = 1.0 / kNumPatches;
 
 /** PlaneFeature::readoutLever */
 Eigen::Matrix3d leverOf(const CellCluster& cluster, const CellGrid& grid, const cv::Size& image)

@@ -18,7 +18,8 @@ namespace
 {
 constexpr int kNumLensErrors = kDepthScale - kPrincipalPointX;
 
-constexpr double kMaxTime = 0.05;  //!< longer readouts and delays are not learnt [s]
+/** Limit of the keys: longer readouts and delays are not learnt, either [s]. */
+constexpr double kMaxTime = 0.05;
 
 /** Who knows the readouts knows when images are exposed. Otherwise the delay comes from time
  * stamps, which tell when they arrived. */

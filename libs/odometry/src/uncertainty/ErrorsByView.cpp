@@ -7,13 +7,6 @@
 
 namespace pointplane
 {
-namespace
-{
-/** Residuals count up to this many times what is known, and down to that part of it: a wrong match
- * must not count like many right ones. */
-constexpr double kMostChange = 1 / NoiseScale::kLeastVariance;
-}  // namespace
-
 void ErrorsByView::update(
     const std::vector<ReferenceVariance>& residuals,
     const std::map<int, double>& correlation,
@@ -29,7 +22,9 @@ void ErrorsByView::update(
     {
         const double x = 1 - correlation.at(of.reference);
         const double known = own_ + byView_ * x;
-        const double y = std::clamp(of.variance, known / kMostChange, known * kMostChange);
+        // A wrong match must not count like many right ones.
+        const double y = std::clamp(
+            of.variance, known / NoiseScale::kMostChange, known * NoiseScale::kMostChange);
         sum_ += of.dof;
         x_ += of.dof * x;
         xx_ += of.dof * x * x;

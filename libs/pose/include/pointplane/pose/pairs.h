@@ -3,6 +3,7 @@
 
 #include <pointplane/core/Plane.h>
 #include <pointplane/core/PointGaussian.h>
+#include <pointplane/core/patches.h>
 
 namespace pointplane
 {
@@ -26,9 +27,6 @@ using ByCamera = Eigen::Matrix<double, 3, kNumCameraErrors>;  //!< of a feature 
 using CameraByVelocity = Eigen::Matrix<double, kNumCameraErrors, 6>;
 using MotionByCamera = Eigen::Matrix<double, 12, kNumCameraErrors>;  //!< of pose and velocity
 
-/** A smooth error of depth scales the depths of each patch of an image by a factor of its own. */
-constexpr int kPatchesPerSide = 4;
-constexpr int kNumPatches = kPatchesPerSide * kPatchesPerSide;
 using MotionByPatches = Eigen::Matrix<double, 12, kNumPatches>;  //!< of pose and velocity
 
 /** The same point seen twice.

@@ -69,11 +69,8 @@ class MotionModel
         void check() const;
     };
 
-    /** Between frames whose stamps do not tell [s]. */
-    static constexpr double kUsualStep = 1.0 / 30;
-
-    /** After a longer time [s] nothing more can become unknown: the camera may be 500 m away. With
-     * larger variances, those of later motions would be lost in rounding. */
+    /** Limit of the input: after a longer time [s] nothing more can become unknown: the camera may
+     * be 500 m away. With larger variances, those of later motions would be lost in rounding. */
     static constexpr double kLongestStep = 10;
 
     /** \throws std::invalid_argument naming the key */

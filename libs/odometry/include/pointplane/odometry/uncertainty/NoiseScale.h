@@ -46,9 +46,11 @@ class NoiseScale
         void check() const;
     };
 
-    /** Variance factors that noise can have. If it is more, features are not where the motion puts
-     * them. */
-    static constexpr double kLeastVariance = 0.1, kMostVariance = 100;
+    /** Standard deviations may be so many times the propagated ones, and variances that part of
+     * them. Where noise is larger, features are not where the motion puts them. */
+    static constexpr double kMostChange = 10;
+    static constexpr double kLeastVariance = 1 / kMostChange;
+    static constexpr double kMostVariance = kMostChange * kMostChange;
 
     /** Clamps a variance factor to these: a few odd frames must neither make features certain nor
      * worthless. */
