@@ -91,7 +91,7 @@ TEST(PoseSolver, recoversExactMotionFromFiveDegreesAndFiveCentimetres)
                     world.T_prev_cur = world.randomMotion(0.05, kFiveDeg);
                     const PoseEstimate estimate =
                         solve(params, world.drawPoints(0), world.drawPlanes(0));
-                    EXPECT_TRUE(estimate.converged);
+                    EXPECT_LT(estimate.iterations, params.maxIterations);
                     EXPECT_LT(sigmasFrom(world.T_prev_cur, estimate), 0.02);
                     EXPECT_THAT(
                         estimate.pose().mean, test::IsNearPose(world.T_prev_cur, 1e-4, 1e-4));
@@ -112,13 +112,13 @@ TEST(PoseSolver, anyStartWithinFiveDegreesAndFiveCentimetresGivesTheSameAnswer)
     const PoseSolver solver({});
     const PoseEstimate reference =
         solver.solve(test::atRest(points, planes), {world.T_prev_cur, Vector6d::Zero()});
-    EXPECT_TRUE(reference.converged);
+    EXPECT_LT(reference.iterations, PoseSolver::TParams().maxIterations);
     for (int i = 0; i < 50; ++i)
     {
         const Eigen::Isometry3d start = world.randomMotion(0.05, kFiveDeg) * world.T_prev_cur;
         const PoseEstimate estimate =
             solver.solve(test::atRest(points, planes), {start, Vector6d::Zero()});
-        EXPECT_TRUE(estimate.converged);
+        EXPECT_LT(estimate.iterations, PoseSolver::TParams().maxIterations);
         EXPECT_LT(sigmasFrom(reference.pose().mean, estimate), 0.05);
     }
 }
@@ -142,7 +142,6 @@ TEST(PoseSolver, weightsThatTurnWithTheMotionDoNotStopTheSearch)
         const PoseProblem problem = test::atRest(points, world.drawPlanes(3));
         PoseSolver::TParams params;
         const PoseEstimate estimate = PoseSolver(params).solve(problem, {});
-        EXPECT_TRUE(estimate.converged);
         EXPECT_LT(estimate.iterations, params.maxIterations);
         params.maxIterations = 1000;
         const PoseEstimate again = PoseSolver(params).solve(problem, estimate.motion.mean);
@@ -514,7 +513,7 @@ TEST(PoseSolver, withoutPairsThePriorRemains)
     prior.mean = world.randomMotion(0.1, 0.1);
     prior.cov = world.sampler().covariance<6>(1e-6, 1e-3);
     const PoseEstimate e = solve({}, {}, {}, prior);
-    EXPECT_TRUE(e.converged);
+    EXPECT_LT(e.iterations, PoseSolver::TParams().maxIterations);
     EXPECT_THAT(e.pose().mean, test::IsNearPose(prior.mean, 1e-6, 1e-6));
     EXPECT_LT(test::whitenedDifference(e.pose().cov, prior.cov), 1e-3);
     EXPECT_EQ(e.pointChi2PerDof, 0);

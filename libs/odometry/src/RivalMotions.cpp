@@ -49,7 +49,7 @@ std::optional<Motion> secondMotion(
     double limit)
 {
     std::map<int, int> counts;
-    const auto disagrees = [&](size_t i) { return estimate.norms.points[i] > limit; };
+    const auto disagrees = [&](size_t i) { return estimate.squaredNorms.points[i] > limit; };
     for (size_t i = 0; i < problem.points.size(); ++i)
     {
         counts[problem.points[i].reference] += disagrees(i) ? 1 : 0;
@@ -85,8 +85,8 @@ std::vector<Side> sides(
 void takeSides(
     const PoseSolver& solver, const PoseProblem& problem, const Limits& limits, Rivalry& rivalry)
 {
-    const PairNorms first = solver.norms(problem, rivalry.first);
-    const PairNorms second = solver.norms(problem, rivalry.second);
+    const SquaredNorms first = solver.squaredNorms(problem, rivalry.first);
+    const SquaredNorms second = solver.squaredNorms(problem, rivalry.second);
     rivalry.points = sides(first.points, second.points, limits.points);
     rivalry.planes = sides(first.planes, second.planes, limits.planes);
 }

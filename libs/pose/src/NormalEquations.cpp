@@ -105,7 +105,7 @@ double NormalEquations::gain(size_t i) const
 }
 
 /** Squared norm over the median of those of its kind. */
-double NormalEquations::relativeNorm(size_t i) const
+double NormalEquations::relativeSquare(size_t i) const
 {
     return residuals_[i].squaredNorm / medianChi2(pairs_.dof(i));
 }
@@ -144,9 +144,9 @@ void NormalEquations::add(FeatureSum& sum, size_t i) const
     }
 }
 
-PairNorms NormalEquations::norms() const
+SquaredNorms NormalEquations::squaredNorms() const
 {
-    PairNorms out;
+    SquaredNorms out;
     for (size_t i = 0; i < residuals_.size(); ++i)
     {
         (pairs_.isPoint(i) ? out.points : out.planes).push_back(residuals_[i].squaredNorm);
@@ -158,15 +158,15 @@ PairNorms NormalEquations::norms() const
 template <class IsChosen>
 double NormalEquations::medianOf(size_t begin, size_t end, const IsChosen& isChosen) const
 {
-    std::vector<double> norms;
+    std::vector<double> squares;
     for (size_t i = begin; i < end; ++i)
     {
         if (isChosen(i))
         {
-            norms.push_back(relativeNorm(i));
+            squares.push_back(relativeSquare(i));
         }
     }
-    return medianVariance(norms);
+    return medianVariance(squares);
 }
 
 /** Each point counts for the surface that it stands for, which grows with the square of its depth:
@@ -175,22 +175,22 @@ double NormalEquations::medianOf(size_t begin, size_t end, const IsChosen& isCho
  * others, if these could tell the six unknowns of a pose. */
 double NormalEquations::robustVariance() const
 {
-    std::vector<std::pair<double, double>> normsAndSurfaces;
+    std::vector<std::pair<double, double>> squaresAndSurfaces;
     double sum = 0, largest = 0;
     for (size_t i = 0; i < pairs_.numPoints(); ++i)
     {
         if (isUsable(i))
         {
             const double z = pairs_.point(i).cur.mean.z();
-            normsAndSurfaces.emplace_back(relativeNorm(i), z * z);
+            squaresAndSurfaces.emplace_back(relativeSquare(i), z * z);
             sum += z * z;
             largest = std::max(largest, z * z);
         }
     }
-    const bool isOutvoted = normsAndSurfaces.size() > 6 && largest > sum - largest;
+    const bool isOutvoted = squaresAndSurfaces.size() > 6 && largest > sum - largest;
     if (solver_.weighting == PoseSolver::Weighting::Full && !isOutvoted)
     {
-        return medianVariance(normsAndSurfaces);
+        return medianVariance(squaresAndSurfaces);
     }
     return medianOf(0, pairs_.numPoints(), [&](size_t i) { return isUsable(i); });
 }

@@ -53,13 +53,13 @@ class NormalEquations
     [[nodiscard]] double pointVariance() const;
     [[nodiscard]] double planeVariance() const;
 
-    [[nodiscard]] PairNorms norms() const;
+    [[nodiscard]] SquaredNorms squaredNorms() const;
 
     /** Whether a pair can count. */
     [[nodiscard]] bool isUsable(size_t i) const { return pairs_.isUsable(i); }
 
     /** Squared Mahalanobis norm of a residual, over the median of chi-square. */
-    [[nodiscard]] double relativeNorm(size_t i) const;
+    [[nodiscard]] double relativeSquare(size_t i) const;
 
     /** Adds one residual to a sum. */
     void add(FeatureSum& sum, size_t i) const;

@@ -205,7 +205,6 @@ PoseEstimate PoseSolver::solve(
     const FeatureSum& m = equations.planes();
     PoseEstimate out;
     out.iterations = descent.iterations();
-    out.converged = descent.converged();
     out.motion = {
         x,
         settings_.covariance == CovarianceForm::Hessian
@@ -220,15 +219,15 @@ PoseEstimate PoseSolver::solve(
     out.pointChi2PerDof = p.dof > 0 ? p.weightedChi2 / p.dof : 0;
     out.planeChi2PerDof = m.dof > 0 ? m.weightedChi2 / m.dof : 0;
     out.numPointInliers = p.numInliers;
-    out.norms = equations.norms();
+    out.squaredNorms = equations.squaredNorms();
     return out;
 }
 
-PairNorms PoseSolver::norms(const PoseProblem& problem, const Motion& motion) const
+SquaredNorms PoseSolver::squaredNorms(const PoseProblem& problem, const Motion& motion) const
 {
     NormalEquations equations(settings_, problem);
     equations.evaluate(motion);
-    return equations.norms();
+    return equations.squaredNorms();
 }
 
 double PoseSolver::pointSupport(const PoseProblem& problem, const PoseEstimate& solution) const

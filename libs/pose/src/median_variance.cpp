@@ -13,38 +13,38 @@ double medianChi2(int dof)
     return kMedians.at(static_cast<size_t>(dof) - 1);
 }
 
-double medianVariance(std::vector<double>& relativeNorms)
+double medianVariance(std::vector<double>& relativeSquares)
 {
-    if (relativeNorms.empty())
+    if (relativeSquares.empty())
     {
         return 0;
     }
     const auto middle =
-        relativeNorms.begin() + static_cast<std::ptrdiff_t>(relativeNorms.size() / 2);
-    std::nth_element(relativeNorms.begin(), middle, relativeNorms.end());
-    const bool isOdd = relativeNorms.size() % 2 == 1;
-    return isOdd ? *middle : 0.5 * (*middle + *std::max_element(relativeNorms.begin(), middle));
+        relativeSquares.begin() + static_cast<std::ptrdiff_t>(relativeSquares.size() / 2);
+    std::nth_element(relativeSquares.begin(), middle, relativeSquares.end());
+    const bool isOdd = relativeSquares.size() % 2 == 1;
+    return isOdd ? *middle : 0.5 * (*middle + *std::max_element(relativeSquares.begin(), middle));
 }
 
-double medianVariance(std::vector<std::pair<double, double>>& normsAndWeights)
+double medianVariance(std::vector<std::pair<double, double>>& squaresAndWeights)
 {
-    std::sort(normsAndWeights.begin(), normsAndWeights.end());
+    std::sort(squaresAndWeights.begin(), squaresAndWeights.end());
     double left = 0;
-    for (const auto& [norm, weight] : normsAndWeights)
+    for (const auto& [norm, weight] : squaresAndWeights)
     {
         left += weight / 2;
     }
-    for (std::size_t i = 0; i < normsAndWeights.size(); ++i)
+    for (std::size_t i = 0; i < squaresAndWeights.size(); ++i)
     {
-        const auto& [norm, weight] = normsAndWeights[i];
+        const auto& [norm, weight] = squaresAndWeights[i];
         left -= weight;
-        if (left < 0 || i + 1 == normsAndWeights.size())
+        if (left < 0 || i + 1 == squaresAndWeights.size())
         {
             return norm;
         }
         if (left == 0)
         {
-            return 0.5 * (norm + normsAndWeights[i + 1].first);
+            return 0.5 * (norm + squaresAndWeights[i + 1].first);
         }
     }
     return 0;

@@ -37,15 +37,15 @@ PlaneResiduals residualsOfPlanes(const Solution& at)
             byPoints, told, Eigen::EigenvaluesOnly | Eigen::Ax_lBx);
         out.followed = std::clamp(1 - parts.eigenvalues().maxCoeff(), 0.0, 1.0);
     }
-    std::map<int, std::vector<double>> norms;
+    std::map<int, std::vector<double>> squares;
     for (size_t i = 0; i < at.problem.planes.size(); ++i)
     {
         if (const size_t pair = at.problem.points.size() + i; at.equations.isUsable(pair))
         {
-            norms[at.problem.planes[i].reference].push_back(at.equations.relativeNorm(pair));
+            squares[at.problem.planes[i].reference].push_back(at.equations.relativeSquare(pair));
         }
     }
-    for (auto& [reference, ofPlanes] : norms)
+    for (auto& [reference, ofPlanes] : squares)
     {
         const double all = 3 * static_cast<double>(ofPlanes.size()), dof = all - dimensions;
         if (dof >= kLeastLeft * all)

@@ -32,7 +32,7 @@ struct PoseProblem
 };
 
 /** Squared Mahalanobis norms of residuals, in the order of the pairs. */
-struct PairNorms
+struct SquaredNorms
 {
     std::vector<double> points, planes;
 };
@@ -45,14 +45,13 @@ struct PoseEstimate
     MotionGaussian motion;
     [[nodiscard]] PoseGaussian pose() const { return motion.pose(); }
 
-    Matrix6d infoPoints{Matrix6d::Zero()};  //!< J^T W J of the points, as weighed
+    Matrix6d infoPoints{Matrix6d::Zero()};  //!< J^T W J of the points, as weighed [1/m^2, 1/rad^2]
     Matrix6d infoPlanes{Matrix6d::Zero()};  //!< of the planes, alpha not included
     double pointChi2PerDof{0};  //!< mean squared Mahalanobis norm per dof of points, Tukey-weighted
     double planeChi2PerDof{0};  //!< likewise of planes, weighted by Student's t
     int numPointInliers{0};     //!< points with a Tukey weight above 1/2
     int iterations{0};
-    bool converged{false};
-    PairNorms norms;  //!< of the pairs' residuals at the motion
+    SquaredNorms squaredNorms;  //!< of the pairs' residuals at the motion
 };
 
 /** Estimates a motion from pairs of uncertain points and planes. Levenberg-Marquardt on SE(3)
@@ -154,7 +153,7 @@ class PoseSolver
         const PoseProblem& problem, const PoseEstimate& solution) const;
 
     /** How far the pairs are from where a motion puts them. */
-    [[nodiscard]] PairNorms norms(const PoseProblem& problem, const Motion& motion) const;
+    [[nodiscard]] SquaredNorms squaredNorms(const PoseProblem& problem, const Motion& motion) const;
 
     /** Points farther off than this many robust sigmas have no weight; 0 = all have. */
     [[nodiscard]] double tukeySigmas() const { return settings_.params.tukeySigmas; }
