@@ -59,11 +59,23 @@ Eigen::Isometry3d bigMotion()
     return se3Exp(xi);
 }
 
-std::optional<ImageMotion> motionBetween(
+std::optional<Eigen::Isometry3d> motionBetween(
     const DescribedPoints& reference, const DescribedPoints& current, const PinholeCamera& camera)
 {
     const ImageAligner aligner({}, {});
     return aligner.align(aligner.match(reference, current), camera);
+}
+
+/** Of the matches, those that a motion puts on each other. */
+int numExplained(const Eigen::Isometry3d& T_cur_ref, const SyntheticViews& views)
+{
+    const MatchedPoints matches = ImageAligner({}, {}).match(views.reference, views.current);
+    int out = 0;
+    for (size_t i = 0; i < matches.ref.size(); ++i)
+    {
+        out += (T_cur_ref * matches.ref[i] - matches.cur[i]).norm() < 0.05 ? 1 : 0;
+    }
+    return out;
 }
 }  // namespace
 
@@ -72,8 +84,8 @@ TEST(ImageAligner, exactPointsTellAnyMotionExactly)
     const SyntheticViews views(bigMotion(), 0, 50);
     const auto motion = motionBetween(views.reference, views.current, views.camera);
     ASSERT_TRUE(motion);
-    EXPECT_EQ(motion->numInliers, 50);
-    EXPECT_THAT(motion->T_cur_ref, test::IsNearPose(bigMotion(), 1e-9, 1e-9));
+    EXPECT_EQ(numExplained(*motion, views), 50);
+    EXPECT_THAT(*motion, test::IsNearPose(bigMotion(), 1e-9, 1e-9));
 }
 
 TEST(ImageAligner, mostMatchesMayBeWrong)
@@ -81,9 +93,9 @@ TEST(ImageAligner, mostMatchesMayBeWrong)
     const SyntheticViews views(bigMotion(), 0.7, 100);
     const auto motion = motionBetween(views.reference, views.current, views.camera);
     ASSERT_TRUE(motion);
-    EXPECT_GE(motion->numInliers, 30);
-    EXPECT_LE(motion->numInliers, 36);
-    EXPECT_THAT(motion->T_cur_ref, test::IsNearPose(bigMotion(), 0.02, 0.02));
+    EXPECT_GE(numExplained(*motion, views), 30);
+    EXPECT_LE(numExplained(*motion, views), 36);
+    EXPECT_THAT(*motion, test::IsNearPose(bigMotion(), 0.02, 0.02));
 }
 
 TEST(ImageAligner, chanceIsNoMotion)
@@ -106,7 +118,7 @@ TEST(ImageAligner, imagesHalfASecondApart)
             describe(from), describe(to), test::CachedSequence::desk().frame(to).camera);
         ASSERT_TRUE(motion) << from;
         EXPECT_THAT(
-            motion->T_cur_ref,
+            *motion,
             test::IsNearPose(
                 test::CachedSequence::desk().sequence().trueMotion(to, from), 0.05, 0.05));
     }
@@ -118,6 +130,6 @@ TEST(ImageAligner, sameInputSameAnswer)
     const auto a = motionBetween(views.reference, views.current, views.camera);
     const auto b = motionBetween(views.reference, views.current, views.camera);
     ASSERT_TRUE(a && b);
-    EXPECT_TRUE(a->T_cur_ref.matrix() == b->T_cur_ref.matrix());
+    EXPECT_TRUE(a->matrix() == b->matrix());
 }
 }  // namespace pointplane

@@ -14,7 +14,7 @@ constexpr double kLongest = 0.2, kTimeConstant = 1;
 
 IncrementVelocities::Increment increment(double velocity, double dt, double variance = 0)
 {
-    return {Vector6d::Constant(velocity), dt, Vector6d::Constant(variance)};
+    return {Vector6d::Constant(velocity), Vector6d::Constant(variance), dt};
 }
 }  // namespace
 

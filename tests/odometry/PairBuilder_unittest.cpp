@@ -47,17 +47,15 @@ class PairBuilderTest : public testing::Test
         association.reference = &reference;
     }
 
-    void build()
-    {
-        PairBuilder(previous, current, calibrator).build({association}, 15, points, planes);
-    }
+    void build() { PairBuilder(previous, current, calibrator).build({association}, 15, problem); }
 
     Reference previous, reference;
     Features current;
     CameraCalibrator calibrator;
     Association association;
-    std::vector<PointPair> points;
-    std::vector<PlanePair> planes;
+    PoseProblem problem;
+    const std::vector<PointPair>& points{problem.points};
+    const std::vector<PlanePair>& planes{problem.planes};
 };
 }  // namespace
 
@@ -122,8 +120,7 @@ TEST_F(PairBuilderTest, knowsHowFeaturesChangeWithTheLens)
     calibrator = started();
     build();
     PairBuilder(previous, current, calibrator)
-        .addCameraErrors(
-            {association}, {Eigen::Isometry3d::Identity(), Vector6d::Zero()}, points, planes);
+        .addCameraErrors({association}, {Eigen::Isometry3d::Identity(), Vector6d::Zero()}, problem);
     const PointPair point = points.front();
     const PlanePair plane = planes.front();
     for (const int error : {kPrincipalPointX, kPrincipalPointY, kFocalLength, kRadial})
@@ -163,8 +160,7 @@ TEST_F(PairBuilderTest, vignettingMovesWhatWasTracked)
     reference.points.points.front().ofVignetting_m << 0.4, 0.5, 0.6;  // where it was tracked once
     build();
     PairBuilder(previous, current, calibrator)
-        .addCameraErrors(
-            {association}, {Eigen::Isometry3d::Identity(), Vector6d::Zero()}, points, planes);
+        .addCameraErrors({association}, {Eigen::Isometry3d::Identity(), Vector6d::Zero()}, problem);
     EXPECT_EQ(points.front().dCur_dCamera.col(kVignetting), displaced);
     EXPECT_TRUE(points.front().dRef_dCamera.col(kVignetting).isZero(0));
     EXPECT_TRUE(planes.front().dCur_dCamera.col(kVignetting).isZero(0));
@@ -189,8 +185,7 @@ TEST_F(PairBuilderTest, thenTheShutterIsNotLearntEither)
     const auto byShutter = [&]() -> Eigen::Matrix3d
     {
         build();
-        PairBuilder(previous, current, calibrator)
-            .addCameraErrors({association}, motion, points, planes);
+        PairBuilder(previous, current, calibrator).addCameraErrors({association}, motion, problem);
         return (points.front().dRef_dCamera - points.front().dCur_dCamera).rightCols<3>();
     };
     EXPECT_TRUE(byShutter().isZero(1e-12));

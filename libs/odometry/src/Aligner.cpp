@@ -306,7 +306,7 @@ void Aligner::estimate(
 {
     const Stopwatch watch;
     PoseProblem& problem = alignment.problem;
-    scene.pairs.build(alignment.associations, windowPx_, problem.points, problem.planes);
+    scene.pairs.build(alignment.associations, windowPx_, problem);
     problem.prior = scene.predicted.prior;
     problem.noise = scene.errors.noise();
     if (fuses_)

@@ -207,7 +207,7 @@ MatchedPoints FrontEnd::matchImages(const Reference& reference, const Features& 
         described(current.described, current.frame));
 }
 
-std::optional<ImageMotion> FrontEnd::alignImages(
+std::optional<Eigen::Isometry3d> FrontEnd::alignImages(
     const Reference& reference, const Features& current) const
 {
     return imageAligner_.align(matchImages(reference, current), current.frame.camera);

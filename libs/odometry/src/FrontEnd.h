@@ -54,8 +54,8 @@ class FrontEnd
         return findMovingRegions(current.frame, earlier, depthNoise_.noise());
     }
 
-    /** Motion without a prediction (ImageAligner); nothing if too few points tell one. */
-    [[nodiscard]] std::optional<ImageMotion> alignImages(
+    /** Motion T_cur_ref without a prediction (ImageAligner); nothing if too few points tell one. */
+    [[nodiscard]] std::optional<Eigen::Isometry3d> alignImages(
         const Reference& reference, const Features& current) const;
 
     /** Motions T_cur_ref without a prediction (PlaneAligner) with which the surfaces agree. Where

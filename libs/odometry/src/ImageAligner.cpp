@@ -189,7 +189,7 @@ MatchedPoints ImageAligner::match(
     return out;
 }
 
-std::optional<ImageMotion> ImageAligner::align(
+std::optional<Eigen::Isometry3d> ImageAligner::align(
     const MatchedPoints& pairs, const PinholeCamera& camera) const
 {
     const size_t n = pairs.ref.size();
@@ -214,10 +214,6 @@ std::optional<ImageMotion> ImageAligner::align(
         T = test.fit(found);
         best = found;
     }
-    if (best.size() < kFewPoints)
-    {
-        return {};
-    }
-    return ImageMotion{T, static_cast<int>(best.size()), static_cast<int>(n)};
+    return best.size() < kFewPoints ? std::nullopt : std::optional(T);
 }
 }  // namespace pointplane

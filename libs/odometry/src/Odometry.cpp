@@ -307,11 +307,7 @@ void Odometry::Impl::measure(const Features& current, Alignment& alignment, Odom
 PoseAnalysis Odometry::Impl::analyse(const Features& current, Alignment& alignment) const
 {
     PairBuilder(track.previous(), current, errors.camera())
-        .addCameraErrors(
-            alignment.associations,
-            alignment.estimate.motion.mean,
-            alignment.problem.points,
-            alignment.problem.planes);
+        .addCameraErrors(alignment.associations, alignment.estimate.motion.mean, alignment.problem);
     PoseAnalysis out = aligner.analyse(alignment);
     countMoving(alignment.associations, current, out.surfaces);
     return out;

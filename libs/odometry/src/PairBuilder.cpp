@@ -17,8 +17,6 @@ namespace pointplane
 {
 namespace
 {
-cv::Size sizeOf(const PinholeCamera& camera) { return {camera.width, camera.height}; }
-
 /** Number of the cell of the image that the pixel is in. \param side_px of the cells */
 int cellOf(const Eigen::Vector2d& uv_px, double side_px, const PinholeCamera& camera)
 {
@@ -80,6 +78,18 @@ struct ReferenceView
     const ShutterCorrection shutter;
     const Eigen::Isometry3d T_prev_ref;
 };
+
+ReferenceView viewOf(
+    const Reference& reference,
+    const Reference& previous,
+    const CameraCalibrator& learnt,
+    cv::Size size)
+{
+    return {
+        reference,
+        {learnt.complete(reference.shutter), size},
+        previous.T_world_cam.inverse() * reference.T_world_cam};
+}
 
 PlanePair planePair(const ReferenceView& past, const CurrentView& current, const PlaneMatch& match)
 {
@@ -153,14 +163,11 @@ struct CurrentErrors
     const Eigen::Matrix3d estimated;  //!< 1 where a time of the shutter is learnt
 };
 
-/** A reference, what its features change by with errors of the camera, and where they go. */
-struct ReferenceErrors
+/** What the features of a reference change by with errors of the camera. */
+struct ReferenceErrors : ReferenceView
 {
-    const Reference& reference;
-    const ShutterCorrection shutter;
     const ShutterCorrection rootMeanSquare;
     const Eigen::Matrix3d estimated;
-    const Eigen::Isometry3d T_prev_ref;
     const Vector6d velocity;
 };
 
@@ -206,60 +213,45 @@ void addPointErrors(
 }  // namespace
 
 void PairBuilder::build(
-    const std::vector<Association>& associations,
-    int windowPx,
-    std::vector<PointPair>& points,
-    std::vector<PlanePair>& planes) const
+    const std::vector<Association>& associations, int windowPx, PoseProblem& problem) const
 {
-    points.clear();
-    planes.clear();
-    const PinholeCamera& camera = current_.frame.camera;
+    problem.points.clear();
+    problem.planes.clear();
+    const cv::Size size(current_.frame.camera.width, current_.frame.camera.height);
     const CurrentView current{
-        current_,
-        {learnt_.complete(current_.frame.shutter), sizeOf(camera)},
-        learnt_,
-        0.5 * windowPx};
+        current_, {learnt_.complete(current_.frame.shutter), size}, learnt_, 0.5 * windowPx};
     for (const Association& association : associations)
     {
-        const Reference& reference = *association.reference;
-        const ReferenceView past{
-            reference,
-            {learnt_.complete(reference.shutter), sizeOf(camera)},
-            previous_.T_world_cam.inverse() * reference.T_world_cam};
+        const ReferenceView past = viewOf(*association.reference, previous_, learnt_, size);
         for (const PlaneMatch& match : association.planes)
         {
-            planes.push_back(planePair(past, current, match));
+            problem.planes.push_back(planePair(past, current, match));
         }
         for (const PointTrack& track : association.points)
         {
-            points.push_back(pointPair(past, current, track));
+            problem.points.push_back(pointPair(past, current, track));
         }
     }
 }
 
 void PairBuilder::addCameraErrors(
-    const std::vector<Association>& associations,
-    const Motion& motion,
-    std::vector<PointPair>& points,
-    std::vector<PlanePair>& planes) const
+    const std::vector<Association>& associations, const Motion& motion, PoseProblem& problem) const
 {
-    const cv::Size size = sizeOf(current_.frame.camera);
+    const cv::Size size(current_.frame.camera.width, current_.frame.camera.height);
     const CurrentErrors current{
         current_,
         motion,
         {learnt_.complete(current_.frame.shutter), size},
         learnt_.estimated(current_.frame.shutter).asDiagonal()};
-    auto point = points.begin();
-    auto plane = planes.begin();
+    auto point = problem.points.begin();
+    auto plane = problem.planes.begin();
     for (const Association& association : associations)
     {
         const Reference& reference = *association.reference;
         const ReferenceErrors past{
-            reference,
-            {learnt_.complete(reference.shutter), size},
+            viewOf(reference, previous_, learnt_, size),
             {learnt_.rootMeanSquare(reference.shutter), size},
             learnt_.estimated(reference.shutter).asDiagonal(),
-            previous_.T_world_cam.inverse() * reference.T_world_cam,
             reference.velocity.value_or(motion.velocity)};
         for (const PlaneMatch& match : association.planes)
         {

@@ -3,8 +3,6 @@
 
 #include <pointplane/core/se3.h>
 
-#include <cmath>
-
 namespace pointplane
 {
 namespace
@@ -12,7 +10,7 @@ namespace
 /** The camera's motion while it waited for the depth image. */
 Eigen::Isometry3d untilDepth(const Vector6d& velocity, double delay)
 {
-    return se3Exp(std::isfinite(delay) ? Vector6d(delay * velocity) : Vector6d::Zero());
+    return se3Exp(delay * velocity);
 }
 }  // namespace
 
@@ -23,9 +21,7 @@ DepthMotion depthMotion(
     const Motion& motion,
     const CameraCalibrator& camera)
 {
-    const Eigen::Isometry3d T_cur_ref = motion.T_prev_cur.inverse() *
-                                        track.previous().T_world_cam.inverse() *
-                                        reference.T_world_cam;
+    const Eigen::Isometry3d T_cur_ref = track.fromWorld(motion.T_prev_cur) * reference.T_world_cam;
     const Eigen::Isometry3d T_depth_cur =
         untilDepth(motion.velocity, camera.complete(current.shutter).depthDelay).inverse();
     const Vector6d ofReference = reference.velocity.value_or(motion.velocity);

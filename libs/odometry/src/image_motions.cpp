@@ -22,7 +22,7 @@ std::optional<Eigen::Isometry3d> motionOfPoints(
     const Reference& reference)
 {
     const auto motion = frontEnd.alignImages(reference, current);
-    return motion ? std::optional(toCurrent(track, reference, motion->T_cur_ref)) : std::nullopt;
+    return motion ? std::optional(toCurrent(track, reference, *motion)) : std::nullopt;
 }
 
 std::optional<Eigen::Isometry3d> motionOfPlanes(
@@ -52,6 +52,6 @@ std::optional<Eigen::Isometry3d> motionOfPlanes(
 bool recognises(const FrontEnd& frontEnd, const Features& current, const Reference& place)
 {
     const auto motion = frontEnd.alignImages(place, current);
-    return motion && Judge::areConvincing(frontEnd.compare(place, current, motion->T_cur_ref, 0));
+    return motion && Judge::areConvincing(frontEnd.compare(place, current, *motion, 0));
 }
 }  // namespace pointplane

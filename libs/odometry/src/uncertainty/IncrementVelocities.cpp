@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/odometry/uncertainty/IncrementVelocities.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace pointplane
@@ -51,10 +50,9 @@ void IncrementVelocities::learnAcceleration(const Increment& next)
         return;
     }
     const Vector6d a = 2 * (next.velocity - latest_->velocity) / (next.dt + latest_->dt);
-    ++numAccelerations_;
-    const double rate = std::max(1.0 / numAccelerations_, 1 - std::exp(-next.dt / timeConstant_));
-    const Vector6d a2 = perAxis(a.head<3>().squaredNorm() / 3, a.tail<3>().squaredNorm() / 3);
-    acceleration2_ += rate * (a2 - acceleration2_);
+    acceleration2_.follow(
+        perAxis(a.head<3>().squaredNorm() / 3, a.tail<3>().squaredNorm() / 3),
+        1 - std::exp(-next.dt / timeConstant_));
 }
 
 void IncrementVelocities::interrupt()

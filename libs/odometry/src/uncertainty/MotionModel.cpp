@@ -183,7 +183,7 @@ MotionModel::Smoothed MotionModel::update(const MotionGaussian& measured, double
     measuredVelocityCov_ = cov_.bottomRightCorner<6, 6>();
     elapsed_ = 0;
     const auto between = increments_.add(
-        {se3Log(measured.mean.T_prev_cur) / t, t, measured.cov.diagonal().head<6>()});
+        {se3Log(measured.mean.T_prev_cur) / t, measured.cov.diagonal().head<6>(), t});
     if (between)
     {
         weigh(*between, t, out);

@@ -74,7 +74,7 @@ void NoiseScale::learn(const PoseAnalysis& analysis, double rate)
 {
     pointResiduals_.follow(analysis.pointVariance, rate);
     planeResiduals_.follow(analysis.planeVariance, rate);
-    const auto followLog = [rate](double variance, FrameMean& mean)
+    const auto followLog = [rate](double variance, FrameMean<>& mean)
     {
         if (variance > 0)
         {

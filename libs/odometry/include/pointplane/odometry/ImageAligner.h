@@ -19,14 +19,6 @@ struct MatchedPoints
     std::vector<Eigen::Vector3d> ref, cur;  //!< each in its own camera's frame [m]
 };
 
-/** A motion that was found without a prediction. */
-struct ImageMotion
-{
-    Eigen::Isometry3d T_cur_ref{Eigen::Isometry3d::Identity()};
-    int numInliers{0};
-    int numMatches{0};
-};
-
 /** Finds the motion between two frames without a prediction. Key points are matched by descriptor
  * over the whole image; three matches at a time give a motion, which all of them judge (Fischler
  * and Bolles 1981; Horn 1987). The same frames give the same motion. */
@@ -48,8 +40,9 @@ class ImageAligner
     [[nodiscard]] MatchedPoints match(
         const DescribedPoints& reference, const DescribedPoints& current) const;
 
-    /** \param camera of both frames \return nothing if too few matches agree about a motion */
-    [[nodiscard]] std::optional<ImageMotion> align(
+    /** \param camera of both frames
+     * \return T_cur_ref; nothing if too few matches agree about a motion */
+    [[nodiscard]] std::optional<Eigen::Isometry3d> align(
         const MatchedPoints& matches, const PinholeCamera& camera) const;
 
  private:

@@ -3,8 +3,7 @@
 
 #include <pointplane/odometry/Features.h>
 #include <pointplane/odometry/Reference.h>
-#include <pointplane/pose/MotionGaussian.h>
-#include <pointplane/pose/pairs.h>
+#include <pointplane/pose/PoseSolver.h>
 
 #include <vector>
 
@@ -13,7 +12,7 @@ namespace pointplane
 class CameraCalibrator;
 
 /** Turns associations into pairs for the solver. References are moved into the camera of the
- * previous measured frame and freed from the rolling shutter. Of the current frame, pairs say how
+ * previous frame and freed from the rolling shutter. Of the current frame, pairs say how
  * they depend on its velocity. What was learnt of the camera is corrected. */
 class PairBuilder
 {
@@ -24,23 +23,19 @@ class PairBuilder
     {
     }
 
-    /** Replaces points and planes by the pairs of all associations.
+    /** Replaces the problem's pairs by those of all associations.
      * \param windowPx side of the patches that were searched for [px]. Corners of several
      * references whose patches share half a side see the same pixels: they count as one. */
     void build(
-        const std::vector<Association>& associations,
-        int windowPx,
-        std::vector<PointPair>& points,
-        std::vector<PlanePair>& planes) const;
+        const std::vector<Association>& associations, int windowPx, PoseProblem& problem) const;
 
     /** Adds how the pairs change with errors of the camera, once the motion is known. From
      * then on, dRef_dV is that of CameraCalibrator::rootMeanSquare().
-     * \param points, planes that build() has made of the same associations */
+     * \param problem that build() has made of the same associations */
     void addCameraErrors(
         const std::vector<Association>& associations,
         const Motion& motion,
-        std::vector<PointPair>& points,
-        std::vector<PlanePair>& planes) const;
+        PoseProblem& problem) const;
 
  private:
     const Reference& previous_;

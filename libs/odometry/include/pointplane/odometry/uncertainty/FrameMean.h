@@ -7,23 +7,27 @@ namespace pointplane
 {
 /** Running mean of a value per frame: at first the plain mean of all frames, later exponentially
  * weighted. */
+template <class T = double>
 class FrameMean
 {
  public:
     /** \param first value before the first frame \param counts as if so many frames had had it */
-    explicit FrameMean(double first = 0, double counts = 0) : value_(first), numFrames_(counts) {}
+    explicit FrameMean(const T& first = {}, double counts = 0) : value_(first), numFrames_(counts)
+    {
+    }
 
     /** \param rate share of this frame in the mean, at least */
-    void follow(double value, double rate)
+    void follow(const T& value, double rate)
     {
         ++numFrames_;
         value_ += std::max(rate, 1 / numFrames_) * (value - value_);
     }
 
-    [[nodiscard]] double value() const { return value_; }
+    [[nodiscard]] const T& value() const { return value_; }
     [[nodiscard]] double numFrames() const { return numFrames_; }
 
  private:
-    double value_, numFrames_;
+    T value_;
+    double numFrames_;
 };
 }  // namespace pointplane

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <pointplane/core/types.h>
+#include <pointplane/odometry/uncertainty/FrameMean.h>
 
 #include <optional>
 
@@ -18,8 +19,8 @@ class IncrementVelocities
     struct Increment
     {
         Vector6d velocity;  //!< its mean [m/s, rad/s]
-        double dt;          //!< [s]
         Vector6d variance;  //!< of the motion [m^2, rad^2]
+        double dt;          //!< [s]
     };
 
     /** Velocity where one increment ends and the next begins, by constant acceleration. */
@@ -48,7 +49,7 @@ class IncrementVelocities
 
     /** Mean square of the acceleration, per axis, the same for three axes [m^2/s^4, rad^2/s^4];
      * zero before there were two increments. */
-    [[nodiscard]] const Vector6d& acceleration2() const { return acceleration2_; }
+    [[nodiscard]] const Vector6d& acceleration2() const { return acceleration2_.value(); }
 
  private:
     void learnAcceleration(const Increment& next);
@@ -56,7 +57,6 @@ class IncrementVelocities
     double longest_, timeConstant_;
     std::optional<Increment> latest_;
     std::optional<Vector6d> atEnd_;
-    Vector6d acceleration2_{Vector6d::Zero()};
-    int numAccelerations_{0};  //!< that acceleration2_ was learnt from
+    FrameMean<Vector6d> acceleration2_{Vector6d::Zero()};
 };
 }  // namespace pointplane

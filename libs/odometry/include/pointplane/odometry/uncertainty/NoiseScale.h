@@ -102,15 +102,16 @@ class NoiseScale
     {
         explicit Residuals(double first);
         void follow(double variance, double rate);
-        FrameMean cautious;  //!< for the solver: forgets the first guess by the time constant only
-        FrameMean quick;     //!< forgets it after a few frames
+        FrameMean<>
+            cautious;       //!< for the solver: forgets the first guess by the time constant only
+        FrameMean<> quick;  //!< forgets it after a few frames
     };
 
     TParams params_;
     Residuals pointResiduals_, planeResiduals_;
-    FrameMean pointCommon_, planeCommon_;  //!< disagreement of the references
+    FrameMean<> pointCommon_, planeCommon_;  //!< disagreement of the references
     /** Logarithms, for geometric means. */
-    FrameMean typicalResiduals_, typicalDisagreement_, typicalTurn_, typicalScatter_;
+    FrameMean<> typicalResiduals_, typicalDisagreement_, typicalTurn_, typicalScatter_;
     double ofFrame_{1};
 };
 }  // namespace pointplane
