@@ -50,6 +50,7 @@ class AlignerTest : public testing::Test
 
     Alignment align(const RgbdFrame& frame)
     {
+        track_.noteGap(frame.stamp);
         return aligner_.align(
             frontEnd_, frontEnd_.extract(frame, diagnostics_), track_, errors_, diagnostics_);
     }

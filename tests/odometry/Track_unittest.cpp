@@ -105,6 +105,7 @@ TEST_F(TrackTest, theNextMotionIsPredicted)
     EXPECT_TRUE(isPositiveDefinite(next.pose.cov));
     // A longer step is less certain, and beyond maxGap the velocity is unknown.
     EXPECT_GT(track_.prediction(13 * kFrame).pose.cov(0, 0), next.pose.cov(0, 0));
+    track_.noteGap(10 * kFrame + 1.1);
     EXPECT_EQ(track_.prediction(10 * kFrame + 1.1).pose.mean.translation().x(), 0);
 }
 
@@ -193,11 +194,11 @@ TEST_F(TrackTest, itGoesOnFromAFrameThatMatchedNothing)
 TEST_F(TrackTest, oneFrameMayBeLate)
 {
     measure(1, 0.01);
-    EXPECT_FALSE(track_.isLate(1.1));
-    EXPECT_TRUE(track_.isLate(0.9));
-    EXPECT_FALSE(track_.isLate(1.2)) << "in order again";
-    EXPECT_TRUE(track_.isLate(0.5));
-    EXPECT_FALSE(track_.isLate(0.6)) << "the clock was set";
+    EXPECT_FALSE(track_.noteLate(1.1));
+    EXPECT_TRUE(track_.noteLate(0.9));
+    EXPECT_FALSE(track_.noteLate(1.2)) << "in order again";
+    EXPECT_TRUE(track_.noteLate(0.5));
+    EXPECT_FALSE(track_.noteLate(0.6)) << "the clock was set";
 }
 
 /** It does not move the camera, but it may have been anywhere near. */
@@ -227,12 +228,12 @@ TEST_F(TrackTest, whenTheClockIsSetTheTimeThatPassedIsUnknown)
 {
     measure(1, 0.01);
     EXPECT_FALSE(track_.followClock(1.1));
-    EXPECT_TRUE(track_.isLate(0.5));
-    EXPECT_FALSE(track_.isLate(0.6));
+    EXPECT_TRUE(track_.noteLate(0.5));
+    EXPECT_FALSE(track_.noteLate(0.6));
     EXPECT_TRUE(track_.followClock(0.6));
     EXPECT_EQ(track_.references().size(), 2) << "they can still be compared with";
     EXPECT_DOUBLE_EQ(track_.prediction(0.6).dt, MotionModel::kLongestStep);
-    EXPECT_FALSE(track_.isLate(0.7));
+    EXPECT_FALSE(track_.noteLate(0.7));
 }
 
 /** A stamp that is no number is taken for a usual step. */

@@ -64,7 +64,7 @@ Aligner::Aligner(const OdometryParams& params)
 Alignment Aligner::align(
     const FrontEnd& frontEnd,
     const Features& current,
-    Track& track,
+    const Track& track,
     const ErrorModel& errors,
     FrameDiagnostics& diagnostics) const
 {

@@ -30,7 +30,7 @@ class Aligner
     [[nodiscard]] Alignment align(
         const FrontEnd& frontEnd,
         const Features& current,
-        Track& track,
+        const Track& track,
         const ErrorModel& errors,
         FrameDiagnostics& diagnostics) const;
 

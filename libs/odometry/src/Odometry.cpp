@@ -36,8 +36,8 @@ struct Odometry::Impl
     }
 
     OdometryResult process(const RgbdFrame& frame);
-    void place(const RgbdFrame& frame, OdometryResult& result);
-    void follow(const RgbdFrame& frame, const Features& current, OdometryResult& result);
+    void locate(const RgbdFrame& frame, OdometryResult& result);
+    void compare(const RgbdFrame& frame, const Features& current, OdometryResult& result);
     [[nodiscard]] std::string whyUnusable(const RgbdFrame& frame);
     [[nodiscard]] std::string whyNoDepth(const RgbdFrame& frame, const Features& current) const;
     [[nodiscard]] Alignment align(const Features& current, FrameDiagnostics& diagnostics);
@@ -75,7 +75,7 @@ OdometryResult Odometry::Impl::process(const RgbdFrame& frame)
     OdometryResult result;
     result.stamp = frame.stamp;
     shown = {};
-    place(frame, result);
+    locate(frame, result);
     // Before the path begins, there is no pose in the track.
     result.pose = track.isEmpty() ? result.increment : track.pose();
     result.since = track.since();
@@ -97,8 +97,8 @@ OdometryResult Odometry::Impl::process(const RgbdFrame& frame)
     return result;
 }
 
-/** The paper's Fig. 1: extraction, then, in follow(), matching, pose estimation, validation. */
-void Odometry::Impl::place(const RgbdFrame& frame, OdometryResult& result)
+/** The paper's Fig. 1: extraction, then, in compare(), matching, pose estimation, validation. */
+void Odometry::Impl::locate(const RgbdFrame& frame, OdometryResult& result)
 {
     result.reason = whyUnusable(frame);
     if (!result.reason.empty())
@@ -145,11 +145,12 @@ void Odometry::Impl::place(const RgbdFrame& frame, OdometryResult& result)
     {
         return restart(frame, current, result);
     }
-    follow(frame, current, result);
+    compare(frame, current, result);
 }
 
 /** A frame that is compared with those before. \param frame as it came, for the reasons */
-void Odometry::Impl::follow(const RgbdFrame& frame, const Features& current, OdometryResult& result)
+void Odometry::Impl::compare(
+    const RgbdFrame& frame, const Features& current, OdometryResult& result)
 {
     Alignment alignment = align(current, result.diagnostics);
     if (frontEnd.marks().learn(alignment.associations, alignment.marks, frame.camera))
@@ -183,7 +184,7 @@ std::string Odometry::Impl::whyUnusable(const RgbdFrame& frame)
 {
     const std::string problem = problemOf(frame, images.mask().size());
     return !problem.empty() ? problem
-           : !track.isEmpty() && track.isLate(frame.stamp)
+           : !track.isEmpty() && track.noteLate(frame.stamp)
                ? "its time stamp is not after the previous frame's"
                : "";
 }
@@ -198,6 +199,7 @@ std::string Odometry::Impl::whyNoDepth(const RgbdFrame& frame, const Features& c
 /** With the references, with an older key frame, or with the latest frame that matched none. */
 Alignment Odometry::Impl::align(const Features& current, FrameDiagnostics& diagnostics)
 {
+    track.noteGap(current.frame.stamp);
     Alignment out = aligner.align(frontEnd, current, track, errors, diagnostics);
     if (out.holds || !out.unsettled.empty())
     {

@@ -31,7 +31,7 @@ class PoseHistory
     void endCoasting() { joint_.endCoasting(); }
 
     /** Adds a measured frame.
-     * \param T_world_prev pose of the latest measured frame
+     * \param T_world_prev pose of the previous frame
      * \param decayed its velocity since then
      * \param previousVelocity correction of that, if there is one */
     void measure(

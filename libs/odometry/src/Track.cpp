@@ -50,7 +50,7 @@ bool Track::isOf(const PinholeCamera& camera) const
     return !isEmpty() && sameCamera(camera_, camera);
 }
 
-bool Track::isLate(double stamp)
+bool Track::noteLate(double stamp)
 {
     if (stamp > latestStamp_)
     {
@@ -79,15 +79,19 @@ bool Track::followClock(double stamp)
     return true;
 }
 
-Prediction Track::prediction(double stamp)
+void Track::noteGap(double stamp)
+{
+    if (stepBetween(previous().stamp, stamp) > maxGap_)
+    {
+        forgetVelocity();
+    }
+}
+
+Prediction Track::prediction(double stamp) const
 {
     Prediction out;
     out.dt = stepBetween(previous().stamp, stamp);
     out.followsMeasured = isPreviousMeasured_ && previous().id == history_.latestFrame();
-    if (out.dt > maxGap_)
-    {
-        forgetVelocity();
-    }
     out.motion = motion_.predictFromEstimate(out.dt);
     out.pose = out.motion.pose();
     out.pose.cov += motion_.bySuddenAcceleration(out.dt);
@@ -157,7 +161,7 @@ void Track::measure(Measured measured, const std::vector<Association>& associati
     }
     else
     {
-        previousVelocity = follow(measured.motion, measured.dt);
+        previousVelocity = updateMotion(measured.motion, measured.dt);
         measured.frame.velocity = motion_.velocity();
         window_.refinePreviousVelocity(
             previousVelocity ? previousVelocity->velocity : motion_.velocity());
@@ -190,7 +194,7 @@ void Track::noteWhichPointsAreFound(const std::vector<Association>& associations
     }
 }
 
-std::optional<MotionModel::Smoothed> Track::follow(const MotionGaussian& motion, double dt)
+std::optional<MotionModel::Smoothed> Track::updateMotion(const MotionGaussian& motion, double dt)
 {
     if (!fuses_)
     {

@@ -25,14 +25,15 @@ struct Prediction
     double dt{0};                //!< [s] since the previous frame
     bool followsMeasured{true};  //!< the latest frame was measured: it is the previous one
     MotionGaussian motion;       //!< if velocities change as they did so far
-    PoseGaussian pose;           //!< its pose, uncertain also by a sudden acceleration
+    PoseGaussian pose;           //!< T_prev_cur, uncertain also by a sudden acceleration
     MotionPrior prior;           //!< what the solver uses: pose, and velocity given it by motion
 };
 
 /** Where the camera has been so far: poses with their joint covariance, its velocity, and the
- * frames that a new one can be compared with. The previous frame is the latest measured one, the
- * world the first frame. Each frame ends in one transition: restart(), measure() or predict().
- * Before it, recall() and restartAtUnmatched() may change what it is compared with. */
+ * frames that a new one can be compared with. The previous frame is the latest measured one,
+ * or the one at which comparing began anew; the world is the first frame. Each frame ends in one
+ * transition: restart(), measure() or predict(). Before it, recall() and restartAtUnmatched() may
+ * change what it is compared with. */
 class Track
 {
  public:
@@ -75,14 +76,8 @@ class Track
     /** Whether the latest frames are those of this camera. */
     [[nodiscard]] bool isOf(const PinholeCamera& camera) const;
 
-    /** Whether a frame's stamp is not after the latest one. One frame may be late. If a second one
-     * follows it in order, the clock has been set, or the stamps before were wrong: it is not late.
-     */
-    [[nodiscard]] bool isLate(double stamp);
-
-    /** Predicts the motion from the previous frame. After more than maxGap the velocity is unknown.
-     */
-    [[nodiscard]] Prediction prediction(double stamp);
+    /** Predicts the motion from the previous frame. */
+    [[nodiscard]] Prediction prediction(double stamp) const;
 
     /** MotionModel::processNoise(). */
     [[nodiscard]] Matrix12d motionNoise(double dt, const Matrix6d& open) const
@@ -98,7 +93,15 @@ class Track
 
     // Transitions
 
-    /** Where isLate() found that the clock was set, the time since the frames so far is unknown:
+    /** \return whether a frame's stamp is not after the latest one. One frame may be late. If a
+     * second one follows it in order, the clock has been set, or the stamps before were wrong: it
+     * is not late */
+    [[nodiscard]] bool noteLate(double stamp);
+
+    /** A frame is to be compared: after more than maxGap the velocity is unknown. */
+    void noteGap(double stamp);
+
+    /** Where noteLate() found that the clock was set, the time since the frames so far is unknown:
      * they count as kLongestStep old. \return whether it was set */
     bool followClock(double stamp);
 
@@ -149,7 +152,7 @@ class Track
         const MotionGaussian& motion, const PoseGaussian& pose) const;
     void noteWhichPointsAreFound(const std::vector<Association>& associations);
     /** \return velocity of the previous frame */
-    std::optional<MotionModel::Smoothed> follow(const MotionGaussian& motion, double dt);
+    std::optional<MotionModel::Smoothed> updateMotion(const MotionGaussian& motion, double dt);
     void add(Reference frame, bool isKeyframe);
     [[nodiscard]] std::vector<int> placeIds() const;
     void forgetOthers();

@@ -83,7 +83,7 @@ class JointCovariance
     void restart(int frame, const std::vector<int>& poses = {});
 
     /** Adds a measured frame, which becomes the previous one and a reference.
-     * \param T_world_prev pose of the previous measured frame
+     * \param T_world_prev pose of the previous frame
      * \param decayed what has become of the previous frame's velocity
      * \param previousVelocity correction of that velocity, if there is one */
     void measure(
@@ -133,8 +133,8 @@ class JointCovariance
     int history_;           //!< frames
     JointGaussian errors_;  //!< poses newest first
     int latest_{0};         //!< frame
-    int previous_{0};       //!< the latest measured one
-    /** The measured frame before that, and the adjoint of its pose. */
+    int previous_{0};       //!< Track::previous()
+    /** The previous frame before that, and the adjoint of its pose. */
     struct Earlier
     {
         int frame;
