@@ -34,6 +34,9 @@ class Aligner
         const ErrorModel& errors,
         FrameDiagnostics& diagnostics) const;
 
+    /** Whether motions are searched for in the whole images. */
+    [[nodiscard]] bool searchesImages() const { return params_.searchImages; }
+
     [[nodiscard]] PoseAnalysis analyse(const Alignment& alignment) const
     {
         return solver_.analyse(alignment.problem, alignment.estimate);

@@ -14,9 +14,9 @@
 #include "LatestImages.h"
 #include "Stopwatch.h"
 #include "Track.h"
+#include "align_somewhere.h"
 #include "depth_motion.h"
 #include "frame_checks.h"
-#include "image_motions.h"
 #include "shown_features.h"
 #include "surfaces.h"
 #include "uncertainty/ErrorModel.h"
@@ -40,7 +40,6 @@ struct Odometry::Impl
     void compare(const RgbdFrame& frame, const Features& current, OdometryResult& result);
     [[nodiscard]] std::string whyUnusable(const RgbdFrame& frame);
     [[nodiscard]] std::string whyNoDepth(const RgbdFrame& frame, const Features& current) const;
-    [[nodiscard]] Alignment align(const Features& current, FrameDiagnostics& diagnostics);
     [[nodiscard]] Reference newReference(const Features& current, PointReference points);
     void restart(const RgbdFrame& frame, const Features& current, OdometryResult& result);
     void measure(const Features& current, Alignment& alignment, OdometryResult& result);
@@ -152,7 +151,9 @@ void Odometry::Impl::locate(const RgbdFrame& frame, OdometryResult& result)
 void Odometry::Impl::compare(
     const RgbdFrame& frame, const Features& current, OdometryResult& result)
 {
-    Alignment alignment = align(current, result.diagnostics);
+    track.noteGap(current.frame.stamp);
+    Alignment alignment =
+        alignSomewhere(aligner, frontEnd, current, errors, track, result.diagnostics);
     if (frontEnd.marks().learn(alignment.associations, alignment.marks, frame.camera))
     {
         addReason(
@@ -194,46 +195,6 @@ std::string Odometry::Impl::whyUnusable(const RgbdFrame& frame)
 std::string Odometry::Impl::whyNoDepth(const RgbdFrame& frame, const Features& current) const
 {
     return current.hasDepth ? "" : pointplane::whyNoDepth(frame.depth, params.pointLifter);
-}
-
-/** With the references, with an older key frame, or with the latest frame that matched none. */
-Alignment Odometry::Impl::align(const Features& current, FrameDiagnostics& diagnostics)
-{
-    track.noteGap(current.frame.stamp);
-    Alignment out = aligner.align(frontEnd, current, track, errors, diagnostics);
-    if (out.holds || !out.unsettled.empty())
-    {
-        // What cannot be told in this frame, later frames may tell with the same references.
-        return out;
-    }
-    // On a copy: what may be in view makes room only for what is.
-    const auto holdsAfter = [&](const auto& change)
-    {
-        Track changed = track;
-        FrameDiagnostics ignored = diagnostics;
-        return change(changed) && aligner.align(frontEnd, current, changed, errors, ignored).holds;
-    };
-    const auto alignAfter = [&](const auto& change)
-    {
-        change(track);
-        return aligner.align(frontEnd, current, track, errors, diagnostics);
-    };
-    const auto& places = track.places();
-    for (auto place = places.rbegin(); place != places.rend() && params.pipeline.searchImages;
-         ++place)
-    {
-        const auto recall = [id = place->id](Track& t)
-        {
-            t.recall(id);
-            return true;
-        };
-        if (recognises(frontEnd, current, *place) && holdsAfter(recall))
-        {
-            return alignAfter(recall);
-        }
-    }
-    const auto restart = [](Track& t) { return t.restartAtUnmatched(); };
-    return holdsAfter(restart) ? alignAfter(restart) : out;
 }
 
 namespace
