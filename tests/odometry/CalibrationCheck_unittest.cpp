@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/odometry/uncertainty/CalibrationCheck.h>
-#include <pointplane/odometry/uncertainty/camera_errors.h>
 
 #include <Eigen/Cholesky>
 
@@ -8,6 +7,7 @@
 
 #include "matchers.h"
 #include "monte_carlo.h"
+#include "uncertainty/camera_errors.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -2,7 +2,6 @@
 #include <pointplane/core/se3.h>
 #include <pointplane/odometry/Odometry.h>
 #include <pointplane/odometry/uncertainty/CameraCalibrator.h>
-#include <pointplane/odometry/uncertainty/camera_errors.h>
 #include <pointplane/simulation/SimulatedSequence.h>
 
 #include <Eigen/Cholesky>
@@ -16,6 +15,7 @@
 #include "linear_algebra.h"
 #include "matchers.h"
 #include "monte_carlo.h"
+#include "uncertainty/camera_errors.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "uncertainty/ErrorModel.h"
 
-#include <pointplane/odometry/uncertainty/view_errors.h>
-
 #include <cmath>
 #include <vector>
 
 #include "matchers.h"
 #include "monte_carlo.h"
+#include "uncertainty/view_errors.h"
 #include <gtest/gtest.h>
 
 namespace pointplane
@@ -153,7 +152,8 @@ TEST_F(ErrorModelTest, aSmoothErrorOfDepthIsAsLargeAsItsResidualsTell)
         of.variance *= kBend * kBend / 2;
     }
     const JointCovariance::Measurement out = learnForLong(1.0 / 30, kBend);
-    EXPECT_NEAR(std::pow(out.views.patchSigma, 2), 10 * kBend * kBend / 2, 0.02 * 10 * kBend * kBend / 2);
+    EXPECT_NEAR(
+        std::pow(out.views.patchSigma, 2), 10 * kBend * kBend / 2, 0.02 * 10 * kBend * kBend / 2);
     EXPECT_NEAR(out.views.ofPatches(0, 1), 0.8 * out.views.ofPlanes(0, 1), 0.01);
     EXPECT_NEAR(out.views.ofPatches(2, 2), 1, 1e-12);
 }
@@ -253,8 +253,7 @@ TEST_F(ErrorModelTest, allViewsAreCompared)
     apart << 0, 0.2, 0.6, 0.2, 0, 0.8, 0.6, 0.8, 0;
     apart /= viewAngle();
     EXPECT_THAT(
-        views.ofPoints,
-        test::IsMatrixNear(Eigen::Matrix3d((-apart.array()).exp().matrix()), 1e-6));
+        views.ofPoints, test::IsMatrixNear(Eigen::Matrix3d((-apart.array()).exp().matrix()), 1e-6));
     EXPECT_THAT(
         views.ofPlanes,
         test::IsMatrixNear(Eigen::Matrix3d((-3 * apart.array()).exp().matrix()), 1e-6));
@@ -269,7 +268,8 @@ TEST_F(ErrorModelTest, aFrameErrsByItsView)
     EXPECT_NEAR(out.views.ofPoints(0, 1), std::exp(-0.6 / viewAngle()), 1e-6);
     EXPECT_EQ(out.views.ofPoints(1, 0), out.views.ofPoints(0, 1));
     EXPECT_GT(out.views.pointSigma[0], 0);
-    EXPECT_NEAR(out.views.pointSigma[3], out.views.pointSigma[0], 1e-12) << "a turn errs as much, 1 m away";
+    EXPECT_NEAR(out.views.pointSigma[3], out.views.pointSigma[0], 1e-12)
+        << "a turn errs as much, 1 m away";
     params.covariance.viewNoise *= 2;
     EXPECT_NEAR(learn().views.pointSigma[0], 2 * out.views.pointSigma[0], 1e-15);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pointplane/odometry/uncertainty/ErrorsByView.h>
+#include "uncertainty/ErrorsByView.h"
 
 #include <cmath>
 #include <map>

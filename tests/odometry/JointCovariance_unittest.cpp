@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "uncertainty/JointCovariance.h"
+
 #include <pointplane/core/PoseGaussian.h>
 #include <pointplane/core/covariance.h>
 #include <pointplane/core/se3.h>
 #include <pointplane/odometry/uncertainty/CovarianceParams.h>
-#include <pointplane/odometry/uncertainty/JointCovariance.h>
 
 #include <algorithm>
 #include <map>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pointplane/odometry/uncertainty/JointGaussian.h>
+#include "uncertainty/JointGaussian.h"
+
 #include <pointplane/pose/pairs.h>
 
 #include <stdexcept>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "uncertainty/MotionModel.h"
+
 #include <pointplane/core/covariance.h>
 #include <pointplane/core/se3.h>
-#include <pointplane/odometry/uncertainty/MotionModel.h>
 
 #include <Eigen/LU>
 
@@ -107,8 +108,7 @@ TEST(MotionModel, processNoiseOfTheVelocityIsThatOfAnAccelerationThatLasts)
         for (int i = 0; i < kParts * kParts; ++i)
         {
             const double s = (i / kParts + 0.5) * dt / kParts, t = (i % kParts + 0.5) * dt / kParts;
-            const double alike =
-                std::exp(-std::abs(s - t) / MotionModel::TParams().accelerationTime);
+            const double alike = std::exp(-std::abs(s - t) / MotionParams().accelerationTime);
             ofMotion += alike * Eigen::Vector2d(dt - s, 1) * Eigen::Vector2d(dt - t, 1).transpose();
         }
         const double white = ofMotion(1, 1) / 4;
@@ -273,7 +273,7 @@ TEST(MotionModel, followsIncrementsHalfway)
 /** Rauch-Tung-Striebel against the joint Gaussian of the velocity before and the motion. */
 TEST(MotionModel, theVelocityBeforeIsSmoothed)
 {
-    MotionModel::TParams params;
+    MotionParams params;
     params.timeConstant = 1000;  // so uncertain a motion must not tell how the camera moves
     MotionModel model(params);
     MotionGaussian uncertain = measuredMotion();  // its increment tells nothing of the velocity
@@ -298,7 +298,7 @@ TEST(MotionModel, theVelocityBeforeIsSmoothed)
 /** Against finite differences in all that the velocity before was made from. */
 TEST(MotionModel, howTheVelocityBeforeErrs)
 {
-    MotionModel::TParams params;
+    MotionParams params;
     params.timeConstant = 1000;  // what is learnt on the way must not change with the differences
     const auto measured = [](double scale)
     {
@@ -378,7 +378,7 @@ TEST(MotionModel, followsHowTheCameraMoves)
 /** What frames show of the velocity is twice as uncertain as what it gains from frame to frame. */
 TEST(MotionModel, noiseIsNotTakenForMotion)
 {
-    MotionModel::TParams params;
+    MotionParams params;
     params.timeConstant = 20;
     MotionModel model(params);
     constexpr double kDensity = 0.15;
@@ -422,7 +422,7 @@ TEST(MotionModel, noiseIsNotTakenForMotion)
 /** The square of the estimated velocity, and its variance. */
 TEST(MotionModel, howFastTheCameraMayBeIsLearnt)
 {
-    MotionModel::TParams params;
+    MotionParams params;
     params.timeConstant = 0.01;  // the latest frames count
     MotionModel model(params);
     MotionGaussian measured;
@@ -504,8 +504,8 @@ TEST(MotionModel, noVelocityIsLostFasterThanItIsGained)
         ASSERT_TRUE(model.density().allFinite()) << i;
         ASSERT_TRUE(model.predict(1).cov.allFinite()) << i;
     }
-    EXPECT_GE(timeConstant(model, 0), 0.999 * MotionModel::TParams().accelerationTime);
-    EXPECT_GE(timeConstant(model, 3), 0.999 * MotionModel::TParams().accelerationTime);
+    EXPECT_GE(timeConstant(model, 0), 0.999 * MotionParams().accelerationTime);
+    EXPECT_GE(timeConstant(model, 3), 0.999 * MotionParams().accelerationTime);
 }
 
 TEST(MotionModel, leastRandomWalkIsKept)
@@ -515,7 +515,7 @@ TEST(MotionModel, leastRandomWalkIsKept)
     {
         model.update(measuredMotion(), kFrame);
     }
-    const MotionModel::TParams params;
+    const MotionParams params;
     EXPECT_NEAR(std::sqrt(model.density()[0]), params.velocityRandomWalk, 1e-9);
     EXPECT_NEAR(std::sqrt(model.density()[3]), params.angularVelocityRandomWalk, 1e-9);
 }
@@ -523,7 +523,7 @@ TEST(MotionModel, leastRandomWalkIsKept)
 /** It lasts for 0.05 s; what it has made of the velocity stays. */
 TEST(MotionModel, suddenAccelerationByHand)
 {
-    MotionModel::TParams params;
+    MotionParams params;
     params.sigmaAcceleration = 2;
     params.sigmaAngularAcceleration = 6;
     const Matrix6d cov = MotionModel(params).bySuddenAcceleration(0.01);
@@ -634,7 +634,7 @@ TEST(MotionModel, refusesParametersOutOfRange)
 {
     const auto refused = [](auto change)
     {
-        MotionModel::TParams params;
+        MotionParams params;
         change(params);
         EXPECT_THROW(MotionModel{params}, std::invalid_argument);
     };

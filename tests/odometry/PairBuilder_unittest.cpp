@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "PairBuilder.h"
+
 #include <pointplane/core/se3.h>
-#include <pointplane/odometry/PairBuilder.h>
-#include <pointplane/odometry/ShutterCorrection.h>
 #include <pointplane/odometry/uncertainty/CameraCalibrator.h>
-#include <pointplane/odometry/uncertainty/camera_errors.h>
 
 #include <vector>
 
+#include "ShutterCorrection.h"
 #include "matchers.h"
+#include "uncertainty/camera_errors.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -2,13 +2,13 @@
 // What config-paper.ini does between frames.
 #include <pointplane/core/se3.h>
 #include <pointplane/mrpt_io/params_ini.h>
-#include <pointplane/odometry/uncertainty/MotionModel.h>
 
 #include <limits>
 #include <string>
 
 #include "hell_frames.h"
 #include "linear_algebra.h"
+#include "uncertainty/MotionModel.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

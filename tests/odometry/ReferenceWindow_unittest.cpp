@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "ReferenceWindow.h"
+
 #include <pointplane/core/se3.h>
-#include <pointplane/odometry/ReferenceWindow.h>
 
 #include <stdexcept>
 #include <vector>
@@ -61,7 +62,7 @@ TEST(ReferenceWindow, asManyPlacesAreKeptAsWanted)
 {
     for (const int most : {0, 2, 20})
     {
-        ReferenceWindow::TParams params;
+        ReferenceParams params;
         params.maxKeyframes = 1;
         params.maxPlaces = most;
         ReferenceWindow window(params);
@@ -80,7 +81,7 @@ TEST(ReferenceWindow, asManyPlacesAreKeptAsWanted)
 
 TEST(ReferenceWindow, oldestKeyframeIsDropped)
 {
-    ReferenceWindow::TParams params;
+    ReferenceParams params;
     params.maxKeyframes = 2;
     ReferenceWindow window(params);
     for (int i = 1; i <= 5; ++i)
@@ -93,7 +94,7 @@ TEST(ReferenceWindow, oldestKeyframeIsDropped)
 
 TEST(ReferenceWindow, frameToFrameHasThePreviousOnly)
 {
-    ReferenceWindow::TParams params;
+    ReferenceParams params;
     params.reference = "previous";
     ReferenceWindow window(params);
     window.add(reference(1), true);
@@ -105,7 +106,7 @@ TEST(ReferenceWindow, frameToFrameHasThePreviousOnly)
 
 TEST(ReferenceWindow, newKeyframeAfterDistanceAngleOrLossOfOverlap)
 {
-    ReferenceWindow::TParams params;
+    ReferenceParams params;
     params.keyframeDistance = 0.15;
     params.keyframeAngleDeg = 10;
     params.keyframeMinOverlap = 0.5;
@@ -184,7 +185,7 @@ TEST(ReferenceWindow, refusesParametersOutOfRange)
 {
     const auto refused = [](auto change)
     {
-        ReferenceWindow::TParams params;
+        ReferenceParams params;
         change(params);
         EXPECT_THROW(ReferenceWindow{params}, std::invalid_argument);
     };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pointplane/odometry/uncertainty/decaying_velocity.h>
+#include "uncertainty/decaying_velocity.h"
 
 #include <cmath>
 #include <limits>

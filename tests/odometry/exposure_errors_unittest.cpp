@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pointplane/odometry/uncertainty/exposure_errors.h>
+#include "uncertainty/exposure_errors.h"
 
 #include <cmath>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "surface_agreement.h"
+
 #include <pointplane/core/se3.h>
-#include <pointplane/odometry/surface_agreement.h>
 
 #include <limits>
 

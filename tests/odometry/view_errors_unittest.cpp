@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pointplane/odometry/uncertainty/view_errors.h>
+#include "uncertainty/view_errors.h"
 
 #include <Eigen/Core>
 

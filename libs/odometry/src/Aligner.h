@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pointplane/odometry/Features.h>
 #include <pointplane/odometry/OdometryParams.h>
 #include <pointplane/odometry/OdometryResult.h>
 #include <pointplane/pose/PoseSolver.h>
@@ -9,6 +8,7 @@
 #include <vector>
 
 #include "Alignment.h"
+#include "Features.h"
 #include "FrontEnd.h"
 #include "Judge.h"
 #include "RivalMotions.h"

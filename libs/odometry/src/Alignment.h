@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pointplane/odometry/PairBuilder.h>
-#include <pointplane/odometry/surface_agreement.h>
 #include <pointplane/pose/PoseSolver.h>
 
 #include <optional>
@@ -10,7 +8,9 @@
 #include <vector>
 
 #include "ImageMarks.h"
+#include "PairBuilder.h"
 #include "Track.h"
+#include "surface_agreement.h"
 
 namespace pointplane
 {
@@ -25,8 +25,8 @@ struct Alignment
     bool isPredictionWeak{false};  //!< the prediction does not tell which feature is which
     Agreement agreement;           //!< of the surfaces seen before with this frame's depth image
     int numSought{0};              //!< points of the references that should be in view
-    /** Of a motion by points that neither `problem` nor the covariance contains: how far they may be
-     * wrong, by the motion that is estimated without them; a covariance of the pose (left
+    /** Of a motion by points that neither `problem` nor the covariance contains: how far they may
+     * be wrong, by the motion that is estimated without them; a covariance of the pose (left
      * perturbation, m, rad). The motion is no minimum of `problem` then. */
     std::optional<Matrix6d> doubt;
     std::vector<Mark> marks;  //!< of this and of other attempts at the frame

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pointplane/odometry/Features.h>
 #include <pointplane/odometry/MovingRegions.h>
 #include <pointplane/odometry/OdometryParams.h>
 #include <pointplane/odometry/OdometryResult.h>
-#include <pointplane/odometry/PlaneAligner.h>
-#include <pointplane/odometry/Reference.h>
 #include <pointplane/sensor/AttachedParts.h>
 #include <pointplane/sensor/DepthNoiseLearner.h>
 
@@ -14,7 +11,10 @@
 #include <string>
 #include <vector>
 
+#include "Features.h"
 #include "ImageMarks.h"
+#include "PlaneAligner.h"
+#include "Reference.h"
 
 namespace pointplane
 {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "ImageAligner.h"
+
 #include <pointplane/core/se3.h>
-#include <pointplane/odometry/ImageAligner.h>
 
 #include <Eigen/Geometry>
 

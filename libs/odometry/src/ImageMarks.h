@@ -2,7 +2,6 @@
 #pragma once
 
 #include <pointplane/core/PoseGaussian.h>
-#include <pointplane/odometry/Reference.h>
 #include <pointplane/sensor/PinholeCamera.h>
 
 #include <Eigen/Geometry>
@@ -10,6 +9,8 @@
 
 #include <string>
 #include <vector>
+
+#include "Reference.h"
 
 namespace pointplane
 {

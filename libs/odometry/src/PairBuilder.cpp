@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "PairBuilder.h"
+
 #include <pointplane/core/covariance.h>
-#include <pointplane/odometry/PairBuilder.h>
-#include <pointplane/odometry/ShutterCorrection.h>
 #include <pointplane/odometry/uncertainty/CameraCalibrator.h>
-#include <pointplane/odometry/uncertainty/camera_errors.h>
 #include <pointplane/pose/residuals.h>
 
 #include <Eigen/Cholesky>
@@ -11,7 +10,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ShutterCorrection.h"
 #include "surfaces.h"
+#include "uncertainty/camera_errors.h"
 
 namespace pointplane
 {

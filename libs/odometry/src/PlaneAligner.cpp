@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "PlaneAligner.h"
+
 #include <pointplane/core/se3.h>
-#include <pointplane/odometry/PlaneAligner.h>
 
 #include <Eigen/LU>
 

@@ -2,11 +2,12 @@
 #pragma once
 
 #include <pointplane/core/PoseGaussian.h>
-#include <pointplane/odometry/uncertainty/JointCovariance.h>
 
 #include <deque>
 #include <optional>
 #include <vector>
+
+#include "uncertainty/JointCovariance.h"
 
 namespace pointplane
 {

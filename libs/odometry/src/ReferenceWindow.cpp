@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "ReferenceWindow.h"
+
 #include <pointplane/core/check.h>
-#include <pointplane/core/choice.h>
-#include <pointplane/core/range.h>
 #include <pointplane/core/se3.h>
-#include <pointplane/odometry/ReferenceWindow.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,25 +10,7 @@
 
 namespace pointplane
 {
-bool ReferenceWindow::TParams::isFrameToFrame() const
-{
-    return chosen<bool>(
-        "reference", reference, {{"keyframes", false}, {"previous", true}, {"adjacent", true}});
-}
-
-bool ReferenceWindow::TParams::isAdjacent() const { return reference == "adjacent"; }
-
-void ReferenceWindow::TParams::check() const
-{
-    (void)isFrameToFrame();
-    checkRange("maxKeyframes", maxKeyframes, 1, 50);
-    checkRange("maxPlaces", maxPlaces, 0, 1000);
-    checkLength("keyframeDistance", keyframeDistance, 0.001, 10);
-    checkRange("keyframeAngleDeg", keyframeAngleDeg, 0.1, 180);
-    checkRange("keyframeMinOverlap", keyframeMinOverlap, 0, 0.99);
-}
-
-ReferenceWindow::ReferenceWindow(const TParams& params)
+ReferenceWindow::ReferenceWindow(const ReferenceParams& params)
     : params_(params), isFrameToFrame_(params.isFrameToFrame())
 {
     params_.check();

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pointplane/odometry/Reference.h>
 #include <pointplane/pose/PoseSolver.h>
 
 #include <optional>
 #include <vector>
+
+#include "Reference.h"
 
 namespace pointplane
 {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "ShutterCorrection.h"
+
 #include <pointplane/core/se3.h>
-#include <pointplane/odometry/ShutterCorrection.h>
 #include <pointplane/sensor/readout.h>
 
 #include <cmath>

@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pointplane/odometry/Features.h>
 #include <pointplane/odometry/OdometryParams.h>
-#include <pointplane/odometry/Reference.h>
-#include <pointplane/odometry/ReferenceWindow.h>
-#include <pointplane/odometry/uncertainty/JointCovariance.h>
-#include <pointplane/odometry/uncertainty/MotionModel.h>
 
 #include <deque>
 #include <limits>
@@ -15,7 +10,12 @@
 #include <string>
 #include <vector>
 
+#include "Features.h"
 #include "PoseHistory.h"
+#include "Reference.h"
+#include "ReferenceWindow.h"
+#include "uncertainty/JointCovariance.h"
+#include "uncertainty/MotionModel.h"
 
 namespace pointplane
 {

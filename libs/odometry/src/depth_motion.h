@@ -2,7 +2,6 @@
 #pragma once
 
 #include <pointplane/odometry/MovingRegions.h>
-#include <pointplane/odometry/Reference.h>
 #include <pointplane/odometry/uncertainty/CameraCalibrator.h>
 #include <pointplane/pose/MotionGaussian.h>
 #include <pointplane/sensor/RgbdFrame.h>
@@ -11,6 +10,7 @@
 
 #include <vector>
 
+#include "Reference.h"
 #include "Track.h"
 
 namespace pointplane

@@ -2,14 +2,14 @@
 #pragma once
 
 #include <pointplane/core/PoseGaussian.h>
-#include <pointplane/odometry/Features.h>
-#include <pointplane/odometry/Reference.h>
 
 #include <Eigen/Geometry>
 
 #include <optional>
 
+#include "Features.h"
 #include "FrontEnd.h"
+#include "Reference.h"
 #include "Track.h"
 
 namespace pointplane

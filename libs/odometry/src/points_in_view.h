@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pointplane/odometry/Reference.h>
 #include <pointplane/sensor/RgbdFrame.h>
 
 #include <vector>
+
+#include "Reference.h"
 
 namespace pointplane
 {

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pointplane/odometry/Features.h>
 #include <pointplane/odometry/OdometryResult.h>
-#include <pointplane/odometry/Reference.h>
 #include <pointplane/pose/PoseAnalysis.h>
 
 #include <vector>
+
+#include "Features.h"
+#include "Reference.h"
 
 namespace pointplane
 {

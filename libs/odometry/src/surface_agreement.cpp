@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pointplane/odometry/surface_agreement.h>
+#include "surface_agreement.h"
 
 #include "surface_comparison.h"
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pointplane/core/significance.h>
 #include <pointplane/odometry/uncertainty/CalibrationCheck.h>
-#include <pointplane/odometry/uncertainty/camera_errors.h>
 
 #include <Eigen/LU>
 
 #include <cmath>
+
+#include "camera_errors.h"
 
 namespace pointplane
 {

@@ -3,7 +3,6 @@
 #include <pointplane/core/range.h>
 #include <pointplane/core/significance.h>
 #include <pointplane/odometry/uncertainty/CameraCalibrator.h>
-#include <pointplane/odometry/uncertainty/camera_errors.h>
 
 #include <Eigen/LU>
 
@@ -11,6 +10,8 @@
 #include <cmath>
 #include <iomanip>
 #include <sstream>
+
+#include "camera_errors.h"
 
 namespace pointplane
 {

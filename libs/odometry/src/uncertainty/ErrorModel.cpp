@@ -2,9 +2,6 @@
 #include "ErrorModel.h"
 
 #include <pointplane/core/covariance.h>
-#include <pointplane/odometry/uncertainty/camera_errors.h>
-#include <pointplane/odometry/uncertainty/exposure_errors.h>
-#include <pointplane/odometry/uncertainty/view_errors.h>
 
 #include <Eigen/Eigenvalues>
 
@@ -12,6 +9,10 @@
 #include <cmath>
 #include <map>
 #include <utility>
+
+#include "camera_errors.h"
+#include "exposure_errors.h"
+#include "view_errors.h"
 
 namespace pointplane
 {

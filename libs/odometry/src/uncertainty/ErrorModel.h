@@ -2,10 +2,7 @@
 #pragma once
 
 #include <pointplane/odometry/OdometryParams.h>
-#include <pointplane/odometry/Reference.h>
 #include <pointplane/odometry/uncertainty/CameraCalibrator.h>
-#include <pointplane/odometry/uncertainty/ErrorsByView.h>
-#include <pointplane/odometry/uncertainty/JointCovariance.h>
 #include <pointplane/odometry/uncertainty/NoiseScale.h>
 #include <pointplane/pose/PoseSolver.h>
 
@@ -13,6 +10,10 @@
 #include <map>
 #include <optional>
 #include <vector>
+
+#include "../Reference.h"
+#include "ErrorsByView.h"
+#include "JointCovariance.h"
 
 namespace pointplane
 {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pointplane/odometry/uncertainty/ErrorsByView.h>
+#include "ErrorsByView.h"
+
 #include <pointplane/odometry/uncertainty/NoiseScale.h>
 
 #include <algorithm>

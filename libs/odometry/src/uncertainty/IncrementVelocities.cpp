@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pointplane/odometry/uncertainty/IncrementVelocities.h>
+#include "IncrementVelocities.h"
 
 #include <cmath>
 

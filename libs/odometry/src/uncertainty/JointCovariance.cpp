@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "JointCovariance.h"
+
 #include <pointplane/core/covariance.h>
 #include <pointplane/core/se3.h>
-#include <pointplane/odometry/uncertainty/JointCovariance.h>
 
 #include <algorithm>
 #include <utility>

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "MotionModel.h"
+
 #include <pointplane/core/covariance.h>
 #include <pointplane/core/range.h>
 #include <pointplane/core/se3.h>
-#include <pointplane/odometry/uncertainty/MotionModel.h>
 
 #include <Eigen/Cholesky>
 
@@ -31,7 +32,7 @@ Matrix12d transition(const DecayedVelocities& after)
 }
 }  // namespace
 
-void MotionModel::TParams::check() const
+void MotionParams::check() const
 {
     checkRange("velocityRandomWalk", velocityRandomWalk, 1e-4, 20);
     checkRange("angularVelocityRandomWalk", angularVelocityRandomWalk, 1e-4, 100);
@@ -41,7 +42,7 @@ void MotionModel::TParams::check() const
     checkRange("accelerationTime", accelerationTime, 1e-3, 10);
 }
 
-MotionModel::MotionModel(const TParams& params)
+MotionModel::MotionModel(const MotionParams& params)
     : params_(params), increments_(4 * params.accelerationTime, params.timeConstant)
 {
     params_.check();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pointplane/odometry/uncertainty/camera_errors.h>
+#include "camera_errors.h"
 
 #include <algorithm>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "exposure_errors.h"
+
 #include <pointplane/core/covariance.h>
-#include <pointplane/odometry/uncertainty/exposure_errors.h>
 
 namespace pointplane
 {

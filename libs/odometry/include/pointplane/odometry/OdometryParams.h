@@ -3,10 +3,10 @@
 
 #include <pointplane/core/Parameters.h>
 #include <pointplane/odometry/PointStage.h>
-#include <pointplane/odometry/ReferenceWindow.h>
+#include <pointplane/odometry/ReferenceParams.h>
 #include <pointplane/odometry/uncertainty/CameraCalibrator.h>
 #include <pointplane/odometry/uncertainty/CovarianceParams.h>
-#include <pointplane/odometry/uncertainty/MotionModel.h>
+#include <pointplane/odometry/uncertainty/MotionParams.h>
 #include <pointplane/odometry/uncertainty/NoiseScale.h>
 #include <pointplane/planes/PlaneExtractor.h>
 #include <pointplane/planes/PlaneMatcher.h>
@@ -98,8 +98,8 @@ struct OdometryParams
     PlaneMatcher::TParams planeMatcher;
     PoseSolver::TParams poseSolver;
     NoiseScale::TParams noiseScale;
-    MotionModel::TParams motionModel;
-    ReferenceWindow::TParams reference;
+    MotionParams motionModel;
+    ReferenceParams reference;
     CovarianceParams covariance;
 
     /** The first section that only experts need: from here on, keys are about the insides of a

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pointplane/core/Parameters.h>
-#include <pointplane/odometry/Reference.h>
+#include <pointplane/odometry/ReferenceParams.h>
 
 #include <deque>
 #include <optional>
-#include <string>
 #include <vector>
+
+#include "Reference.h"
 
 namespace pointplane
 {
@@ -15,49 +15,8 @@ namespace pointplane
 class ReferenceWindow
 {
  public:
-    struct TParams
-    {
-        std::string reference{"keyframes"};
-        int maxKeyframes{4};
-        double keyframeDistance{0.15};
-        double keyframeAngleDeg{10.0};
-        double keyframeMinOverlap{0.35};
-        int maxPlaces{20};
-
-        template <class V>
-        void visit(V&& v)
-        {
-            v("reference",
-              reference,
-              "-",
-              "what a frame is compared with: keyframes (the latest tracked frame and a few "
-              "earlier ones, which drifts least), previous (the latest tracked frame) or "
-              "adjacent (the frame before, tracked or not, as in the paper)");
-            v("maxKeyframes", maxKeyframes, "-", "number of key frames; the oldest is dropped");
-            v("keyframeDistance",
-              keyframeDistance,
-              "m",
-              "a frame becomes a key frame after this translation");
-            v("keyframeAngleDeg", keyframeAngleDeg, "deg", "or after this rotation");
-            v("keyframeMinOverlap",
-              keyframeMinOverlap,
-              "-",
-              "or when less than this fraction of the newest key frame's points or planes is "
-              "found again, even by a wide search");
-            v("maxPlaces",
-              maxPlaces,
-              "-",
-              "number of older key frames that are kept, so that a lost camera can find its "
-              "place again; about 2 MB each at 640 x 480");
-        }
-        /** \throws std::invalid_argument naming the key */
-        void check() const;
-        [[nodiscard]] bool isFrameToFrame() const;  //!< or against key frames
-        [[nodiscard]] bool isAdjacent() const;      //!< to the frame before, whatever became of it
-    };
-
     /** \throws std::invalid_argument naming the key */
-    explicit ReferenceWindow(const TParams& params);
+    explicit ReferenceWindow(const ReferenceParams& params);
 
     [[nodiscard]] bool empty() const { return !previous_; }
     /** \pre !empty() */
@@ -112,7 +71,7 @@ class ReferenceWindow
     void addKeyframe(Reference frame);
     void addPlace(Reference frame);
 
-    TParams params_;
+    ReferenceParams params_;
     bool isFrameToFrame_;
     std::optional<Reference> previous_;
     std::deque<Reference> keyframes_;  //!< oldest first

@@ -3,12 +3,13 @@
 
 #include <pointplane/core/types.h>
 #include <pointplane/odometry/uncertainty/CameraCalibrator.h>
-#include <pointplane/odometry/uncertainty/JointGaussian.h>
-#include <pointplane/odometry/uncertainty/MotionModel.h>
 #include <pointplane/pose/PoseAnalysis.h>
 
 #include <optional>
 #include <vector>
+
+#include "JointGaussian.h"
+#include "MotionModel.h"
 
 namespace pointplane
 {

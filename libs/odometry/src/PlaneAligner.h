@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pointplane/odometry/ImageAligner.h>
 #include <pointplane/planes/PlaneFeature.h>
 #include <pointplane/planes/PlaneMatcher.h>
 
 #include <Eigen/Geometry>
 
 #include <vector>
+
+#include "ImageAligner.h"
 
 namespace pointplane
 {

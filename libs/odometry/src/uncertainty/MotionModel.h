@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pointplane/core/Parameters.h>
-#include <pointplane/odometry/uncertainty/IncrementVelocities.h>
-#include <pointplane/odometry/uncertainty/decaying_velocity.h>
+#include <pointplane/odometry/uncertainty/MotionParams.h>
 #include <pointplane/pose/MotionGaussian.h>
+
+#include "IncrementVelocities.h"
+#include "decaying_velocity.h"
 
 namespace pointplane
 {
@@ -26,55 +27,12 @@ class MotionModel
         Matrix6d byPreviousMotion{Matrix6d::Zero()};  //!< ... the motion from the frame before
     };
 
-    struct TParams
-    {
-        double velocityRandomWalk{0.1};
-        double angularVelocityRandomWalk{0.5};
-        double timeConstant{1.0};
-        double sigmaAcceleration{5.0};
-        double sigmaAngularAcceleration{15.0};
-        double accelerationTime{0.05};
-
-        template <class V>
-        void visit(V&& v)
-        {
-            v("velocityRandomWalk",
-              velocityRandomWalk,
-              "m/s/sqrt(s)",
-              "least change of the velocity, per axis; more is learnt from the motion");
-            v("angularVelocityRandomWalk",
-              angularVelocityRandomWalk,
-              "rad/s/sqrt(s)",
-              "the same of the angular velocity");
-            v("timeConstant",
-              timeConstant,
-              "s",
-              "time over which the velocity's change and size are learnt");
-            v("sigmaAcceleration",
-              sigmaAcceleration,
-              "m/s^2",
-              "standard deviation of a sudden acceleration; larger = trust the predicted motion "
-              "less");
-            v("sigmaAngularAcceleration",
-              sigmaAngularAcceleration,
-              "rad/s^2",
-              "the same of the rotation");
-            v("accelerationTime",
-              accelerationTime,
-              "s",
-              "how long a sudden acceleration lasts; the speed that it makes in this time is the "
-              "first guess of the camera's");
-        }
-        /** \throws std::invalid_argument naming the key */
-        void check() const;
-    };
-
     /** Limit of the input: after a longer time [s] nothing more can become unknown: the camera may
      * be 500 m away. With larger variances, those of later motions would be lost in rounding. */
     static constexpr double kLongestStep = 10;
 
     /** \throws std::invalid_argument naming the key */
-    explicit MotionModel(const TParams& params);
+    explicit MotionModel(const MotionParams& params);
 
     /** Predicted motion over `dt` [s] from the latest frame, measured or not: T_prev_cur and the
      * velocity at its end. \pre dt > 0 */
@@ -152,7 +110,7 @@ class MotionModel
     [[nodiscard]] Vector6d sudden() const;  //!< acceleration, per axis
     void weigh(const IncrementVelocities::Between& between, double dt, Smoothed& smoothed) const;
 
-    TParams params_;
+    MotionParams params_;
     Vector6d velocity_;  //!< at the frame where the next motion starts
     /** Of [pose of that frame; velocity_], by what the frame itself tells. JointCovariance has that
      * of the velocity by all that its errors come from. */

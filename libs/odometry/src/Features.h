@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pointplane/odometry/ImageAligner.h>
 #include <pointplane/odometry/PointStage.h>
 #include <pointplane/planes/PlaneFeature.h>
 #include <pointplane/sensor/RgbdFrame.h>
 
 #include <optional>
+
+#include "ImageAligner.h"
 
 namespace pointplane
 {

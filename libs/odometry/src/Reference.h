@@ -2,8 +2,6 @@
 #pragma once
 
 #include <pointplane/core/types.h>
-#include <pointplane/odometry/ImageAligner.h>
-#include <pointplane/odometry/surface_agreement.h>
 #include <pointplane/planes/PlaneFeature.h>
 #include <pointplane/planes/PlaneMatcher.h>
 #include <pointplane/points/PointTracker.h>
@@ -13,6 +11,9 @@
 #include <memory>
 #include <optional>
 #include <vector>
+
+#include "ImageAligner.h"
+#include "surface_agreement.h"
 
 namespace pointplane
 {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pointplane/odometry/Features.h>
-#include <pointplane/odometry/Reference.h>
 #include <pointplane/pose/PoseSolver.h>
 
 #include <vector>
+
+#include "Features.h"
+#include "Reference.h"
 
 namespace pointplane
 {
