@@ -26,6 +26,9 @@ namespace
 constexpr double kUnknown = ShutterModel::kUnknown;
 constexpr int kNumLearnt = 7;  // four of the lens, three of the shutter
 
+/** Velocities. */
+const Eigen::Matrix3d kExact = Eigen::Matrix3d::Zero();
+
 PinholeCamera nominal()
 {
     PinholeCamera out;
@@ -229,7 +232,7 @@ TEST(CameraCalibrator, learnsALensByHand)
     CameraCalibrator calibrator = calibratorOf(nominal());
     const CameraMatrix before = calibrator.cov();
     EXPECT_EQ(calibrator.errors(), CameraVector::Zero().eval());
-    const CameraCalibrator::Change change = calibrator.update(frameOf(said));
+    const CameraCalibrator::Change change = calibrator.update(frameOf(said), 0, 1, kExact);
     EXPECT_THAT(
         calibrator.errors(),
         test::IsMatrixNear(CameraVector(0.005 * CameraVector::Unit(kFocalLength)), 1e-12));
@@ -250,7 +253,7 @@ TEST(CameraCalibrator, learnsAShutterByHand)
     said.information.setIdentity();
     said.information *= 4e5;
     said.gradient.tail<3>() << -1600, 0, 800;  // 4 ms more readout, 2 ms less delay
-    const CameraCalibrator::Change change = calibrator.update(frameOf(said));
+    const CameraCalibrator::Change change = calibrator.update(frameOf(said), 0, 1, kExact);
     const ShutterModel learnt = calibrator.complete({});
     EXPECT_NEAR(learnt.readoutColour, 0.021 + 0.002, 1e-12);
     EXPECT_NEAR(learnt.readoutDepth, 0.022, 1e-12);
@@ -260,7 +263,7 @@ TEST(CameraCalibrator, learnsAShutterByHand)
 
     p.selfCalibrate = false;
     CameraCalibrator fixed = calibratorOf({}, p);
-    EXPECT_EQ(fixed.update(frameOf(said)).gain(kReadoutColour, kReadoutColour), 1);
+    EXPECT_EQ(fixed.update(frameOf(said), 0, 1, kExact).gain(kReadoutColour, kReadoutColour), 1);
     EXPECT_EQ(fixed.complete({}).readoutColour, 0.021);
 }
 
@@ -303,7 +306,7 @@ TEST(CameraCalibrator, findsOutWhichRowIsTheFirst)
         said.information(kReadoutColour, kReadoutColour) = 1 / (0.002 * 0.002);
         said.gradient[kReadoutColour] = -readout / (0.002 * 0.002);
         std::pair<CameraCalibrator, CameraCalibrator::Change> out(start, {});
-        out.second = out.first.update(frameOf(said));
+        out.second = out.first.update(frameOf(said), 0, 1, kExact);
         return out;
     };
     EXPECT_LT(after(0.008).first.complete({}).readoutColour, 0.008) << "four standard deviations";
@@ -328,12 +331,12 @@ TEST(CameraCalibrator, lensAndShutterAreToldByDifferentResiduals)
     PoseAnalysis frame;
     frame.camera.gradient.setConstant(1);
     CameraCalibrator together = calibratorOf(nominal());
-    (void)together.update(frame);
+    (void)together.update(frame, 0, 1, kExact);
     EXPECT_TRUE(together.errors().head<6>().isZero(0));
     EXPECT_LT(together.errors().tail<3>().maxCoeff(), 0);
     std::swap(frame.camera, frame.cameraByReference);
     CameraCalibrator alone = calibratorOf(nominal());
-    (void)alone.update(frame);
+    (void)alone.update(frame, 0, 1, kExact);
     EXPECT_LT(alone.errors().segment<4>(kPrincipalPointX).maxCoeff(), 0);
     EXPECT_TRUE(alone.errors().tail<3>().isZero(0));
 }
@@ -368,7 +371,7 @@ TEST(CameraCalibrator, aCalibrationIsBelieved)
     PinholeCamera calibrated = nominal();
     calibrated.isNominal = false;
     CameraCalibrator calibrator = calibratorOf(calibrated, known);
-    const CameraCalibrator::Change change = calibrator.update(frameOf(said));
+    const CameraCalibrator::Change change = calibrator.update(frameOf(said), 0, 1, kExact);
     EXPECT_EQ(calibrator.errors(), CameraVector::Zero().eval());
     EXPECT_EQ(change.gain, CameraMatrix::Identity().eval());
     EXPECT_EQ(change.noise, CameraMatrix::Zero().eval());
@@ -380,8 +383,9 @@ TEST(CameraCalibrator, depthTurnsOutToBeBent)
 {
     const PinholeCamera camera;
     CameraCalibrator calibrator = calibratorOf(camera);
-    (void)calibrator.update({});
-    const CameraCalibrator::Change change = calibrator.update(frameOf(asMuchAsBefore()), 0.005);
+    (void)calibrator.update({}, 0, 1, kExact);
+    const CameraCalibrator::Change change =
+        calibrator.update(frameOf(asMuchAsBefore()), 0.005, 1, kExact);
     const double variance = std::pow(calibrator.lens().sigmas[3], 2);
     EXPECT_GT(variance, 0.5 * lensVariances(camera, 0.005)[kRadial]);
     EXPECT_LT(variance, lensVariances(camera, 0.005)[kRadial]);
@@ -395,7 +399,7 @@ TEST(CameraCalibrator, anotherCameraStartsAnew)
     CameraInformation said = asMuchAsBefore();
     said.gradient.setConstant(-1);
     CameraCalibrator calibrator = calibratorOf(nominal());
-    (void)calibrator.update(frameOf(said));
+    (void)calibrator.update(frameOf(said), 0, 1, kExact);
     EXPECT_GT(calibrator.lens().errors[2], 0);
     EXPECT_GT(calibrator.complete({}).depthDelay, -0.003);
     calibrator.start(nominal(), calibrationVariances({}, nominal()));
@@ -410,7 +414,7 @@ TEST(CameraCalibrator, aLensCanBeTakenAsTold)
     said.gradient.setOnes();
     CameraCalibrator calibrator(shutter(), {false, false});
     calibrator.start(nominal(), calibrationVariances({}, nominal()));
-    const CameraMatrix gain = calibrator.update(frameOf(said), 0.01).gain;
+    const CameraMatrix gain = calibrator.update(frameOf(said), 0.01, 1, kExact).gain;
     EXPECT_EQ((gain.topLeftCorner<6, 6>()), (Eigen::Matrix<double, 6, 6>::Identity()));
     EXPECT_TRUE(calibrator.errors().head<6>().isZero(0));
 }
@@ -438,7 +442,7 @@ TEST(CameraCalibrator, framesAddUp)
         slope -= learntOf(atZero.gradient) / (2 * 3);
         const CameraMatrix before = calibrator.cov();
         const CameraCalibrator::Change change = calibrator.update(
-            frameOf(residuals.about(ofLearnt - calibrator.errors(), noise)), 0, 2);
+            frameOf(residuals.about(ofLearnt - calibrator.errors(), noise)), 0, 2, kExact);
         EXPECT_THAT(
             CameraMatrix(change.gain * before * change.gain.transpose() + change.noise),
             test::IsMatrixNear(calibrator.cov(), 1e-9));
@@ -475,7 +479,7 @@ TEST(CameraCalibrator, errorsOfVelocitiesAreAccountedFor)
                 return frameOf(out);
             };
             (void)knows.update(said(knows), 0, 1, root * root.transpose());
-            (void)ignores.update(said(ignores));
+            (void)ignores.update(said(ignores), 0, 1, kExact);
         }
         const auto of = [&](const CameraCalibrator& calibrator)
         {
@@ -514,7 +518,7 @@ TEST(CameraCalibrator, covarianceIsThatOfMonteCarlo)
                 for (int k = 0; k < repeated; ++k)
                 {
                     (void)calibrator.update(
-                        frameOf(residuals.about(truth - calibrator.errors(), noise)));
+                        frameOf(residuals.about(truth - calibrator.errors(), noise)), 0, 1, kExact);
                 }
             }
             nees += test::squaredMahalanobis(
@@ -530,7 +534,7 @@ TEST(CameraCalibrator, whatAFrameDoesNotTellStays)
 {
     CameraCalibrator calibrator = calibratorOf(nominal());
     const CameraMatrix before = calibrator.cov();
-    const CameraCalibrator::Change nothing = calibrator.update({});
+    const CameraCalibrator::Change nothing = calibrator.update({}, 0, 1, kExact);
     EXPECT_EQ(nothing.gain, CameraMatrix::Identity().eval());
     EXPECT_EQ(nothing.noise, CameraMatrix::Zero().eval());
     EXPECT_EQ(calibrator.cov(), before);
@@ -542,7 +546,7 @@ TEST(CameraCalibrator, whatAFrameDoesNotTellStays)
     CameraInformation said;
     said.information = 1e12 * sum * sum.transpose();
     said.gradient = -1e12 * 0.002 * sum;
-    (void)calibrator.update(frameOf(said));
+    (void)calibrator.update(frameOf(said), 0, 1, kExact);
     EXPECT_NEAR(sum.dot(calibrator.errors()), 0.002, 1e-9);
     EXPECT_NEAR(difference.dot(calibrator.errors()), 0, 1e-9);
     EXPECT_NEAR(sum.dot(calibrator.cov() * sum), 1e-11, 1e-13);
@@ -558,7 +562,7 @@ TEST(CameraCalibrator, hugeResidualsDoNotTakeTimesOutOfRange)
     CameraInformation said = asMuchAsBefore();
     said.gradient.tail<3>() << -1e9, 1e9, -1e9;
     CameraCalibrator calibrator = calibratorOf({});
-    (void)calibrator.update(frameOf(said));
+    (void)calibrator.update(frameOf(said), 0, 1, kExact);
     const ShutterModel learnt = calibrator.complete({});
     EXPECT_DOUBLE_EQ(learnt.readoutColour, 0.05);
     EXPECT_DOUBLE_EQ(learnt.readoutDepth, -0.05);
@@ -569,7 +573,7 @@ TEST(CameraCalibrator, hugeResidualsDoNotTakeTimesOutOfRange)
         // They say that the times are as told, each as much as the prior said.
         CameraInformation right = asMuchAsBefore();
         right.gradient = right.information * calibrator.errors();
-        (void)calibrator.update(frameOf(right));
+        (void)calibrator.update(frameOf(right), 0, 1, kExact);
     }
     EXPECT_NEAR(calibrator.errors().norm(), wrong * 2 / 12, 1e-12);
 }

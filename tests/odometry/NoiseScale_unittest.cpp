@@ -29,7 +29,7 @@ double afterScatter(NoiseScale& noise, double scatter)
 {
     PoseAnalysis frame = with(1, 1);
     frame.scatter = scatter;
-    noise.update(frame, 1.0 / 30);
+    noise.update(frame, 1.0 / 30, true);
     return noise.ofFrame();
 }
 }  // namespace
@@ -52,7 +52,7 @@ TEST(NoiseScale, followsTheResiduals)
     NoiseScale noise(bare());
     for (int i = 0; i < 600; ++i)
     {
-        noise.update(with(9, 0.5), 1.0 / 30);
+        noise.update(with(9, 0.5), 1.0 / 30, true);
     }
     EXPECT_NEAR(noise.factors().points, 9, 0.01);
     EXPECT_NEAR(noise.factors().planes, 0.5, 0.01);
@@ -62,7 +62,7 @@ TEST(NoiseScale, takesItsTime)
 {
     NoiseScale noise(bare());
     const double before = noise.factors().points;
-    noise.update(with(before + 10, 0), bare().timeConstant);
+    noise.update(with(before + 10, 0), bare().timeConstant, true);
     EXPECT_NEAR(noise.factors().points, before + 10 * (1 - std::exp(-1)), 1e-12);
 }
 
@@ -72,7 +72,7 @@ TEST(NoiseScale, residualsAreAveragedFromTheStart)
     NoiseScale noise(bare());
     for (int i = 0; i < 12; ++i)
     {
-        noise.update(with(0.5, 0.5), 1.0 / 30);
+        noise.update(with(0.5, 0.5), 1.0 / 30, true);
     }
     EXPECT_NEAR(noise.residuals().points, (3 * 4 + 12 * 0.5) / 15, 1e-12);
     EXPECT_NEAR(
@@ -92,7 +92,7 @@ TEST(NoiseScale, howWellPointsTellATurnIsAGeometricMean)
     {
         PoseAnalysis frame;
         frame.turnVariance = variance;
-        noise.update(frame, 1e-9);
+        noise.update(frame, 1e-9, true);
     }
     EXPECT_NEAR(noise.typicalPoints().turnVariance, 1e-5, 1e-12);
 }
@@ -101,7 +101,7 @@ TEST(NoiseScale, aFrameWithoutFeaturesTellsNothing)
 {
     NoiseScale noise(bare());
     const NoiseFactors before = noise.factors();
-    noise.update(with(0, 0), 1);
+    noise.update(with(0, 0), 1, true);
     EXPECT_EQ(noise.factors().points, before.points);
     EXPECT_EQ(noise.factors().planes, before.planes);
 }
@@ -111,7 +111,7 @@ TEST(NoiseScale, staysWithinReason)
     NoiseScale noise(bare());
     for (int i = 0; i < 100; ++i)
     {
-        noise.update(with(1e12, 1e-12), 1);
+        noise.update(with(1e12, 1e-12), 1, true);
     }
     EXPECT_NEAR(noise.factors().points, 100, 1e-6);
     EXPECT_NEAR(noise.factors().planes, 0.1, 1e-6);
@@ -129,7 +129,7 @@ TEST(NoiseScale, followsTheDisagreementOfTheReferences)
         PoseAnalysis frame = with(1, 1);
         frame.pointDisagreement = {truePoints / told.points, 1};
         frame.planeDisagreement = {2 * truePlanes / told.planes, 2};
-        noise.update(frame, 1.0 / 30);
+        noise.update(frame, 1.0 / 30, true);
     }
     EXPECT_NEAR(noise.factors().points, truePoints * params.pointFactor, 0.01);
     EXPECT_NEAR(noise.factors().planes, truePlanes * params.planeFactor, 0.01);
@@ -141,7 +141,7 @@ TEST(NoiseScale, referencesThatCannotDisagreeTellNothing)
     PoseAnalysis frame;
     frame.pointDisagreement = {0, 0};
     const NoiseFactors before = noise.factors();
-    noise.update(frame, 1);
+    noise.update(frame, 1, true);
     EXPECT_EQ(noise.factors().points, before.points);
 }
 
@@ -185,7 +185,7 @@ TEST(NoiseScale, constantFactorsComeOnTop)
     params.pointFactor = 3;
     params.planeFactor = 5;
     NoiseScale noise(params);
-    noise.update(with(50, 50), 1);
+    noise.update(with(50, 50), 1, true);
     EXPECT_EQ(noise.factors().points, 3);
     EXPECT_EQ(noise.factors().planes, 5);
     EXPECT_EQ(noise.typicalPoints().residuals, 1);

@@ -132,7 +132,7 @@ TEST_F(PairBuilderTest, knowsHowFeaturesChangeWithTheLens)
         frame.camera.gradient[error] = -1e-5 * information;
         frame.cameraByReference = frame.camera;
         calibrator = started();
-        (void)calibrator.update(frame);
+        (void)calibrator.update(frame, 0, 1, Eigen::Matrix3d::Zero());
         const double learnt = calibrator.errors()[error];
         ASSERT_GT(learnt, 1e-6) << error;
         build();

@@ -16,6 +16,7 @@ namespace pointplane
 class PoseHistory
 {
  public:
+    /** \param history frames */
     explicit PoseHistory(int history);
 
     /** The next frames are those of another camera. \param cov of its errors; zero before the first

@@ -35,9 +35,8 @@ CameraMatrix CalibrationCheck::cov() const
 
 bool CalibrationCheck::isContradicted(const CameraVector& others) const
 {
-    const CameraMatrix cov = this->cov();
-    const CameraVector errors = -cov * sum_.gradient;
-    const CameraVector variances = CameraVector(cov.diagonal()) + calibration_ + others;
-    return (errors.array().square() > kNoChanceSigmas * kNoChanceSigmas * variances.array()).any();
+    const CameraVector variances = CameraVector(cov().diagonal()) + calibration_ + others;
+    return (errors().array().square() > kNoChanceSigmas * kNoChanceSigmas * variances.array())
+        .any();
 }
 }  // namespace pointplane

@@ -125,9 +125,9 @@ class CameraCalibrator
      * times of the shutter: a wrong velocity looks like a wrong time */
     Change update(
         const PoseAnalysis& frame,
-        double bend = 0,
-        double variance = 1,
-        const Eigen::Matrix3d& byVelocities = Eigen::Matrix3d::Zero());
+        double bend,
+        double variance,
+        const Eigen::Matrix3d& byVelocities);
 
     /** What the true camera has more than recording and parameters say, in the order and units of
      * CameraError. Zero where it is not learnt, as vignetting and the scale of depth. */

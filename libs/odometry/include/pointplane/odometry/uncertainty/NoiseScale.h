@@ -61,7 +61,7 @@ class NoiseScale
 
     /** Learns from a measured frame, `dt` [s] after the one before.
      * \param tells whether residuals tell its noise: if not, it counts as a usual one */
-    void update(const PoseAnalysis& analysis, double dt, bool tells = true);
+    void update(const PoseAnalysis& analysis, double dt, bool tells);
 
     /** For the solver: variance of the residuals, times the references' disagreement, times the
      * constant factors, by which features count less against a predicted motion. */
