@@ -297,7 +297,8 @@ void writeFolders(const fs::path& folder)
         folder / "record3d",
         ">>rgb/0.jpg @j\n>>depth/0.tiff @f\n>>rgb/1.jpg @j\n>>depth/1.png @s\n" +
             std::string(">>metadata.json\n{\"w\": 16, \"h\": 12, \"fps\": 60, \"K\": [16, 0, 0, 0, "
-                        "16, 0, 7.5, 5.5, 1], \"frameTimestamps\": [0.1, 0.2]}\n"));
+                        "16, 0, 7.5, 5.5, 1], \"frameTimestamps\": [0.1, 0.2], "
+                        "\"poses\": [[0, 0, 0, 1, 0, 0, 0], [0, 0, 0, 1, 1, 2, 3]]}\n"));
     save(
         folder / "open3d",
         images("color/0.jpg", "depth/0.png") +
@@ -306,8 +307,8 @@ void writeFolders(const fs::path& folder)
     save(
         folder / "stray",
         images("rgb/0.png", "depth/000000.png") +
-            ">>camera_matrix.csv\n8,0,3.5\n0,8,2.5\n0,0,1\n>>odometry.csv\ntimestamp, frame, x\n"
-            "5.5, 000000, 0\n");
+            ">>camera_matrix.csv\n8,0,3.5\n0,8,2.5\n0,0,1\n>>odometry.csv\n"
+            "timestamp, frame, x, y, z, qx, qy, qz, qw\n5.5, 000000, 1, 2, 3, 0, 0, 0, 1\n");
 }
 
 fs::path newFolder(const fs::path& parent, const char* name)

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pointplane/evaluation/trajectory_text.h>
+
+#include <opencv2/videoio.hpp>
+
+#include "converted_recordings.h"
+
+namespace pointplane
+{
+namespace
+{
+using test::colourImage;
+using test::depthImage;
+using test::numbered;
+using testing::HasSubstr;
+
+/** Folders whose poses become the ground truth of the camera: x right, y down, z forward. */
+class ConvertPoses : public test::ConvertedRecording
+{
+ protected:
+    /** Three frames, numbered from `first`. */
+    void writeFrames(const char* colour, const char* depth, int first = 0) const
+    {
+        for (int i = 0; i < 3; ++i)
+        {
+            writeImage(numbered(colour, first + i), colourImage(i));
+            writeImage(numbered(depth, first + i), depthImage(i));
+        }
+    }
+
+    void writeRecord3d(const std::string& poses) const
+    {
+        writeFrames("in/rgb/%d.png", "in/depth/%d.png");
+        write(
+            "in/metadata.json",
+            R"({"w": 64, "h": 48, "K": [60, 0, 0, 0, 60, 0, 31.5, 23.5, 1], "fps": 10, "poses": )" +
+                poses + "}");
+    }
+
+    void writeStray(const std::string& odometry) const
+    {
+        writeFrames("in/rgb/%06d.png", "in/depth/%06d.png");
+        write("in/camera_matrix.csv", "60, 0, 31.5\n0, 60, 23.5\n0, 0, 1\n");
+        write("in/odometry.csv", odometry);
+    }
+
+    [[nodiscard]] Trajectory truth() const
+    {
+        return readTrajectoryText(dir_ / "out.groundtruth.txt");
+    }
+
+    [[nodiscard]] bool hasTruth() const
+    {
+        return std::filesystem::exists(dir_ / "out.groundtruth.txt");
+    }
+
+    /** Converts `in` and expects one line that tells this. */
+    void expectRefused(const std::string& what)
+    {
+        EXPECT_EQ(run({"folder", in_}), kExitBadInput) << text_;
+        EXPECT_THAT(text_, HasSubstr("pointplane-convert: " + in_ + what + "\n"));
+        EXPECT_FALSE(std::filesystem::exists(out_));
+        EXPECT_FALSE(hasTruth());
+    }
+};
+
+const std::string kStrayHeader = "timestamp, frame, x, y, z, qx, qy, qz, qw\n";
+
+}  // namespace
+
+/** They are of a camera as OpenGL has it: x right, y up, z backward. */
+TEST_F(ConvertPoses, record3dsCameraLooksAlongMinusZ)
+{
+    // Not turned; turned by 90 degrees about its x: up.
+    writeRecord3d("[[0, 0, 0, 1, 1, 2, 3], [0.70710678, 0, 0, 0.70710678, 4, 5, 6], null]");
+    ASSERT_EQ(run({"folder", in_}), kExitOk) << text_;
+    EXPECT_THAT(text_, HasSubstr("poses of 2 of 3 frames"));
+    const Trajectory found = truth();
+    ASSERT_EQ(found.size(), 2U);
+    EXPECT_NEAR(found.stamps[1] - found.stamps[0], 0.1, 1e-6);
+    const Eigen::Vector3d forward(0, 0, 1), right(1, 0, 0), down(0, 1, 0);
+    EXPECT_TRUE((found.poses[0] * forward).isApprox(Eigen::Vector3d(1, 2, 2), 1e-6));
+    EXPECT_TRUE((found.poses[0] * right).isApprox(Eigen::Vector3d(2, 2, 3), 1e-6));
+    EXPECT_TRUE((found.poses[0] * down).isApprox(Eigen::Vector3d(1, 1, 3), 1e-6));
+    EXPECT_TRUE((found.poses[1] * forward).isApprox(Eigen::Vector3d(4, 6, 6), 1e-6));
+}
+
+/** A selfie has the same place in all frames: none was measured. */
+TEST_F(ConvertPoses, placeholdersAreNoPoses)
+{
+    const std::string none = "[0, 0, 0, 1, 0, 0, 0]";
+    writeRecord3d("[" + none + "," + none + "," + none + "]");
+    ASSERT_EQ(run({"folder", in_}), kExitOk) << text_;
+    EXPECT_THAT(text_, HasSubstr("poses of 0 of 3 frames"));
+    EXPECT_FALSE(hasTruth());
+
+    // The first place is zero where the recording tells so.
+    writeRecord3d("[" + none + ", [0, 0, 0, 1, 0.1, 0, 0], [0, 0, 0, 1, 0.2, 0, 0]]");
+    ASSERT_EQ(run({"folder", in_}), kExitOk) << text_;
+    EXPECT_THAT(text_, HasSubstr("poses of 3 of 3 frames"));
+}
+
+TEST_F(ConvertPoses, posesOfRecord3dThatAreNoneAreNamed)
+{
+    writeRecord3d("[[0, 0, 0, 1, 1, 2, 3], [0, 0, 0, 1, 1, 2]]");
+    expectRefused("/metadata.json: the pose of frame 1 is not a list of 7 numbers");
+    writeRecord3d("{}");
+    expectRefused("/metadata.json: 'poses' is not a list");
+    writeRecord3d("[[0, 0, 0, 0, 1, 2, 3], [0, 0, 0, 1, 4, 5, 6]]");  // no quaternion
+    ASSERT_EQ(run({"folder", in_}), kExitOk) << text_;
+    EXPECT_THAT(text_, HasSubstr("poses of 1 of 3 frames"));
+}
+
+/** The recorder has turned ARKit's axes already. Lines need not be in order. */
+TEST_F(ConvertPoses, strayScannersCameraLooksAlongZ)
+{
+    writeStray(
+        kStrayHeader +
+        "7.7, 000002, 4, 5, 6, 0, 0.70710678, 0, 0.70710678\n"
+        "7.5, 000000, 1, 2, 3, 0, 0, 0, 1\n"
+        "7.6, 000001, nan, nan, nan, nan, nan, nan, nan\n"
+        "7.8, 000003, 7, 8, 9, 0, 0, 0, 1\n");
+    ASSERT_EQ(run({"folder", in_}), kExitOk) << text_;
+    EXPECT_THAT(text_, HasSubstr("poses of 2 of 3 frames"));
+    const Trajectory found = truth();
+    ASSERT_EQ(found.size(), 2U);
+    EXPECT_NEAR(found.stamps[0], 7.5, 1e-6);
+    EXPECT_NEAR(found.stamps[1], 7.7, 1e-6);
+    const Eigen::Vector3d forward(0, 0, 1);
+    EXPECT_TRUE((found.poses[0] * forward).isApprox(Eigen::Vector3d(1, 2, 4), 1e-6));
+    EXPECT_TRUE((found.poses[1] * forward).isApprox(Eigen::Vector3d(5, 5, 6), 1e-6));
+}
+
+/** The pose is that of the frame's number, also where the images before it are not there. */
+TEST_F(ConvertPoses, framesOfAVideoHaveThePoseOfTheirNumber)
+{
+    writeStray(
+        kStrayHeader +
+        "7.5, 000000, 1, 0, 0, 0, 0, 0, 1, 60, 60, 31.5, 23.5\n"
+        "7.6, 000001, 2, 0, 0, 0, 0, 0, 1, 60, 60, 31.5, 23.5\n"
+        "7.7, 000002, 3, 0, 0, 0, 0, 0, 1, 60, 60, 31.5, 23.5\n");
+    std::filesystem::remove_all(dir_ / "in/rgb");
+    std::filesystem::remove(dir_ / "in/depth/000000.png");
+    // OpenCV's own encoder is always there; what is in a file counts, not its name.
+    cv::VideoWriter video(
+        dir_ / "in/rgb.avi",
+        cv::CAP_OPENCV_MJPEG,
+        cv::VideoWriter::fourcc('M', 'J', 'P', 'G'),
+        60,
+        {64, 48});
+    for (int i = 0; i < 3; ++i)
+    {
+        video.write(colourImage(i));
+    }
+    video.release();
+    std::filesystem::rename(dir_ / "in/rgb.avi", dir_ / "in/rgb.mp4");
+    ASSERT_EQ(run({"folder", in_}), kExitOk) << text_;
+    EXPECT_THAT(text_, HasSubstr("poses of 2 of 2 frames"));
+    const Trajectory found = truth();
+    ASSERT_EQ(found.size(), 2U);
+    EXPECT_NEAR(found.stamps[0], 7.6, 1e-6);
+    EXPECT_NEAR(found.poses[0].translation().x(), 2, 1e-9);
+}
+
+TEST_F(ConvertPoses, linesOfStrayScannerThatAreNoneAreNamed)
+{
+    const std::string first = kStrayHeader + "7.5, 000000, 1, 2, 3, 0, 0, 0, 1\n";
+    writeStray(first + "7.6, 000001, one, 2, 3, 0, 0, 0, 1\n");
+    expectRefused("/odometry.csv:3: 'one' is not a number");
+    writeStray(first + "7.6, 000001, 1, 2, 3\n7.7, 000002, 1, 2, 3, 0, 0, 0, 1\n");
+    expectRefused("/odometry.csv:3: has 5 columns, not 9 as the first line");
+    // A phone that ran out of power: the last line is cut off.
+    writeStray(first + "7.6, 000001, 4, 5, 6, 0, 0, 0, 1\n7.7, 0000");
+    ASSERT_EQ(run({"folder", in_}), kExitOk) << text_;
+    EXPECT_THAT(text_, HasSubstr("poses of 2 of 2 frames"));
+}
+
+}  // namespace pointplane
