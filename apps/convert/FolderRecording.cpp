@@ -154,6 +154,10 @@ std::vector<std::string> FolderRecording::notes() const
             "poses of " + std::to_string(numPoses_) + " of " +
             std::to_string(frames_.all().size()) + " frames");
     }
+    if (!layout_.aboutTruth.empty())
+    {
+        out.push_back(layout_.aboutTruth);
+    }
     if (frames_.areDepthAlone())
     {
         out.emplace_back(

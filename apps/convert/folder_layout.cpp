@@ -11,6 +11,7 @@
 #include "dataset_layouts.h"
 #include "layout_files.h"
 #include "phone_layouts.h"
+#include "trajectory_log.h"
 
 namespace pointplane
 {
@@ -166,6 +167,10 @@ void requireNoOthers(const fs::path& folder, const std::vector<ImageRef>& depth)
     readPublishedCamera(folder, out);
     readOpen3d(folder, out);
     readRecord3d(folder, out);
+    if (!out.poseOf && out.depth.front().isNumbered)
+    {
+        readTrajectoryIn(folder, out);
+    }
     return out;
 }
 

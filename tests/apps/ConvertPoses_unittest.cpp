@@ -13,6 +13,7 @@ using test::colourImage;
 using test::depthImage;
 using test::numbered;
 using testing::HasSubstr;
+using testing::Not;
 
 /** Folders whose poses become the ground truth of the camera: x right, y down, z forward. */
 class ConvertPoses : public test::ConvertedRecording
@@ -44,6 +45,14 @@ class ConvertPoses : public test::ConvertedRecording
         write("in/odometry.csv", odometry);
     }
 
+    void writeOpen3d(int firstNumber) const
+    {
+        writeFrames("in/color/%05d.png", "in/depth/%05d.png", firstNumber);
+        write(
+            "in/camera_intrinsic.json",
+            R"({"width": 64, "height": 48, "intrinsic_matrix": [60, 0, 0, 0, 60, 0, 31.5, 23.5, 1]})");
+    }
+
     [[nodiscard]] Trajectory truth() const
     {
         return readTrajectoryText(dir_ / "out.groundtruth.txt");
@@ -66,6 +75,12 @@ class ConvertPoses : public test::ConvertedRecording
 
 const std::string kStrayHeader = "timestamp, frame, x, y, z, qx, qy, qz, qw\n";
 
+/** An item of a trajectory: this place, not turned. */
+std::string logItem(int index, int number, double x)
+{
+    return numbered("%d ", index) + numbered("%d ", index) + numbered("%d\n", number) + "1 0 0 " +
+           std::to_string(x) + "\n0 1 0 2\n0 0 1 3\n0 0 0 1\n";
+}
 }  // namespace
 
 /** They are of a camera as OpenGL has it: x right, y up, z backward. */
@@ -173,6 +188,72 @@ TEST_F(ConvertPoses, linesOfStrayScannerThatAreNoneAreNamed)
     writeStray(first + "7.6, 000001, 4, 5, 6, 0, 0, 0, 1\n7.7, 0000");
     ASSERT_EQ(run({"folder", in_}), kExitOk) << text_;
     EXPECT_THAT(text_, HasSubstr("poses of 2 of 2 frames"));
+}
+
+/** The third number is that of the depth image, from 1; files are numbered from 0 or from 1. */
+TEST_F(ConvertPoses, aTrajectoryOfRedwoodTellsTheNumberOfTheImage)
+{
+    for (const int first : {0, 1})
+    {
+        std::filesystem::remove_all(dir_ / "in");
+        writeOpen3d(first);
+        write(
+            "in/trajectory.log",
+            "# of Open3D\n" + logItem(0, 1, 0.5) + "\n" + logItem(2, 3, 2.5) + logItem(3, 4, 3.5));
+        ASSERT_EQ(run({"folder", in_}), kExitOk) << text_;
+        EXPECT_THAT(text_, HasSubstr("poses of 2 of 3 frames"));
+        const Trajectory found = truth();
+        ASSERT_EQ(found.size(), 2U);
+        EXPECT_TRUE(found.poses[0].translation().isApprox(Eigen::Vector3d(0.5, 2, 3), 1e-6));
+        EXPECT_TRUE(found.poses[1].translation().isApprox(Eigen::Vector3d(2.5, 2, 3), 1e-6));
+        EXPECT_NEAR(found.stamps[1] - found.stamps[0], 2. / 30, 1e-6);
+    }
+}
+
+TEST_F(ConvertPoses, aTrajectoryMayHaveTheNameOfItsScene)
+{
+    const std::string items = logItem(0, 1, 0.5) + logItem(1, 2, 1.5);
+    for (const std::string name : {"lounge_trajectory.log", "livingroom1-traj.txt"})
+    {
+        std::filesystem::remove_all(dir_ / "in");
+        writeOpen3d(1);
+        write("in/recorder.log", "started\n");
+        write("in/pairs.log", "0 1 3\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");  // of fragments
+        write("in/" + name, items);
+        ASSERT_EQ(run({"folder", in_}), kExitOk) << text_;
+        EXPECT_THAT(text_, HasSubstr("poses of 2 of 3 frames")) << name;
+    }
+    std::filesystem::remove(dir_ / "out.groundtruth.txt");
+    write("in/other.log", items);
+    ASSERT_EQ(run({"folder", in_}), kExitOk) << text_;
+    EXPECT_THAT(
+        text_,
+        HasSubstr("has several trajectories, livingroom1-traj.txt and other.log, so none is ground "
+                  "truth; name one trajectory.log\n"));
+    EXPECT_FALSE(hasTruth());
+    write("in/trajectory.log", items);
+    ASSERT_EQ(run({"folder", in_}), kExitOk) << text_;
+    EXPECT_TRUE(hasTruth());
+    EXPECT_THAT(text_, Not(HasSubstr("several")));
+}
+
+TEST_F(ConvertPoses, linesOfATrajectoryThatAreNoneAreNamed)
+{
+    writeOpen3d(0);
+    write("in/trajectory.log", logItem(0, 1, 0.5) + "1 1 2\n1 0 0 0\n0 1 zero 0\n");
+    expectRefused("/trajectory.log:8: 'zero' is not a number");
+    write("in/trajectory.log", logItem(0, 1, 0.5) + "1 1 2\n1 0 0\n");
+    expectRefused("/trajectory.log:7: has 3 numbers, where a row of a matrix has 4");
+    write("in/trajectory.log", logItem(0, 1, 0.5) + "1 1\n");
+    expectRefused("/trajectory.log:6: has 2 numbers, where those of a frame are 3");
+    write("in/trajectory.log", logItem(0, 1, 0.5) + "1 1 2\n1 0 0 0\n");
+    expectRefused("/trajectory.log:7: ends within a matrix");
+    // Where tracking was lost.
+    write(
+        "in/trajectory.log",
+        logItem(0, 1, 0.5) + "1 1 2\nnan nan nan nan\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
+    ASSERT_EQ(run({"folder", in_}), kExitOk) << text_;
+    EXPECT_THAT(text_, HasSubstr("poses of 1 of 3 frames"));
 }
 
 }  // namespace pointplane

@@ -287,7 +287,8 @@ void writeFolders(const fs::path& folder)
     save(folder / "7scenes", images("frame-000000.color.png", "frame-000000.depth.png") + camera);
     save(
         folder / "redwood",
-        images("image/0000001-000000033369.jpg", "depth/0000001-000000033369.png") + camera);
+        images("image/0000001-000000033369.jpg", "depth/0000001-000000033369.png") + camera +
+            ">>trajectory.log\n0 0 1\n1 0 0 0.5\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
     save(
         folder / "replica",
         images("results/frame000000.jpg", "results/depth000000.png") +
