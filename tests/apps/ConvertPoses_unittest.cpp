@@ -53,6 +53,16 @@ class ConvertPoses : public test::ConvertedRecording
             R"({"width": 64, "height": 48, "intrinsic_matrix": [60, 0, 0, 0, 60, 0, 31.5, 23.5, 1]})");
     }
 
+    void writeBonn() const
+    {
+        for (int i = 0; i < 3; ++i)
+        {
+            const std::string name = std::to_string(1548266470 + i) + ".5.png";
+            writeImage("rgbd_bonn_x/rgb/" + name, colourImage(i, 640, 480));
+            writeImage("rgbd_bonn_x/depth/" + name, depthImage(i, 640, 480));
+        }
+    }
+
     [[nodiscard]] Trajectory truth() const
     {
         return readTrajectoryText(dir_ / "out.groundtruth.txt");
@@ -256,4 +266,60 @@ TEST_F(ConvertPoses, linesOfATrajectoryThatAreNoneAreNamed)
     EXPECT_THAT(text_, HasSubstr("poses of 1 of 3 frames"));
 }
 
+/** Its file has the markers on the camera, in other axes. By hand: 1.0593 is a scale that the
+ * published rotation has, and no part of a pose. */
+TEST_F(ConvertPoses, bonnsMarkersAreNotTheCamera)
+{
+    writeBonn();
+    write("rgbd_bonn_x/groundtruth.txt", "# stamp\n1548266470.4 1 2 3 0 0 0 1\n");
+    ASSERT_EQ(run({"folder", dir_ / "rgbd_bonn_x"}), kExitOk) << text_;
+    EXPECT_THAT(
+        text_,
+        HasSubstr("rgbd_bonn_x/groundtruth.txt: poses of the markers, moved to the camera\n"));
+    const Trajectory found = truth();
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_NEAR(found.stamps[0], 1548266470.4, 1e-6);
+    EXPECT_TRUE(
+        found.poses[0].translation().isApprox(Eigen::Vector3d(-0.9887, 2.9902, 2.0111), 1e-6));
+    EXPECT_TRUE(found.poses[0].linear().col(2).isApprox(
+        Eigen::Vector3d(-0.2389, -0.6413, -0.8085) / 1.0593, 1e-3));
+    EXPECT_NEAR(found.poses[0].linear().determinant(), 1, 1e-9);
+
+    // The same, where its lists are read.
+    write("rgbd_bonn_x/rgb.txt", "1548266470.5 rgb/1548266470.5.png\n");
+    write("rgbd_bonn_x/depth.txt", "1548266470.5 depth/1548266470.5.png\n");
+    write("rgbd_bonn_x/camera.txt", "543 543 316 238 0 0 0 0 0 640 480 5000\n");
+    ASSERT_EQ(run({"tum", dir_ / "rgbd_bonn_x"}), kExitOk) << text_;
+    EXPECT_THAT(text_, HasSubstr("moved to the camera\n"));
+    EXPECT_TRUE(truth().poses.at(0).isApprox(found.poses[0], 1e-9));
+}
+
+/** As `tum` reads it. */
+TEST_F(ConvertPoses, groundTruthBesideStampedImagesIsCopied)
+{
+    for (int i = 0; i < 3; ++i)
+    {
+        const std::string name = std::to_string(1548266470 + i) + ".5.png";
+        writeImage("in/rgb/" + name, colourImage(i));
+        writeImage("in/depth/" + name, depthImage(i));
+    }
+    write("in/camera.txt", "60 60 31.5 23.5 0 0 0 0 0 64 48 1000\n");
+    const std::string poses = "# truth\n1548266470.4 1 2 3 0 0 0 1\n";
+    write("in/groundtruth.txt", poses);
+    ASSERT_EQ(run({"folder", in_}), kExitOk) << text_;
+    EXPECT_THAT(test::readBytes(dir_ / "out.groundtruth.txt"), HasSubstr(poses));
+    write("in/groundtruth.txt", "# truth\n");
+    std::filesystem::remove(dir_ / "out.groundtruth.txt");
+    ASSERT_EQ(run({"folder", in_}), kExitOk) << text_;
+    EXPECT_THAT(text_, HasSubstr("has no poses, so no ground truth is written"));
+    EXPECT_FALSE(hasTruth());
+}
+
+TEST_F(ConvertPoses, malformedGroundTruthOfBonnIsNamed)
+{
+    writeBonn();
+    write("rgbd_bonn_x/groundtruth.txt", "1548266470.4 1 2 3 0 0 0 1\n1548266470.5 1 2\n");
+    EXPECT_EQ(run({"folder", dir_ / "rgbd_bonn_x"}), kExitBadInput);
+    EXPECT_THAT(text_, HasSubstr("rgbd_bonn_x/groundtruth.txt:2: 3 columns"));
+}
 }  // namespace pointplane

@@ -290,6 +290,10 @@ void writeFolders(const fs::path& folder)
         images("image/0000001-000000033369.jpg", "depth/0000001-000000033369.png") + camera +
             ">>trajectory.log\n0 0 1\n1 0 0 0.5\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
     save(
+        folder / "stamped_truth",
+        images("rgb/1548266470.5.png", "depth/1548266470.5.png") + camera +
+            ">>groundtruth.txt\n1548266470.5 1 2 3 0 0 0 1\n");
+    save(
         folder / "replica",
         images("results/frame000000.jpg", "results/depth000000.png") +
             ">>cam_params.json\n{\"camera\": {\"w\": 8, \"h\": 6, \"fx\": 8, \"fy\": 8, \"cx\": "
