@@ -43,6 +43,7 @@ FolderRecording::~FolderRecording() = default;
 /** Of the camera that the frames are seen by. */
 void FolderRecording::readPoses()
 {
+    groundTruth_ = layout_.groundTruth;
     const Eigen::Isometry3d T_depth_cam =
         frames_.areDepthAlone() ? Eigen::Isometry3d::Identity() : layout_.T_depth_colour;
     for (const FolderFrames::Frame& frame : frames_.all())
@@ -153,6 +154,10 @@ std::vector<std::string> FolderRecording::notes() const
         out.push_back(
             "poses of " + std::to_string(numPoses_) + " of " +
             std::to_string(frames_.all().size()) + " frames");
+    }
+    if (!layout_.aboutTruth.empty())
+    {
+        out.push_back(layout_.aboutTruth);
     }
     if (frames_.areDepthAlone())
     {

@@ -4,19 +4,14 @@
 #include <pointplane/core/counted.h>
 #include <pointplane/core/number_text.h>
 #include <pointplane/core/quantile.h>
-#include <pointplane/core/read_errors.h>
-#include <pointplane/core/trimmed.h>
 #include <pointplane/evaluation/association.h>
 #include <pointplane/mrpt_io/mrpt_poses.h>
 
 #include <opencv2/imgcodecs.hpp>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <sstream>
 
@@ -74,36 +69,6 @@ namespace fs = std::filesystem;
     return image;
 }
 
-/** \return nothing if there is no such file */
-[[nodiscard]] std::optional<std::string> textOf(const std::string& path)
-{
-    if (!fs::exists(path))
-    {
-        return {};
-    }
-    std::ifstream in(path, std::ios::binary);
-    if (!in || !fs::is_regular_file(path))
-    {
-        throw InputError("cannot read " + path + ": " + (in ? "not a file" : std::strerror(errno)));
-    }
-    const std::string text = readAll(in);
-    requireRead(in, path);
-    return text;
-}
-
-/** Whether there is more than comments. */
-[[nodiscard]] bool hasPoses(const std::string& text)
-{
-    std::istringstream lines(text);
-    for (std::string line; std::getline(lines, line);)
-    {
-        if (const std::string words = trimmed(line); !words.empty() && words[0] != '#')
-        {
-            return true;
-        }
-    }
-    return false;
-}
 }  // namespace
 
 TumRecording::TumRecording(const TumOptions& options) : options_(options)
@@ -116,7 +81,7 @@ TumRecording::TumRecording(const TumOptions& options) : options_(options)
         camera_.unitsPerMetre = options.depthScale;
     }
     pairImages();
-    readGroundTruth();
+    truth_ = readTumTruth(options.folder);
 }
 
 void TumRecording::readLists()
@@ -165,20 +130,6 @@ void TumRecording::pairImages()
             " (stamps must be in seconds; --max-difference takes a longer time)");
     }
     requireColour(colour_[*frames_.front().colour].path);
-}
-
-void TumRecording::readGroundTruth()
-{
-    const std::string truthFile = options_.folder + "/groundtruth.txt";
-    const auto truth = textOf(truthFile);
-    if (truth && hasPoses(*truth))
-    {
-        groundTruth_ = *truth;
-    }
-    else if (truth)
-    {
-        noTruth_ = truthFile + ": has no poses, so no ground truth is written";
-    }
 }
 
 double TumRecording::delayOf(const Frame& frame) const
@@ -230,7 +181,7 @@ std::vector<std::string> TumRecording::notes() const
         out.push_back(
             "camera: " + camera_.guessed + ", by the folder's name; --camera takes another");
     }
-    for (const std::string& note : {camera_.unused, evening_, noTruth_})
+    for (const std::string& note : {camera_.unused, evening_, truth_.note})
     {
         if (!note.empty())
         {

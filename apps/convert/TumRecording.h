@@ -9,6 +9,7 @@
 #include "Recording.h"
 #include "TumFolder.h"
 #include "calibration_file.h"
+#include "tum_truth.h"
 
 namespace pointplane
 {
@@ -35,8 +36,8 @@ class TumRecording : public Recording
 
     /** Lists, camera, images: all that is read. */
     [[nodiscard]] std::vector<std::string> files() const;
-    /** groundtruth.txt, or empty if there is none with poses. */
-    [[nodiscard]] std::string groundTruth() const override { return groundTruth_; }
+    /** Of readTumTruth(). */
+    [[nodiscard]] std::string groundTruth() const override { return truth_.text; }
 
  private:
     struct Frame
@@ -47,7 +48,6 @@ class TumRecording : public Recording
 
     void readLists();
     void pairImages();
-    void readGroundTruth();
     /** Depth after colour [s]. */
     [[nodiscard]] double delayOf(const Frame& frame) const;
     [[nodiscard]] std::vector<std::string> notesOfPairs() const;
@@ -56,8 +56,7 @@ class TumRecording : public Recording
     std::vector<TumImage> colour_, depth_;
     Calibration camera_;
     std::vector<Frame> frames_;
-    std::string groundTruth_;
-    std::string noTruth_;  //!< why there is a groundtruth.txt, but no ground truth, or empty
+    TumTruth truth_;
     std::string evening_;  //!< what was done to the stamps, or empty
     std::size_t next_{0};
 };

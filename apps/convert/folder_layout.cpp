@@ -7,10 +7,13 @@
 #include <filesystem>
 #include <set>
 #include <system_error>
+#include <utility>
 
 #include "dataset_layouts.h"
 #include "layout_files.h"
 #include "phone_layouts.h"
+#include "trajectory_log.h"
+#include "tum_truth.h"
 
 namespace pointplane
 {
@@ -131,6 +134,21 @@ void requireNoOthers(const fs::path& folder, const std::vector<ImageRef>& depth)
     }
 }
 
+/** By stamps or numbers, as the images have them. */
+void readTruth(const fs::path& folder, FolderLayout& out)
+{
+    if (!out.depth.front().isNumbered)
+    {
+        TumTruth truth = readTumTruth(folder.string());
+        out.groundTruth = std::move(truth.text);
+        out.aboutTruth = std::move(truth.note);
+    }
+    else if (!out.poseOf)
+    {
+        readTrajectoryIn(folder, out);
+    }
+}
+
 /** Colour and depth in two folders beside each other, or in one, told by a word in the names; or
  * depth alone. */
 [[nodiscard]] std::optional<FolderLayout> oneOrTwoFolders(const fs::path& folder)
@@ -166,6 +184,7 @@ void requireNoOthers(const fs::path& folder, const std::vector<ImageRef>& depth)
     readPublishedCamera(folder, out);
     readOpen3d(folder, out);
     readRecord3d(folder, out);
+    readTruth(folder, out);
     return out;
 }
 

@@ -26,6 +26,8 @@ struct FolderLayout
     Eigen::Isometry3d T_depth_colour{Eigen::Isometry3d::Identity()};  //!< of depthCamera
     /** Pose in the world of the camera that saw a depth image; empty: the folder tells none. */
     std::function<std::optional<Eigen::Isometry3d>(const ImageRef& depth)> poseOf;
+    std::string groundTruth;  //!< of colour, a text of the TUM format, where the folder has it
+    std::string aboutTruth;   //!< what people should know of poses in the folder, or empty
     double unitsPerMetre{1000};
     std::optional<double> fps;              //!< where the folder tells it
     std::string stampList;                  //!< a file that tells stamps by number, if there is one

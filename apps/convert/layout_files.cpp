@@ -14,6 +14,7 @@
 #include <string>
 
 #include "image_names.h"
+#include "pose_numbers.h"
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
@@ -23,26 +24,6 @@ namespace fs = std::filesystem;
 
 namespace
 {
-/** Of a 4x4 matrix, row by row, or nothing if that is no rotation and translation. */
-std::optional<Eigen::Isometry3d> poseOf(const std::vector<double>& m)
-{
-    constexpr double kRounding = 1e-3;  // of what a file holds
-    if (m.size() != 16)
-    {
-        return {};
-    }
-    Eigen::Isometry3d out;
-    out.matrix() = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(m.data());
-    const Eigen::Matrix3d R = out.linear();
-    if (!out.matrix().allFinite() || out.matrix().row(3) != Eigen::RowVector4d(0, 0, 0, 1) ||
-        !(R.transpose() * R).isIdentity(kRounding) || R.determinant() < 0)
-    {
-        return {};
-    }
-    out.linear() = Eigen::Quaterniond(R).normalized().toRotationMatrix();
-    return out;
-}
-
 /** All numbers of a text file, separated by blanks or commas. */
 std::vector<double> numbersInFile(const fs::path& path)
 {
@@ -91,6 +72,23 @@ void requireFolder(const std::string& path)
     }
 }
 
+std::vector<double> numbersInLine(std::string line, const std::string& where)
+{
+    std::replace(line.begin(), line.end(), ',', ' ');
+    std::istringstream words(line);
+    std::vector<double> out;
+    for (std::string word; words >> word;)
+    {
+        const auto value = parseNumber<double>(word);
+        if (!value)
+        {
+            throw InputError(where + "'" + word + "' is not a number");
+        }
+        out.push_back(*value);
+    }
+    return out;
+}
+
 PinholeCamera cameraOfMatrix(const fs::path& path)
 {
     const std::vector<double> m = numbersInFile(path);
@@ -114,7 +112,7 @@ PinholeCamera cameraOfMatrix(const fs::path& path)
 
 Eigen::Isometry3d poseOfMatrix(const fs::path& path)
 {
-    const auto pose = poseOf(numbersInFile(path));
+    const auto pose = poseFromMatrix(numbersInFile(path));
     if (!pose)
     {
         throw InputError(
@@ -129,7 +127,7 @@ std::optional<Eigen::Isometry3d> poseIn(const fs::path& path)
 {
     try
     {
-        return poseOf(numbersInFile(path));
+        return poseFromMatrix(numbersInFile(path));
     }
     catch (const InputError&)
     {
@@ -151,7 +149,7 @@ std::vector<std::optional<Eigen::Isometry3d>> posesInLines(const fs::path& path)
             // What is no number makes no rotation.
             numbers.push_back(parseFinite(word).value_or(std::nan("")));
         }
-        out.push_back(poseOf(numbers));
+        out.push_back(poseFromMatrix(numbers));
     }
     requireRead(file, path.string());
     return out;

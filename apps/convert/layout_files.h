@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "calibration_file.h"
@@ -18,6 +19,10 @@ namespace pointplane
 
 /** \throws InputError if it is none, or cannot be read */
 void requireFolder(const std::string& path);
+
+/** The numbers of a line, separated by blanks or commas; also nan and inf.
+ * \param where file and line, for the message */
+[[nodiscard]] std::vector<double> numbersInLine(std::string line, const std::string& where);
 
 /** A 3x3 or 4x4 matrix, row by row. Its size is not in the file: 0x0. */
 [[nodiscard]] PinholeCamera cameraOfMatrix(const std::filesystem::path& path);

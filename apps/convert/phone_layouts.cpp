@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "phone_layouts.h"
 
-#include <pointplane/core/number_text.h>
-#include <pointplane/core/read_errors.h>
+#include <pointplane/mrpt_io/errors.h>
 
 #include <algorithm>
-#include <cmath>
-#include <fstream>
-#include <map>
-#include <sstream>
+#include <iterator>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "layout_files.h"
+#include "pose_numbers.h"
+#include "stray_odometry.h"
 #include <nlohmann/json.hpp>
 
 namespace pointplane
@@ -38,24 +38,54 @@ void setStamps(FolderLayout& out, const fs::path& list, const StampOf& stampOf)
     }
 }
 
-/** Stamps by frame: the first two columns of StrayScanner's odometry.csv. */
-[[nodiscard]] std::map<long, double> stampsOf(const fs::path& odometry)
+/** ARKit's poses of frames. A place that is exactly zero in several frames was not measured. */
+void setPoses(FolderLayout& out, NumberedPoses poses)
 {
-    std::map<long, double> out;
-    std::ifstream file(odometry);
-    for (std::string line; std::getline(file, line);)
+    const auto isZero = [](const auto& numbered)
+    { return numbered.second.translation().isZero(0); };
+    if (std::count_if(poses.begin(), poses.end(), isZero) > 1)
     {
-        std::istringstream columns(line);
-        std::string first, second;
-        std::getline(columns >> std::ws, first, ',');
-        std::getline(columns >> std::ws, second, ',');
-        const auto stamp = parseFinite(first), frame = parseFinite(second);
-        if (stamp && frame)
+        for (auto it = poses.begin(); it != poses.end();)
         {
-            out[std::lround(*frame)] = *stamp;
+            it = isZero(*it) ? poses.erase(it) : std::next(it);
         }
     }
-    requireRead(file, odometry.string());
+    out.poseOf = poseByNumber(std::move(poses));
+}
+
+/** Record3D's "poses", [qx, qy, qz, qw, x, y, z] of each frame, or null. Its camera has OpenGL's
+ * axes, x right, y up, z backward. */
+[[nodiscard]] NumberedPoses posesOfRecord3d(const nlohmann::json& json, const fs::path& path)
+{
+    constexpr std::size_t kNumbers = 7;
+    const Eigen::Isometry3d T_opengl_optical(Eigen::Quaterniond(0, 1, 0, 0));
+    if (!json.is_array())
+    {
+        throw InputError(path.string() + ": 'poses' is not a list");
+    }
+    NumberedPoses out;
+    for (std::size_t i = 0; i < json.size(); ++i)
+    {
+        const nlohmann::json& v = json[i];
+        if (v.is_null())
+        {
+            continue;
+        }
+        if (!v.is_array() || v.size() != kNumbers ||
+            !std::all_of(v.begin(), v.end(), [](const auto& x) { return x.is_number(); }))
+        {
+            throw InputError(
+                path.string() + ": the pose of frame " + std::to_string(i) +
+                " is not a list of 7 numbers");
+        }
+        const auto numbers = v.get<std::vector<double>>();
+        const auto pose =
+            poseFromQuaternion(Eigen::Vector3d(&numbers[4]), Eigen::Vector4d(&numbers[0]));
+        if (pose)
+        {
+            out.emplace(static_cast<long>(i), *pose * T_opengl_optical);
+        }
+    }
     return out;
 }
 }  // namespace
@@ -86,14 +116,16 @@ std::optional<FolderLayout> strayScanner(const fs::path& folder)
     }
     if (const fs::path list = folder / "odometry.csv"; fs::exists(list))
     {
+        StrayOdometry odometry = readStrayOdometry(list);
         setStamps(
             out,
             list,
-            [stamps = stampsOf(list)](long frame)
+            [&stamps = odometry.stamps](long frame)
             {
                 const auto found = stamps.find(frame);
                 return found == stamps.end() ? std::nullopt : std::optional(found->second);
             });
+        setPoses(out, std::move(odometry.poses));
     }
     out.fps = 60;
     return out;
@@ -125,6 +157,10 @@ void readRecord3d(const fs::path& folder, FolderLayout& out)
                                ? std::optional(stamps[i].get<double>())
                                : std::nullopt;
                 });
+        }
+        if (json->contains("poses"))
+        {
+            setPoses(out, posesOfRecord3d((*json)["poses"], path));
         }
         return;
     }

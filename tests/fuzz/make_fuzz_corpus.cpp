@@ -287,7 +287,12 @@ void writeFolders(const fs::path& folder)
     save(folder / "7scenes", images("frame-000000.color.png", "frame-000000.depth.png") + camera);
     save(
         folder / "redwood",
-        images("image/0000001-000000033369.jpg", "depth/0000001-000000033369.png") + camera);
+        images("image/0000001-000000033369.jpg", "depth/0000001-000000033369.png") + camera +
+            ">>trajectory.log\n0 0 1\n1 0 0 0.5\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
+    save(
+        folder / "stamped_truth",
+        images("rgb/1548266470.5.png", "depth/1548266470.5.png") + camera +
+            ">>groundtruth.txt\n1548266470.5 1 2 3 0 0 0 1\n");
     save(
         folder / "replica",
         images("results/frame000000.jpg", "results/depth000000.png") +
@@ -297,7 +302,8 @@ void writeFolders(const fs::path& folder)
         folder / "record3d",
         ">>rgb/0.jpg @j\n>>depth/0.tiff @f\n>>rgb/1.jpg @j\n>>depth/1.png @s\n" +
             std::string(">>metadata.json\n{\"w\": 16, \"h\": 12, \"fps\": 60, \"K\": [16, 0, 0, 0, "
-                        "16, 0, 7.5, 5.5, 1], \"frameTimestamps\": [0.1, 0.2]}\n"));
+                        "16, 0, 7.5, 5.5, 1], \"frameTimestamps\": [0.1, 0.2], "
+                        "\"poses\": [[0, 0, 0, 1, 0, 0, 0], [0, 0, 0, 1, 1, 2, 3]]}\n"));
     save(
         folder / "open3d",
         images("color/0.jpg", "depth/0.png") +
@@ -306,8 +312,8 @@ void writeFolders(const fs::path& folder)
     save(
         folder / "stray",
         images("rgb/0.png", "depth/000000.png") +
-            ">>camera_matrix.csv\n8,0,3.5\n0,8,2.5\n0,0,1\n>>odometry.csv\ntimestamp, frame, x\n"
-            "5.5, 000000, 0\n");
+            ">>camera_matrix.csv\n8,0,3.5\n0,8,2.5\n0,0,1\n>>odometry.csv\n"
+            "timestamp, frame, x, y, z, qx, qy, qz, qw\n5.5, 000000, 1, 2, 3, 0, 0, 0, 1\n");
 }
 
 fs::path newFolder(const fs::path& parent, const char* name)
