@@ -95,14 +95,14 @@ TEST_F(FrontEndTest, featuresAreFoundAgain)
 
 TEST_F(FrontEndTest, surfacesTellRightMotionsFromWrongOnes)
 {
-    const Agreement right = frontEnd_.compare(reference_, current_, trueMotion(5), 0);
+    const Agreement right = frontEnd_.compare(reference_, current_, trueMotion(5));
     EXPECT_GT(right.fraction(), 0.9);
     Eigen::Isometry3d wrong = trueMotion(5);
     wrong.translation() += Eigen::Vector3d(0.05, 0.05, 0.1);
-    EXPECT_LT(frontEnd_.compare(reference_, current_, wrong, 0).fraction(), 0.6);
+    EXPECT_LT(frontEnd_.compare(reference_, current_, wrong).fraction(), 0.6);
     // Of a frame that is no key frame, nothing is kept to compare with.
     reference_.images.reset();
-    EXPECT_EQ(frontEnd_.compare(reference_, current_, trueMotion(5), 0).seen(), 0);
+    EXPECT_EQ(frontEnd_.compare(reference_, current_, trueMotion(5)).seen(), 0);
     EXPECT_FALSE(frontEnd_.alignImages(reference_, current_));
     EXPECT_TRUE(frontEnd_.alignPlanes(reference_, current_).empty());
 }

@@ -39,10 +39,10 @@ TEST(Pipeline, leastAgreement)
             (void)odometry.process(desk.frame(i));
         }
         RgbdFrame frame = desk.frame(5);
-        frame.depth *= 1.3;  // as from a camera whose scale has changed
-        EXPECT_EQ(
-            odometry.process(frame).status,
-            least > 0 ? TrackingStatus::Predicted : TrackingStatus::Tracked);
+        frame.depth *= 1.4;  // as from a camera whose scale has changed
+        const OdometryResult result = odometry.process(frame);
+        EXPECT_EQ(result.status, least > 0 ? TrackingStatus::Predicted : TrackingStatus::Tracked)
+            << result.reason;
     }
 }
 }  // namespace

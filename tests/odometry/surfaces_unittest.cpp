@@ -4,7 +4,9 @@
 #include <pointplane/odometry/Odometry.h>
 #include <pointplane/simulation/SimulatedSequence.h>
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
 #include <vector>
 
 #include "hell_frames.h"
@@ -143,6 +145,46 @@ TEST(Surfaces, theStillPartIsAllIfNothingSurelyMoves)
     EXPECT_EQ(numReadings(stillPart(features, few, {{11, 4}, {11, 4}}).depth), 400);
 }
 
+TEST(Surfaces, depthOfWhatHasMovedIsNotCompared)
+{
+    const Features features = twoPlanesWithDepth();
+    const RgbdFrame frame = withoutMoved(features, {{11, 4}, {10, 4}});
+    EXPECT_EQ(numReadings(frame.depth), 200) << "0.5 is not less than half";
+    EXPECT_TRUE(std::isnan(frame.depth.at<float>(5, 5)));
+    EXPECT_EQ(frame.depth.at<float>(5, 15), 2);
+    EXPECT_EQ(numReadings(features.frame.depth), 400) << "the frame itself stays";
+    EXPECT_EQ(withoutMoved(features, {}).depth.data, features.frame.depth.data) << "not copied";
+}
+
+/** Plane 1 of the frame has moved; in the reference, it was plane 0. */
+TEST(Surfaces, samplesOfWhatHasMovedSinceAreLeftOut)
+{
+    Reference reference;
+    reference.planes = twoPlanes(0).planes;
+    reference.images = std::make_shared<KeyframeImages>();
+    RgbdFrame& frame = reference.images->frame;
+    frame = twoPlanesWithDepth().frame;
+    frame.camera.width = frame.camera.height = 20;
+    frame.camera.fx = frame.camera.fy = 20;
+    frame.camera.cx = frame.camera.cy = 9.5;
+    reference.images->surface = SurfaceSamples(frame, DepthNoise());
+    Association association;
+    association.reference = &reference;
+    const size_t all = reference.images->surface.points_cam.size();
+    ASSERT_GT(all, 300U);
+    const std::vector<InlierRatio> moved{{0, 0}, {11, 4}};
+    EXPECT_EQ(stillSamples(association, moved).points_cam.size(), all) << "no plane is matched";
+    association.movingPlanes = {{0, 1}};
+    const SurfaceSamples still = stillSamples(association, moved);
+    EXPECT_NEAR(static_cast<double>(still.points_cam.size()), all / 2.0, 20);
+    for (const Eigen::Vector3f& point : still.points_cam)
+    {
+        EXPECT_GT(point.x(), 0) << "plane 0 is on the left";
+    }
+    reference.images.reset();
+    EXPECT_TRUE(stillSamples(association, moved).points_cam.empty());
+}
+
 /** A screen that fills half of the view and moves: with points of it in new key frames, the motion
  * follows it by 17 mm a frame from frame 73 on. */
 TEST(Surfaces, newKeyFramesTakeNoPointsFromWhatMoves)
@@ -156,6 +198,32 @@ TEST(Surfaces, newKeyFramesTakeNoPointsFromWhatMoves)
     }
     const Eigen::Vector3d error = T_world_cam.translation() - half.trueMotion(0, 90).translation();
     EXPECT_LT(error.norm(), 0.02);
+}
+
+/** From 15 images a second, the motion followed a screen that begins to move: 144 mm over a second,
+ * because what it had shown while it stood outweighed what it showed now. */
+TEST(Surfaces, whatHasStoodIsNotFollowedWhenItBeginsToMove)
+{
+    SimulationParams params;
+    params.width = 320;
+    params.height = 240;
+    params.fps = 15;
+    const SimulatedSequence half("half", params, 2);
+    Odometry odometry{OdometryParams()};
+    std::vector<Eigen::Isometry3d> T_world_cam;
+    double worst = 0;
+    for (int i = 0; i < 60; ++i)
+    {
+        T_world_cam.push_back(odometry.process(half.frame(i)).pose.mean);
+        if (i >= 15)
+        {
+            const auto before = static_cast<size_t>(i - 15);
+            const Eigen::Isometry3d motion = T_world_cam[before].inverse() * T_world_cam.back();
+            const Eigen::Isometry3d error = half.trueMotion(i - 15, i).inverse() * motion;
+            worst = std::max(worst, error.translation().norm());
+        }
+    }
+    EXPECT_LT(worst, 0.02);
 }
 
 /** Two people who move in front of a camera that is held still: 10 mm over a second if the surfaces

@@ -57,6 +57,24 @@ TEST(InlierRatio, byHand)
     EXPECT_EQ((InlierRatio{8, 8}.value()), 1);
 }
 
+TEST(InlierRatio, fallsAtOnceHoweverLongAllWasWell)
+{
+    const InlierRatio moved = remembered({1000, 900}, {10, 0});
+    EXPECT_EQ(moved.points, 10 + 10) << "a frame counts as much as all before";
+    EXPECT_EQ(moved.inliers, 0 + 9);
+    EXPECT_EQ(remembered(moved, {10, 0}).inliers, 4.5);
+    EXPECT_EQ(remembered({4, 4}, {10, 0}).points, 14) << "of few before, all count";
+}
+
+TEST(InlierRatio, doesNotRiseByOneGoodFrame)
+{
+    const InlierRatio after = remembered({20, 5}, {10, 10});
+    EXPECT_EQ(after.points, 20);
+    EXPECT_EQ(after.inliers, 5);
+    EXPECT_EQ(remembered({20, 5}, {}).points, 20) << "a frame without points tells nothing";
+    EXPECT_EQ(remembered({}, {10, 10}).value(), 1);
+}
+
 TEST(Surfaces, aPlaneGoesWithThePointsOnIt)
 {
     test::PairWorld w = test::moved(121, 60, 6);
@@ -92,13 +110,31 @@ TEST(Surfaces, informationByHand)
     {
         pair.surface = 0;
     }
-    problem.surfaces = {{8 + 10, 3 + 2 - 5}};  // with the ten that agree now: 12 of 30
+    problem.surfaces = {{18, 6}};  // the ten that agree now do not make it better
     half = solver.solve(problem, {w.T_prev_cur, Vector6d::Zero()});
     EXPECT_THAT(half.infoPlanes, test::IsMatrixNear(0.4 * all.infoPlanes, 1e-3));
     EXPECT_THAT(half.infoPoints, test::IsMatrixNear(0.4 * all.infoPoints, 1e-3));
+    EXPECT_EQ(all.pointInlierWorth, all.numPointInliers);
+    EXPECT_NEAR(half.pointInlierWorth, 0.4 * half.numPointInliers, 1e-9);
 }
 
-TEST(Surfaces, analysisAddsThisFramesPoints)
+/** It has stood for a hundred frames; each of two frames in which it moves halves its weight. */
+TEST(Surfaces, whatBeginsToMoveLosesItsWeight)
+{
+    test::PairWorld w = test::moved(126, 60, 6);
+    PoseProblem problem = oneMoved(w, true);
+    problem.surfaces.assign(6, {1000, 1000});
+    const PoseSolver solver(withoutStudent());
+    const PoseAnalysis first = solver.analyse(problem, solver.solve(problem, {}));
+    EXPECT_LT(first.planeWeights[kMoved], 0.7);
+    EXPECT_GT(first.planeWeights[0], 0.9);
+    problem.surfaces = first.surfaces;
+    const PoseAnalysis second = solver.analyse(problem, solver.solve(problem, {}));
+    EXPECT_LT(second.planeWeights[kMoved], 0.45);
+    EXPECT_GT(second.planeWeights[0], 0.9);
+}
+
+TEST(Surfaces, analysisTellsWhatIsKnownAfterTheFrame)
 {
     test::PairWorld w = test::moved(124, 60, 6);
     PoseProblem problem = oneMoved(w, true);
@@ -107,8 +143,8 @@ TEST(Surfaces, analysisAddsThisFramesPoints)
     const PoseSolver solver(withoutStudent());
     const PoseAnalysis analysis = solver.analyse(problem, solver.solve(problem, {}));
     ASSERT_EQ(analysis.surfaces.size(), 6U);
-    EXPECT_EQ(analysis.surfaces[0].points, 14);
-    EXPECT_GT(analysis.surfaces[0].inliers, 1 + 6);
+    EXPECT_EQ(analysis.surfaces[0].points, 4) << "its points agree now: that does not help yet";
+    EXPECT_EQ(analysis.surfaces[0].inliers, 1);
     EXPECT_EQ(analysis.surfaces[kMoved].points, 10);
     EXPECT_LT(analysis.surfaces[kMoved].inliers, 2);
     EXPECT_EQ(analysis.planeWeights[0], analysis.surfaces[0].value());

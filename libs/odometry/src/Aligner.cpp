@@ -23,6 +23,13 @@ namespace
  * and residual up to which they count at the start, over the usual ones. */
 constexpr double kWideSearch = 5;
 
+/** Of two motions, as a covariance of the pose (left perturbation). */
+Matrix6d squareOfDistance(const Motion& a, const Motion& b)
+{
+    const Vector6d apart = leftError(a.T_prev_cur, b.T_prev_cur);
+    return apart * apart.transpose();
+}
+
 void tell(const Alignment& alignment, FrameDiagnostics& diagnostics)
 {
     const PoseEstimate& estimate = alignment.estimate;
@@ -211,7 +218,11 @@ void Aligner::settleRivals(const Scene& scene, Alignment& alignment) const
     leaveLoserOut(*rivalry, alignment.associations);
     estimate(scene, rivalry->winner(), alignment);
     judge_.judge(alignment);
-    alignment.unsettled = Judge::whyUnsettled(*rivalry, scene.predicted);
+    alignment.unsettled = Judge::whyUnsettled(*rivalry);
+    if (!rivalry->firstWins() && scene.predicted.followsMeasured)
+    {
+        alignment.turn = squareOfDistance(rivalry->first, alignment.estimate.motion.mean);
+    }
 }
 
 /** Whether points that may agree by chance decide a direction. */
@@ -237,9 +248,7 @@ void Aligner::distrustPoints(const Scene& scene, Alignment& alignment) const
     estimate(scene, motion, alignment);
     if (!Judge::isConfirmed(alignment))
     {
-        const Vector6d apart =
-            leftError(motion.T_prev_cur, alignment.estimate.motion.mean.T_prev_cur);
-        alignment.doubt = Matrix6d(apart * apart.transpose());
+        alignment.doubt = squareOfDistance(motion, alignment.estimate.motion.mean);
         alignment.estimate.motion.mean = motion;
     }
     judge_.judge(alignment);
@@ -324,26 +333,30 @@ void Aligner::estimate(
     alignment.msPose += watch.ms();
 }
 
-/** Asks the depth image, and counts the points that should be in view of the colour image. */
+/** Asks the depth image without what has moved, and counts the points that should be in view of the
+ * colour image. */
 void Aligner::verify(const Scene& scene, Alignment& alignment)
 {
     const Motion& motion = alignment.estimate.motion.mean;
     const Eigen::Isometry3d T_cur_world = scene.track.fromWorld(motion.T_prev_cur);
+    const std::vector<InlierRatio>& surfaces = alignment.problem.surfaces;
+    const RgbdFrame still = withoutMoved(scene.current, surfaces);
     alignment.agreement = {};
     alignment.numSought = 0;
-    for (const Reference* reference : scene.track.references())
+    for (const Association& association : alignment.associations)
     {
-        if (!scene.current.frame.gray.empty())
+        const Reference& reference = *association.reference;
+        if (!still.gray.empty())
         {
-            alignment.numSought += numInView(
-                *reference, scene.current.frame.camera, T_cur_world * reference->T_world_cam);
+            alignment.numSought +=
+                numInView(reference, still.camera, T_cur_world * reference.T_world_cam);
         }
         if (scene.current.hasDepth && alignment.agreement.seen() < Judge::kEnoughSurfaces)
         {
-            const DepthMotion depth = depthMotion(
-                scene.track, *reference, scene.current.frame, motion, scene.errors.camera());
-            alignment.agreement +=
-                scene.frontEnd.compare(*reference, scene.current, depth.T_cur_ref, depth.slack_m);
+            const DepthMotion depth =
+                depthMotion(scene.track, reference, still, motion, scene.errors.camera());
+            alignment.agreement += scene.frontEnd.compare(
+                stillSamples(association, surfaces), still, depth.T_cur_ref, depth.slack_m);
         }
     }
     for (const Association& association : alignment.associations)

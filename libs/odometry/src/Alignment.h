@@ -29,6 +29,9 @@ struct Alignment
      * be wrong, by the motion that is estimated without them; a covariance of the pose (left
      * perturbation, m, rad). The motion is no minimum of `problem` then. */
     std::optional<Matrix6d> doubt;
+    /** Of a motion that is not the one that most features follow: how far apart the two are, as a
+     * covariance like `doubt`. The frames before may have followed the other one. */
+    std::optional<Matrix6d> turn;
     std::vector<Mark> marks;  //!< of this and of other attempts at the frame
     std::string unsettled;    //!< why another motion may be the camera's (RivalMotions), or empty
     bool holds{false};        //!< the estimate is to be believed

@@ -174,17 +174,18 @@ std::shared_ptr<KeyframeImages> FrontEnd::keyframeImages(const Features& feature
 }
 
 Agreement FrontEnd::compare(
-    const Reference& reference,
-    const Features& current,
+    const SurfaceSamples& reference,
+    const RgbdFrame& current,
     const Eigen::Isometry3d& T_cur_ref,
     double slack_m) const
 {
-    return reference.images ? compareSurfaces(
-                                  reference.images->surface,
-                                  T_cur_ref,
-                                  current.frame,
-                                  depthNoise_.noise(),
-                                  slack_m)
+    return compareSurfaces(reference, T_cur_ref, current, depthNoise_.noise(), slack_m);
+}
+
+Agreement FrontEnd::compare(
+    const Reference& reference, const Features& current, const Eigen::Isometry3d& T_cur_ref) const
+{
+    return reference.images ? compare(reference.images->surface, current.frame, T_cur_ref, 0)
                             : Agreement();
 }
 
@@ -223,7 +224,7 @@ std::vector<Eigen::Isometry3d> FrontEnd::alignPlanes(
     std::vector<Eigen::Isometry3d> out =
         planeAligner_.motions(reference.planes, current.planes, matchImages(reference, current));
     const auto isContradicted = [&](const Eigen::Isometry3d& T_cur_ref)
-    { return !Judge::areConvincing(compare(reference, current, T_cur_ref, 0)); };
+    { return !Judge::areConvincing(compare(reference, current, T_cur_ref)); };
     out.erase(std::remove_if(out.begin(), out.end(), isContradicted), out.end());
     return out;
 }

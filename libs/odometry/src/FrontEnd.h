@@ -42,10 +42,14 @@ class FrontEnd
 
     /** How well the depth images agree about a motion; see compareSurfaces(). */
     [[nodiscard]] Agreement compare(
-        const Reference& reference,
-        const Features& current,
+        const SurfaceSamples& reference,
+        const RgbdFrame& current,
         const Eigen::Isometry3d& T_cur_ref,
         double slack_m) const;
+    [[nodiscard]] Agreement compare(
+        const Reference& reference,
+        const Features& current,
+        const Eigen::Isometry3d& T_cur_ref) const;
 
     /** What has moved since earlier frames; see findMovingRegions(). */
     [[nodiscard]] MovingRegions findMoving(

@@ -79,7 +79,10 @@ double evidence(const Alignment& alignment, double motionVariance)
         alignment.agreement.fraction() *
         std::min(1.0, 1.0 * alignment.agreement.seen() / Judge::kEnoughSurfaces);
     const bool isMotion = pointVariance(alignment) < motionVariance;
-    return (alignment.holds ? 1 : 0) + (isMotion ? 1 : 0) + surfaces + pointShare(alignment);
+    // Points on what has moved before do not speak for the camera's motion.
+    const double points =
+        alignment.estimate.pointInlierWorth / std::max(alignment.numSought, kFewPoints);
+    return (alignment.holds ? 1 : 0) + (isMotion ? 1 : 0) + surfaces + points;
 }
 
 /** Most points in view do not agree on a wrong motion. */
@@ -191,19 +194,11 @@ bool Judge::isSurprising(const Alignment& alignment)
     return surprise(alignment) > kNoChanceSigmas;
 }
 
-std::string Judge::whyUnsettled(const Rivalry& rivalry, const Prediction& predicted)
+std::string Judge::whyUnsettled(const Rivalry& rivalry)
 {
-    if (!rivalry.isClear())
-    {
-        return "two motions explain about as much surface each: which of them is the camera's "
-               "cannot be told";
-    }
-    if (!rivalry.firstWins() && predicted.followsMeasured)
-    {
-        return "most of the surface in view contradicts the features that were followed so far: "
-               "the next frame has to confirm its motion";
-    }
-    return "";
+    return rivalry.isClear() ? ""
+                             : "two motions explain about as much surface each: which of them is "
+                               "the camera's cannot be told";
 }
 
 bool Judge::needsNewView(const Alignment& alignment, const MovingRegions& moving)

@@ -58,10 +58,8 @@ class Judge
     [[nodiscard]] static bool isSurprising(const Alignment& alignment);
 
     /** Why the winner of two motions is not believed to be the camera's, or empty: its surface is
-     * not clearly larger, or the estimate went with the other one. That one may have been followed
-     * in the frames before, too; so it takes two frames to turn to the winner. */
-    [[nodiscard]] static std::string whyUnsettled(
-        const Rivalry& rivalry, const Prediction& predicted);
+     * not clearly larger. */
+    [[nodiscard]] static std::string whyUnsettled(const Rivalry& rivalry);
 
     /** Whether so much has moved in front of the camera that only a new key frame can tell a right
      * motion from a wrong one. */

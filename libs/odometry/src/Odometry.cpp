@@ -48,7 +48,7 @@ struct Odometry::Impl
         const Features& current, const Alignment& alignment, const PoseAnalysis& analysis);
     [[nodiscard]] std::optional<PointReference> keyframePoints(
         const Features& current, const Alignment& alignment, const PoseAnalysis& analysis) const;
-    void predict(const Features& current, OdometryResult& result);
+    void predict(const Features& current, const Alignment& alignment, OdometryResult& result);
     void extrapolate(TrackingStatus status, double stamp, OdometryResult& result);
 
     OdometryParams params;
@@ -171,7 +171,7 @@ void Odometry::Impl::compare(
     else
     {
         showPairs(alignment.associations, nullptr, shown);
-        predict(current, result);
+        predict(current, alignment, result);
     }
     if (alignment.problem.points.empty())
     {
@@ -290,7 +290,7 @@ JointCovariance::Measurement Odometry::Impl::learnErrors(
         track.motionNoise(frame.dt, analysis.sensitivity.prior.topLeftCorner<6, 6>());
     frame.acceleration2 = track.acceleration2();
     frame.velocities = track.velocityCovs();
-    frame.doubt = alignment.doubt;
+    frame.doubt = alignment.doubt ? alignment.doubt : alignment.turn;
     return errors.learn(frame);
 }
 
@@ -322,11 +322,13 @@ std::optional<PointReference> Odometry::Impl::keyframePoints(
 }
 
 /** A usable frame that could not be measured. */
-void Odometry::Impl::predict(const Features& current, OdometryResult& result)
+void Odometry::Impl::predict(
+    const Features& current, const Alignment& alignment, OdometryResult& result)
 {
     result.status = TrackingStatus::Predicted;
     std::optional<Reference> unmatched =
         newReference(current, frontEnd.pointReference(current, current.frame));
+    unmatched->surfaces = alignment.problem.surfaces;  // what moved before still does
     // [P17, section Matching]: consecutive frames, whatever became of the one before.
     const bool isAdjacent = params.reference.isAdjacent();
     if (!isAdjacent && unmatched->planes.planes.empty() && unmatched->points.points.empty())

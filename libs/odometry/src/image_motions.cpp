@@ -52,6 +52,6 @@ std::optional<Eigen::Isometry3d> motionOfPlanes(
 bool recognises(const FrontEnd& frontEnd, const Features& current, const Reference& place)
 {
     const auto motion = frontEnd.alignImages(place, current);
-    return motion && Judge::areConvincing(frontEnd.compare(place, current, *motion, 0));
+    return motion && Judge::areConvincing(frontEnd.compare(place, current, *motion));
 }
 }  // namespace pointplane

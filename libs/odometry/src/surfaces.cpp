@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "surfaces.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -8,6 +9,32 @@
 
 namespace pointplane
 {
+namespace
+{
+constexpr float kNoReading = std::numeric_limits<float>::quiet_NaN();
+
+/** Whether most points on a surface disagree with the camera's motion. */
+bool hasMoved(const InlierRatio& surface) { return surface.value() < 0.5; }
+
+/** Planes of a reference that those of the frame that have moved are matched with. */
+std::set<int> movedOf(const Association& association, const std::vector<InlierRatio>& surfaces)
+{
+    std::set<int> out;
+    for (const std::vector<PlaneMatch>* matches : {&association.planes, &association.movingPlanes})
+    {
+        for (const PlaneMatch& match : *matches)
+        {
+            const auto cur = static_cast<size_t>(match.cur);
+            if (cur < surfaces.size() && hasMoved(surfaces[cur]))
+            {
+                out.insert(match.ref);
+            }
+        }
+    }
+    return out;
+}
+}  // namespace
+
 int planeAt(const Eigen::Vector2d& depthUv_px, const PlaneSet& planes)
 {
     const cv::Point pixel(
@@ -63,6 +90,46 @@ void countMoving(
     }
 }
 
+RgbdFrame withoutMoved(const Features& current, const std::vector<InlierRatio>& surfaces)
+{
+    RgbdFrame out = current.frame;
+    for (size_t i = 0; i < surfaces.size(); ++i)
+    {
+        if (hasMoved(surfaces[i]))
+        {
+            out.depth = out.depth.data == current.frame.depth.data ? out.depth.clone() : out.depth;
+            out.depth.setTo(kNoReading, current.planes.labels == static_cast<int>(i) + 1);
+        }
+    }
+    return out;
+}
+
+SurfaceSamples stillSamples(
+    const Association& association, const std::vector<InlierRatio>& surfaces)
+{
+    const Reference& reference = *association.reference;
+    if (!reference.images)
+    {
+        return {};
+    }
+    SurfaceSamples out = reference.images->surface;
+    const std::set<int> moved = movedOf(association, surfaces);
+    const PinholeCamera& camera = reference.images->frame.camera;
+    const auto isOnMoved = [&](const Eigen::Vector3f& point)
+    {
+        const Eigen::Vector3d p = point.cast<double>();
+        const Eigen::Vector2d pixel(
+            camera.fx * p.x() / p.z() + camera.cx, camera.fy * p.y() / p.z() + camera.cy);
+        return moved.count(planeAt(pixel, reference.planes)) > 0;
+    };
+    if (!moved.empty())
+    {
+        auto& points = out.points_cam;
+        points.erase(std::remove_if(points.begin(), points.end(), isOnMoved), points.end());
+    }
+    return out;
+}
+
 RgbdFrame stillPart(
     const Features& current, const MovingRegions& moving, const std::vector<InlierRatio>& surfaces)
 {
@@ -71,21 +138,20 @@ RgbdFrame stillPart(
     {
         return out;
     }
-    constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
     out.depth = out.depth.clone();
     std::set<int> reached;
     for (const cv::Rect& cell : moving.cells)
     {
-        out.depth(cell).setTo(kNone);
+        out.depth(cell).setTo(kNoReading);
         const Eigen::Vector2d centre(cell.x + cell.width / 2, cell.y + cell.height / 2);
         reached.insert(planeAt(centre, current.planes));
     }
     for (const int surface : reached)
     {
         const auto i = static_cast<size_t>(surface);  // on none: beyond the end
-        if (i < surfaces.size() && surfaces[i].value() < 0.5)
+        if (i < surfaces.size() && hasMoved(surfaces[i]))
         {
-            out.depth.setTo(kNone, current.planes.labels == surface + 1);
+            out.depth.setTo(kNoReading, current.planes.labels == surface + 1);
         }
     }
     return out;

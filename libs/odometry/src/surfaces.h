@@ -26,6 +26,16 @@ void countMoving(
     const Features& current,
     std::vector<InlierRatio>& surfaces);
 
+/** The frame without the depth of planes that have moved: most points on them have disagreed with
+ * the camera's motion. What they hide and what they uncover says nothing of that.
+ * \param surfaces rememberedInliers(); none: as in the paper */
+[[nodiscard]] RgbdFrame withoutMoved(
+    const Features& current, const std::vector<InlierRatio>& surfaces);
+
+/** Samples of a reference that are not on a plane that has moved since. */
+[[nodiscard]] SurfaceSamples stillSamples(
+    const Association& association, const std::vector<InlierRatio>& surfaces);
+
 /** The frame without the depth of what surely moves (MovingRegions::areSure()): of moving regions,
  * and of planes that reach into them and that most of their points contradict. */
 [[nodiscard]] RgbdFrame stillPart(

@@ -81,7 +81,7 @@ RobustCost NormalEquations::robust(size_t i, double squaredNorm) const
 
 void NormalEquations::countInliers()
 {
-    surfaces_ = earlier_;
+    surfaces_.assign(earlier_.size(), {});
     for (size_t i = 0; i < pairs_.numPoints(); ++i)
     {
         if (const size_t surface = pairs_.surfaceOf(i); surface < surfaces_.size())
@@ -89,6 +89,10 @@ void NormalEquations::countInliers()
             surfaces_[surface].points += 1;
             surfaces_[surface].inliers += weight(i);
         }
+    }
+    for (size_t i = 0; i < surfaces_.size(); ++i)
+    {
+        surfaces_[i] = remembered(earlier_[i], surfaces_[i]);
     }
 }
 
@@ -123,7 +127,9 @@ void NormalEquations::add(FeatureSum& sum, size_t i) const
     sum.cost += g * cost;
     sum.weightedChi2 += w * squaredNorm;
     sum.dof += w * pairs_.dof(i);
-    sum.numInliers += w > kCountingWeight ? 1 : 0;
+    const bool counts = w > kCountingWeight;
+    sum.numInliers += counts ? 1 : 0;
+    sum.inlierWorth += counts ? ofSurface(i) : 0;
     if (w > 0)
     {
         const Matrix312d J = jacobian(i);

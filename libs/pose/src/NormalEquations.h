@@ -21,6 +21,7 @@ struct FeatureSum
     double cost{0};
     double weightedChi2{0}, dof{0};  //!< sums over the pairs, by weight
     int numInliers{0};
+    double inlierWorth{0};  //!< each inlier counted by ofSurface()
 };
 
 using Matrix312d = Eigen::Matrix<double, 3, 12>;
@@ -80,7 +81,7 @@ class NormalEquations
     /** How much it counts for its type and its surface: lambda. */
     [[nodiscard]] double gain(size_t i) const;
 
-    /** With the points of this frame. */
+    /** remembered() with the points of this frame. */
     [[nodiscard]] const std::vector<InlierRatio>& surfaces() const { return surfaces_; }
 
     /** Of the pairs: weight() times ofSurface(). */

@@ -219,6 +219,7 @@ PoseEstimate PoseSolver::solve(
     out.pointChi2PerDof = p.dof > 0 ? p.weightedChi2 / p.dof : 0;
     out.planeChi2PerDof = m.dof > 0 ? m.weightedChi2 / m.dof : 0;
     out.numPointInliers = p.numInliers;
+    out.pointInlierWorth = p.inlierWorth;
     out.squaredNorms = equations.squaredNorms();
     return out;
 }

@@ -50,6 +50,7 @@ struct PoseEstimate
     double pointChi2PerDof{0};  //!< mean squared Mahalanobis norm per dof of points, Tukey-weighted
     double planeChi2PerDof{0};  //!< likewise of planes, weighted by Student's t
     int numPointInliers{0};     //!< points with a Tukey weight above 1/2
+    double pointInlierWorth{0};  //!< the same, each counted by the weight of its surface
     int iterations{0};
     SquaredNorms squaredNorms;  //!< of the pairs' residuals at the motion
 };
