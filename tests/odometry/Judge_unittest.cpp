@@ -8,6 +8,13 @@ namespace pointplane
 {
 namespace
 {
+/** All on surfaces that have not moved. */
+void setInliers(Alignment& a, int number)
+{
+    a.estimate.numPointInliers = number;
+    a.estimate.pointInlierWorth = number;
+}
+
 /** A good one: 300 points in view, all of which agree with the motion, as do all surfaces. */
 Alignment makeAlignment(double sigmaOfPrediction)
 {
@@ -17,8 +24,7 @@ Alignment makeAlignment(double sigmaOfPrediction)
     out.estimate.infoPoints = 1e6 * Matrix6d::Identity();
     out.problem.points.resize(300);
     out.numSought = 300;
-    out.estimate.numPointInliers = 300;
-    out.estimate.pointInlierWorth = 300;
+    setInliers(out, 300);
     out.estimate.pointChi2PerDof = 1;
     out.agreement.agrees = 1000;
     return out;
@@ -48,7 +54,7 @@ TEST(Judge, surfacesAloneDoNotConvinceWhereThePredictionSaysNothing)
     for (const double sigma : {kCertain, kUncertain})
     {
         Alignment a = makeAlignment(sigma);
-        a.estimate.numPointInliers = 100;
+        setInliers(a, 100);
         Judge(OdometryParams{}).judge(a);
         EXPECT_EQ(Judge::isConvincing(a, kUsual), sigma == kCertain);
     }
@@ -59,7 +65,7 @@ TEST(Judge, fewPointsMayAgreeByChance)
     const auto mayBeChance = [](double sigma, int inliers, int sought)
     {
         Alignment a = makeAlignment(sigma);
-        a.estimate.numPointInliers = inliers;
+        setInliers(a, inliers);
         a.numSought = sought;
         Judge(OdometryParams{}).judge(a);
         return Judge::mayBeChance(a);
@@ -81,7 +87,7 @@ TEST(Judge, otherMotionsAreTriedWherePointsShouldAgree)
     Judge(OdometryParams{}).judge(a);
     EXPECT_TRUE(Judge::needsNoOther(a, kUsual));
     a.problem.planes.resize(7);
-    a.estimate.numPointInliers = 1;
+    setInliers(a, 1);
     EXPECT_TRUE(Judge::isConvincing(a, kUsual));
     EXPECT_FALSE(Judge::needsNoOther(a, kUsual));
     a.numSought = 1;
@@ -98,7 +104,7 @@ TEST(Judge, whereNoSurfaceIsSeenMostPointsHaveToAgree)
         Judge(OdometryParams{}).judge(a);
         EXPECT_TRUE(Judge::isConvincing(a, kUsual));
         EXPECT_FALSE(Judge::mayBeChance(a));
-        a.estimate.numPointInliers = 100;
+        setInliers(a, 100);
         EXPECT_FALSE(Judge::isConvincing(a, kUsual));
         EXPECT_TRUE(Judge::mayBeChance(a));
     }
@@ -126,7 +132,7 @@ TEST(Judge, planesAreDoubtedWherePointsShouldAgree)
         Alignment a = makeAlignment(sigma);
         a.problem.points.clear();
         a.problem.planes.resize(5);
-        a.estimate.numPointInliers = 0;
+        setInliers(a, 0);
         a.numSought = inView;
         a.agreement = {surfaces, 0, 1000 - surfaces};
         const Judge judge{OdometryParams{}};
@@ -167,7 +173,7 @@ TEST(Judge, planesThatAreElsewhereContradict)
         {
             Alignment a = makeAlignment(sigma);
             a.agreement = {600, 0, 400};
-            a.estimate.numPointInliers = 100;
+            setInliers(a, 100);
             a.estimate.planeChi2PerDof = rise;
             const Judge judge{OdometryParams{}};
             judge.judge(a);
@@ -244,7 +250,7 @@ TEST(Judge, moreSurfacesAndMorePointsAreBetter)
 {
     const Alignment good = makeAlignment(kCertain);
     Alignment fewer = good;
-    fewer.estimate.numPointInliers = 100;
+    setInliers(fewer, 100);
     EXPECT_TRUE(isBetter(good, fewer));
     Alignment less = good;
     less.agreement = {700, 100, 200};
@@ -259,9 +265,9 @@ TEST(Judge, aMotionThatLooksAwayFromMostPointsIsNotConfirmedByTheRest)
 {
     Alignment away = makeAlignment(kUncertain);
     away.numSought = 20;
-    away.estimate.numPointInliers = 15;
+    setInliers(away, 15);
     Alignment near = makeAlignment(kUncertain);
-    near.estimate.numPointInliers = 10;
+    setInliers(near, 10);
     EXPECT_TRUE(isBetter(away, near));
 
     Judge(OdometryParams{}).judge(away);
@@ -286,10 +292,10 @@ TEST(Judge, residualsOfNoPointsDoNotOutweighThoseOfABlurredFrame)
     Alignment blurred = makeAlignment(kCertain);
     blurred.estimate.pointChi2PerDof = 2.1 * kUsual.points;
     blurred.numSought = 200;
-    blurred.estimate.numPointInliers = 150;
+    setInliers(blurred, 150);
     Alignment planes = makeAlignment(kCertain);
     planes.estimate.pointChi2PerDof = 0;
-    planes.estimate.numPointInliers = 0;
+    setInliers(planes, 0);
     EXPECT_TRUE(isBetter(blurred, planes));
 }
 
@@ -299,7 +305,7 @@ TEST(Judge, residualsDoNotDecideBetweenTwoMotionsOfABlurredFrame)
     more.estimate.pointChi2PerDof = 21;
     Alignment fewer = makeAlignment(kCertain);
     fewer.estimate.pointChi2PerDof = 18;
-    fewer.estimate.numPointInliers = 200;
+    setInliers(fewer, 200);
     EXPECT_TRUE(isBetter(more, fewer));
 }
 

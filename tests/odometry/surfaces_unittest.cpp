@@ -201,7 +201,8 @@ TEST(Surfaces, newKeyFramesTakeNoPointsFromWhatMoves)
 }
 
 /** From 15 images a second, the motion followed a screen that begins to move: 144 mm over a second,
- * because what it had shown while it stood outweighed what it showed now. */
+ * because what it had shown while it stood outweighed what it showed now. It still does for two
+ * frames; the one that turns to the room knows that those before may be wrong. */
 TEST(Surfaces, whatHasStoodIsNotFollowedWhenItBeginsToMove)
 {
     SimulationParams params;
@@ -214,7 +215,15 @@ TEST(Surfaces, whatHasStoodIsNotFollowedWhenItBeginsToMove)
     double worst = 0;
     for (int i = 0; i < 60; ++i)
     {
-        T_world_cam.push_back(odometry.process(half.frame(i)).pose.mean);
+        const OdometryResult result = odometry.process(half.frame(i));
+        T_world_cam.push_back(result.pose.mean);
+        if (i > 0)
+        {
+            const Eigen::Isometry3d step =
+                half.trueMotion(i - 1, i).inverse() * result.increment.mean;
+            const double most = 5 * result.diagnostics.maxSigmaTranslation;
+            EXPECT_LT(step.translation().norm(), std::max(0.01, most)) << "frame " << i;
+        }
         if (i >= 15)
         {
             const auto before = static_cast<size_t>(i - 15);
