@@ -104,7 +104,7 @@ TEST(Mask, leavesOutTheRobot)
     Odometry without{params};
     const double unmasked = errorOf(without);
     std::cout << 1e3 * masked << " mm, without the mask " << 1e3 * unmasked << " mm\n";
-    EXPECT_LT(masked, 0.005);
+    EXPECT_LT(masked, 0.001);
     EXPECT_GT(unmasked, 2 * masked);
 }
 

@@ -351,12 +351,14 @@ void Aligner::verify(const Scene& scene, Alignment& alignment)
             alignment.numSought +=
                 numInView(reference, still.camera, T_cur_world * reference.T_world_cam);
         }
-        if (scene.current.hasDepth && alignment.agreement.seen() < Judge::kEnoughSurfaces)
+        const auto samples = stillSamples(association, surfaces);
+        if (samples && scene.current.hasDepth &&
+            alignment.agreement.seen() < Judge::kEnoughSurfaces)
         {
             const DepthMotion depth =
                 depthMotion(scene.track, reference, still, motion, scene.errors.camera());
-            alignment.agreement += scene.frontEnd.compare(
-                stillSamples(association, surfaces), still, depth.T_cur_ref, depth.slack_m);
+            alignment.agreement +=
+                scene.frontEnd.compare(*samples, still, depth.T_cur_ref, depth.slack_m);
         }
     }
     for (const Association& association : alignment.associations)

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <functional>
 #include <future>
-#include <limits>
 
 #include "Judge.h"
 #include "Stopwatch.h"
 #include "frame_checks.h"
+#include "no_reading.h"
 #include "surface_comparison.h"
 
 namespace pointplane
@@ -63,8 +63,7 @@ Features FrontEnd::extract(const RgbdFrame& frame, FrameDiagnostics& diagnostics
     out.depthIsNoise = isNoise(frame.depth, depthNoise_.noise());
     if (out.depthIsNoise)
     {
-        out.frame.depth = cv::Mat(
-            frame.depth.size(), frame.depth.type(), std::numeric_limits<float>::quiet_NaN());
+        out.frame.depth = cv::Mat(frame.depth.size(), frame.depth.type(), kNoReading);
     }
     leaveOutAttached(out.frame, diagnostics);
     out.hasDepth = hasDepth(out.frame);
@@ -125,7 +124,7 @@ void FrontEnd::leaveOutAttached(RgbdFrame& frame, FrameDiagnostics& diagnostics)
     if (diagnostics.attachedShare > 0)
     {
         frame.depth = frame.depth.clone();
-        frame.depth.setTo(std::numeric_limits<float>::quiet_NaN(), attached_.mask());
+        frame.depth.setTo(kNoReading, attached_.mask());
     }
 }
 
@@ -144,7 +143,7 @@ RgbdFrame FrontEnd::withoutMarks(const RgbdFrame& frame) const
     if (!marks_.mask().empty())
     {
         out.depth = frame.depth.clone();
-        out.depth.setTo(std::numeric_limits<float>::quiet_NaN(), marks_.mask());
+        out.depth.setTo(kNoReading, marks_.mask());
     }
     return out;
 }

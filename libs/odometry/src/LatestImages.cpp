@@ -5,17 +5,15 @@
 
 #include <cstddef>
 #include <cstring>
-#include <limits>
 #include <utility>
 
 #include "frame_checks.h"
+#include "no_reading.h"
 
 namespace pointplane
 {
 namespace
 {
-constexpr float kNoReading = std::numeric_limits<float>::quiet_NaN();
-
 /** Of images with noise, the first row differs. */
 bool isSame(const cv::Mat& a, const cv::Mat& b)
 {

@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "surfaces.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <set>
+
+#include "no_reading.h"
 
 namespace pointplane
 {
 namespace
 {
-constexpr float kNoReading = std::numeric_limits<float>::quiet_NaN();
-
 /** Whether most points on a surface disagree with the camera's motion. */
-bool hasMoved(const InlierRatio& surface) { return surface.value() < 0.5; }
+bool hasMoved(const InlierRatio& surface) { return surface.value() < kCountingWeight; }
 
 /** Planes of a reference that those of the frame that have moved are matched with. */
 std::set<int> movedOf(const Association& association, const std::vector<InlierRatio>& surfaces)
@@ -104,7 +102,7 @@ RgbdFrame withoutMoved(const Features& current, const std::vector<InlierRatio>& 
     return out;
 }
 
-SurfaceSamples stillSamples(
+std::shared_ptr<const SurfaceSamples> stillSamples(
     const Association& association, const std::vector<InlierRatio>& surfaces)
 {
     const Reference& reference = *association.reference;
@@ -112,20 +110,23 @@ SurfaceSamples stillSamples(
     {
         return {};
     }
-    SurfaceSamples out = reference.images->surface;
+    const SurfaceSamples& all = reference.images->surface;
     const std::set<int> moved = movedOf(association, surfaces);
+    if (moved.empty())
+    {
+        return {reference.images, &all};  // not copied
+    }
     const PinholeCamera& camera = reference.images->frame.camera;
-    const auto isOnMoved = [&](const Eigen::Vector3f& point)
+    auto out = std::make_shared<SurfaceSamples>();
+    for (const Eigen::Vector3f& point : all.points_cam)
     {
         const Eigen::Vector3d p = point.cast<double>();
         const Eigen::Vector2d pixel(
             camera.fx * p.x() / p.z() + camera.cx, camera.fy * p.y() / p.z() + camera.cy);
-        return moved.count(planeAt(pixel, reference.planes)) > 0;
-    };
-    if (!moved.empty())
-    {
-        auto& points = out.points_cam;
-        points.erase(std::remove_if(points.begin(), points.end(), isOnMoved), points.end());
+        if (moved.count(planeAt(pixel, reference.planes)) == 0)
+        {
+            out->points_cam.push_back(point);
+        }
     }
     return out;
 }

@@ -4,6 +4,7 @@
 #include <pointplane/odometry/MovingRegions.h>
 #include <pointplane/pose/InlierRatio.h>
 
+#include <memory>
 #include <vector>
 
 #include "Features.h"
@@ -32,8 +33,8 @@ void countMoving(
 [[nodiscard]] RgbdFrame withoutMoved(
     const Features& current, const std::vector<InlierRatio>& surfaces);
 
-/** Samples of a reference that are not on a plane that has moved since. */
-[[nodiscard]] SurfaceSamples stillSamples(
+/** Samples of a reference that are not on a plane that has moved since; none if it kept none. */
+[[nodiscard]] std::shared_ptr<const SurfaceSamples> stillSamples(
     const Association& association, const std::vector<InlierRatio>& surfaces);
 
 /** The frame without the depth of what surely moves (MovingRegions::areSure()): of moving regions,
